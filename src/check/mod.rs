@@ -1,0 +1,1 @@
+//! Findings against limits, as data.

@@ -1,0 +1,1 @@
+//! The command line: arguments, calls, exit codes; one verb, one file.

@@ -1,0 +1,14 @@
+//! Planes, frames, exact-sign predicates, plane fits and flat polygons; knows no mesh.
+
+mod fit;
+mod frame;
+mod plane;
+pub mod polygon;
+pub mod predicate;
+mod rounding;
+
+pub use fit::fit_plane;
+pub use frame::Frame;
+pub use plane::Plane;
+pub use predicate::Side;
+pub use rounding::RoundingBound;

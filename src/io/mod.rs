@@ -1,0 +1,1 @@
+//! Files in and out, one direction of one format per file.

@@ -1,0 +1,2 @@
+//! The kerfold command.
+fn main() {}

@@ -1,0 +1,79 @@
+//! How large things are: faces, surfaces, volumes, models.
+
+use glam::DVec3;
+
+use crate::geom::Plane;
+use crate::mesh::{FaceId, Mesh};
+
+/// The area of a face by its Newell vector; for a face that is not planar, of its projection along the Newell normal.
+pub fn face_area(mesh: &Mesh, f: FaceId) -> f64 {
+    area_vector(&mesh.face_positions(f)).length()
+}
+
+/// The centroid of a face's area; the mean of the corners when it has no area.
+pub fn face_centroid(mesh: &Mesh, f: FaceId) -> DVec3 {
+    let corners = mesh.face_positions(f);
+    let Some(plane) = Plane::newell(&corners) else {
+        return corners.iter().sum::<DVec3>() / corners.len() as f64;
+    };
+    let frame = crate::geom::Frame::on_plane(&plane);
+    let flat: Vec<_> = corners.iter().map(|&p| frame.flatten(p)).collect();
+    frame.lift(crate::geom::polygon::centroid(&flat))
+}
+
+/// The largest distance between two corners of a face.
+pub fn face_diameter(mesh: &Mesh, f: FaceId) -> f64 {
+    let corners = mesh.face_positions(f);
+    let pairs = corners.iter().enumerate().flat_map(|(i, &a)| corners[..i].iter().map(move |&b| a.distance_squared(b)));
+    pairs.fold(0.0, f64::max).sqrt()
+}
+
+/// The area of all faces, holes not counted.
+pub fn surface_area(mesh: &Mesh) -> f64 {
+    mesh.faces().map(|f| face_area(mesh, f)).sum()
+}
+
+/// The signed volume enclosed by the faces; holes are closed as if by a fan. Positive when the faces look outwards.
+pub fn volume(mesh: &Mesh) -> f64 {
+    let Some((low, high)) = mesh.bounds() else { return 0.0 };
+    // Measured from the middle of the model, so that far from the origin no digits are lost.
+    let centre = low.midpoint(high);
+    mesh.faces_and_holes()
+        .map(|f| {
+            let corners: Vec<DVec3> = mesh.face_vertices(f).map(|v| mesh.position(v) - centre).collect();
+            let fan = corners.windows(2).skip(1).map(|w| corners[0].dot(w[0].cross(w[1])));
+            fan.sum::<f64>()
+        })
+        .sum::<f64>()
+        / 6.0
+}
+
+/// The model's extent along the three axes; zero without vertices.
+pub fn size(mesh: &Mesh) -> DVec3 {
+    mesh.bounds().map_or(DVec3::ZERO, |(low, high)| high - low)
+}
+
+fn area_vector(corners: &[DVec3]) -> DVec3 {
+    let Some(&first) = corners.first() else { return DVec3::ZERO };
+    corners.windows(2).map(|w| (w[0] - first).cross(w[1] - first)).sum::<DVec3>() / 2.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_box_far_away_keeps_its_volume() {
+        let far = DVec3::new(1e6, -2e6, 3e6);
+        let corner =
+            |i: usize| far + DVec3::new((i & 1) as f64 * 2.0, (i >> 1 & 1) as f64 * 3.0, (i >> 2) as f64 * 5.0);
+        let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let mesh = Mesh::from_faces((0..8).map(corner), faces).expect("a box");
+        assert!((volume(&mesh) - 30.0).abs() < 1e-8);
+        assert!((surface_area(&mesh) - 62.0).abs() < 1e-8);
+        assert_eq!(size(&mesh), DVec3::new(2.0, 3.0, 5.0));
+        let bottom = FaceId::new(0);
+        assert!((face_diameter(&mesh, bottom) - 13f64.sqrt()).abs() < 1e-12);
+        assert!((face_centroid(&mesh, bottom) - far - DVec3::new(1.0, 1.5, 0.0)).length() < 1e-9);
+    }
+}

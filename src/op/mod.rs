@@ -1,0 +1,1 @@
+//! Modelling operators, mesh in, mesh out; one operator, one file.

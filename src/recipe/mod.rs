@@ -1,0 +1,1 @@
+//! A chain of steps read from TOML, run in order.

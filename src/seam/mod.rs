@@ -1,0 +1,1 @@
+//! Seam sets of a mesh as graphs: matchings, 2-factors, Hamiltonian cycles.

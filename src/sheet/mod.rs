@@ -1,0 +1,1 @@
+//! Pieces to sheets: kerf, joints, labels, placing, cutting order; knows pieces, never meshes.

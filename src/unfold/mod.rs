@@ -1,0 +1,1 @@
+//! Mesh to pieces: seams, flattening, overlap, proof by refolding.

@@ -47,12 +47,17 @@ pub fn orient3d(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> f64 {
 ///
 /// All nine numbers are taken as given; the sign of normal · (x − point) is exact barring overflow and underflow.
 pub fn side_of_plane(normal: DVec3, point: DVec3, x: DVec3) -> Side {
-    let difference = x - point;
-    let products = normal * difference;
+    rounded_side(normal, point, x).unwrap_or_else(|| exact_side(normal, point, x))
+}
+
+/// The side as far as rounded arithmetic can tell it; `None` when `x` is so near to the plane that only exact arithmetic
+/// could. No rounded construction, such as the point where an edge crosses the plane, can be told from such an `x`.
+pub fn rounded_side(normal: DVec3, point: DVec3, x: DVec3) -> Option<Side> {
+    let products = normal * (x - point);
     let sum = products.x + products.y + products.z;
-    // Each of the three products carries three roundings at most, the sum two more.
+    // Each of the three products carries two roundings, the sum two more.
     let bound = 4.0 * f64::EPSILON * (products.x.abs() + products.y.abs() + products.z.abs());
-    if sum.abs() > bound { Side::of(sum) } else { exact_side(normal, point, x) }
+    (sum.abs() > bound).then(|| Side::of(sum))
 }
 
 #[cold]

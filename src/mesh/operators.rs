@@ -274,16 +274,16 @@ mod tests {
     #[test]
     fn a_region_is_replaced_by_one_cap_for_each_boundary_walk() {
         let mut mesh = cube();
-        let caps = mesh.replace_region(&[FaceId::new(0), FaceId::new(2)]);
+        let caps = mesh.replace_region(&[FaceId::new(0), FaceId::new(2)], |_, _| ());
         assert_sound(&mesh);
         assert_eq!((caps.len(), counts(&mesh)), (1, (8, 11, 5, 0)));
         assert_eq!(mesh.sides(mesh.face(caps[0])), 6);
         let mut mesh = cube();
-        let caps = mesh.replace_region(&[FaceId::new(2), FaceId::new(3), FaceId::new(4), FaceId::new(5)]);
+        let caps = mesh.replace_region(&[FaceId::new(2), FaceId::new(3), FaceId::new(4), FaceId::new(5)], |_, _| ());
         assert_sound(&mesh);
         assert_eq!((caps.len(), mesh.components().len(), counts(&mesh)), (2, 2, (8, 8, 4, 0)));
         let everything: Vec<FaceId> = mesh.faces().collect();
-        assert!(mesh.replace_region(&everything).is_empty());
+        assert!(mesh.replace_region(&everything, |_, _| ()).is_empty());
         assert_eq!((mesh.vertex_count(), mesh.edge_count(), mesh.face_count()), (0, 0, 0));
         mesh.compact();
         assert_eq!(mesh.vertex_slots(), 0);
@@ -348,7 +348,7 @@ mod tests {
                 let mut mesh = cube();
                 for i in 0..8 { mesh.connect_edges(corner_of(&mesh, i % 6), mesh.next(mesh.next(corner_of(&mesh, (i * usize::from(seed)) % 6)))); }
                 let region: Vec<FaceId> = mesh.faces().zip(&chosen).filter(|(_, c)| **c).map(|(f, _)| f).collect();
-                mesh.replace_region(&region);
+                mesh.replace_region(&region, |_, _| ());
                 assert_sound(&mesh);
             }
         }

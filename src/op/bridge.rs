@@ -1,0 +1,248 @@
+//! Divides a cap with holes into faces without holes by the fewest bridges.
+//!
+//! A face that visits no vertex twice needs at least two ways at every hole, so h holes need at least h + 1 bridges: one
+//! closed chain from the outer walk through all holes and back. Where walks touch at a vertex, the touch is a way that costs
+//! no bridge. Candidates are the edges of the constrained Delaunay triangulation of the walks that join different walks;
+//! they never cross. Chains ("ears") are searched depth first, the longest wins, until every hole is joined; each ear after
+//! the first costs one bridge more.
+
+use glam::DVec2;
+use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
+
+use super::OpError;
+use super::cutter::Cutter;
+use super::section::SectionWalk;
+use crate::geom::Frame;
+use crate::geom::predicate::orient2d;
+use crate::mesh::{Corner, FaceId, HalfEdgeId};
+
+/// How many steps the search for the longest ear may take before the best one found is used.
+const SEARCH_STEPS: usize = 20_000;
+
+/// A corner of the section: which walk, and which corner of it.
+type Site = (usize, usize);
+
+/// Two corners of different walks that see each other, or that are one vertex.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Bridge {
+    /// A touch needs no edge. Sorts first.
+    needs_edge: bool,
+    from: Site,
+    to: Site,
+}
+
+/// The walks of one cap, the outer one first, with the corners of the mesh that belong to each site by now.
+struct CapWalks {
+    walks: Vec<SectionWalk>,
+    corners: Vec<Vec<Vec<HalfEdgeId>>>,
+}
+
+impl Cutter {
+    /// Joins the holes to the outer walk and each other. Returns the faces of the divided cap, ascending.
+    pub(super) fn bridge(
+        &mut self,
+        frame: &Frame,
+        outer: SectionWalk,
+        holes: Vec<SectionWalk>,
+    ) -> Result<Vec<FaceId>, OpError> {
+        let mut faces = vec![outer.face];
+        let mut cap = CapWalks::new(std::iter::once(outer).chain(holes).collect());
+        let candidates = cap.candidates()?;
+        let mut is_joined = vec![false; cap.walks.len()];
+        is_joined[0] = true;
+        while is_joined.contains(&false) {
+            let holes = is_joined.iter().filter(|joined| !**joined).count();
+            let ear = longest_ear(&cap, &candidates, &is_joined).ok_or(OpError::HolesNotJoined { holes })?;
+            for bridge in ear {
+                if bridge.needs_edge {
+                    self.lay_bridge(frame, &mut cap, &mut faces, bridge);
+                }
+                (is_joined[bridge.from.0], is_joined[bridge.to.0]) = (true, true);
+            }
+        }
+        faces.retain(|&f| self.mesh.has_face(f));
+        faces.sort_unstable();
+        Ok(faces)
+    }
+
+    fn lay_bridge(&mut self, frame: &Frame, cap: &mut CapWalks, faces: &mut Vec<FaceId>, bridge: Bridge) {
+        let (p, q) = (cap.point(bridge.from), cap.point(bridge.to));
+        let from = self.corner_towards(frame, cap.corners_at(bridge.from), p, q);
+        let to = self.corner_towards(frame, cap.corners_at(bridge.to), q, p);
+        let lineage = self.lineage_of(self.mesh.face(from));
+        let is_one_face = self.mesh.face(from) == self.mesh.face(to);
+        let e = self.mesh.insert_edge(Corner::At(from), Corner::At(to)).expect("half-edges are corners");
+        let h = e.half_edge();
+        if is_one_face {
+            let f = self.mesh.face(h);
+            self.register_face(f, lineage);
+            faces.push(f);
+        }
+        cap.add_corner(bridge.from, h);
+        cap.add_corner(bridge.to, h.twin());
+    }
+
+    /// Of the corners at a site the one whose angle holds the direction to the other site.
+    fn corner_towards(&self, frame: &Frame, corners: &[HalfEdgeId], here: DVec2, there: DVec2) -> HalfEdgeId {
+        let flat = |v| frame.flatten(self.mesh.position(v));
+        let holds = |h: HalfEdgeId| {
+            let (next, before) = (flat(self.mesh.target(h)), flat(self.mesh.origin(self.mesh.prev(h))));
+            is_in_angle(here, next, before, there)
+        };
+        corners.iter().copied().find(|&h| holds(h)).unwrap_or(corners[0])
+    }
+}
+
+impl CapWalks {
+    fn new(walks: Vec<SectionWalk>) -> Self {
+        let half_edges_at = |v| {
+            let of_walk =
+                |w: &SectionWalk| w.vertices.iter().zip(&w.half_edges).find(|(u, _)| **u == v).map(|(_, &h)| h);
+            walks.iter().filter_map(of_walk).collect::<Vec<_>>()
+        };
+        let corners = walks.iter().map(|w| w.vertices.iter().map(|&v| half_edges_at(v)).collect()).collect();
+        Self { walks, corners }
+    }
+
+    fn point(&self, site: Site) -> DVec2 {
+        self.walks[site.0].corners[site.1]
+    }
+
+    fn is_one_vertex(&self, a: Site, b: Site) -> bool {
+        self.walks[a.0].vertices[a.1] == self.walks[b.0].vertices[b.1]
+    }
+
+    fn corners_at(&self, site: Site) -> &[HalfEdgeId] {
+        &self.corners[site.0][site.1]
+    }
+
+    /// A new corner at a site, and at every other site that is the same vertex.
+    fn add_corner(&mut self, site: Site, h: HalfEdgeId) {
+        let v = self.walks[site.0].vertices[site.1];
+        for (walk, corners) in self.walks.iter().zip(&mut self.corners) {
+            for (_, at) in walk.vertices.iter().zip(corners).filter(|(u, _)| **u == v) {
+                at.push(h);
+            }
+        }
+    }
+
+    /// All touches, and all pairs of corners of different walks that a constrained Delaunay triangulation joins, in a
+    /// stable order.
+    fn candidates(&self) -> Result<Vec<Bridge>, OpError> {
+        let mut cdt = ConstrainedDelaunayTriangulation::<Point2<f64>>::new();
+        let mut sites_of: Vec<Vec<Site>> = Vec::new();
+        for (w, walk) in self.walks.iter().enumerate() {
+            let mut of_walk = Vec::with_capacity(walk.corners.len());
+            for (i, p) in walk.corners.iter().enumerate() {
+                let handle = cdt.insert(Point2::new(p.x, p.y)).map_err(|_| OpError::TangledSection)?;
+                if handle.index() == sites_of.len() {
+                    sites_of.push(Vec::new());
+                }
+                sites_of[handle.index()].push((w, i));
+                of_walk.push(handle);
+            }
+            for (i, &a) in of_walk.iter().enumerate() {
+                let b = of_walk[(i + 1) % of_walk.len()];
+                if a != b && !cdt.can_add_constraint(a, b) {
+                    return Err(OpError::TangledSection);
+                }
+                if a != b {
+                    cdt.add_constraint(a, b);
+                }
+            }
+        }
+        let seen = cdt
+            .undirected_edges()
+            .filter(|e| !e.is_constraint_edge())
+            .map(|e| e.vertices().map(|v| &sites_of[v.index()]));
+        let mut bridges: Vec<Bridge> =
+            seen.filter(|[a, b]| share_no_walk(a, b)).flat_map(|[a, b]| pairs(a, b, true)).collect();
+        for sites in &sites_of {
+            let touches = pairs(sites, sites, false)
+                .into_iter()
+                .filter(|t| t.from.0 < t.to.0 && self.is_one_vertex(t.from, t.to));
+            bridges.extend(touches);
+        }
+        bridges.sort_unstable();
+        Ok(bridges)
+    }
+}
+
+fn share_no_walk(a: &[Site], b: &[Site]) -> bool {
+    a.iter().all(|s| b.iter().all(|t| s.0 != t.0))
+}
+
+fn pairs(a: &[Site], b: &[Site], needs_edge: bool) -> Vec<Bridge> {
+    a.iter().flat_map(|&from| b.iter().map(move |&to| Bridge { needs_edge, from, to })).collect()
+}
+
+/// Whether `w` lies inside the angle at `v` from `next` counter-clockwise to `before`.
+fn is_in_angle(v: DVec2, next: DVec2, before: DVec2, w: DVec2) -> bool {
+    let (after_next, before_before) = (orient2d(v, next, w) > 0.0, orient2d(v, before, w) < 0.0);
+    if orient2d(v, next, before) > 0.0 { after_next && before_before } else { after_next || before_before }
+}
+
+/// The longest chain found from a joined walk through walks that are not joined yet and back to a joined one, entering and
+/// leaving every walk at different corners, its two ends at different corners, too.
+fn longest_ear(cap: &CapWalks, candidates: &[Bridge], is_joined: &[bool]) -> Option<Vec<Bridge>> {
+    let mut by_walk = vec![Vec::new(); cap.walks.len()];
+    for &bridge in candidates {
+        by_walk[bridge.from.0].push(bridge);
+        by_walk[bridge.to.0].push(Bridge { from: bridge.to, to: bridge.from, ..bridge });
+    }
+    let wanted = is_joined.iter().filter(|joined| !**joined).count();
+    let mut search =
+        EarSearch { cap, by_walk, is_joined, is_used: is_joined.to_vec(), best: None, steps: SEARCH_STEPS, wanted };
+    for w in (0..cap.walks.len()).filter(|&w| is_joined[w]) {
+        for i in 0..search.by_walk[w].len() {
+            let first = search.by_walk[w][i];
+            if !is_joined[first.to.0] {
+                search.extend(&mut vec![first]);
+            }
+        }
+    }
+    search.best
+}
+
+struct EarSearch<'a> {
+    cap: &'a CapWalks,
+    by_walk: Vec<Vec<Bridge>>,
+    is_joined: &'a [bool],
+    is_used: Vec<bool>,
+    best: Option<Vec<Bridge>>,
+    steps: usize,
+    wanted: usize,
+}
+
+impl EarSearch<'_> {
+    fn is_done(&self) -> bool {
+        self.best.as_ref().is_some_and(|best| best.len() == self.wanted + 1 || self.steps == 0)
+    }
+
+    fn extend(&mut self, ear: &mut Vec<Bridge>) {
+        if self.is_done() {
+            return;
+        }
+        self.steps = self.steps.saturating_sub(1);
+        let (start, at) = (ear[0].from, ear[ear.len() - 1].to);
+        self.is_used[at.0] = true;
+        for i in 0..self.by_walk[at.0].len() {
+            let bridge = self.by_walk[at.0][i];
+            if bridge.from == at {
+                continue;
+            }
+            if self.is_joined[bridge.to.0] {
+                if !self.cap.is_one_vertex(bridge.to, start)
+                    && self.best.as_ref().is_none_or(|best| best.len() <= ear.len())
+                {
+                    self.best = Some(ear.iter().copied().chain([bridge]).collect());
+                }
+            } else if !self.is_used[bridge.to.0] {
+                ear.push(bridge);
+                self.extend(ear);
+                ear.pop();
+            }
+        }
+        self.is_used[at.0] = false;
+    }
+}

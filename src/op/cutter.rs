@@ -1,0 +1,450 @@
+//! The one cutting operator: takes off what lies on the normal side of a plane and closes the wound.
+//!
+//! Source: Gonen 2007, III.A, made exact and general as `docs/operators.md` says. Three steps for each plane:
+//! *reach* (which vertices lie on the normal side and hang together with the chosen element), *divide* (faces that lie on
+//! both sides are divided along the plane, `divide.rs`), *close* (the region in front is replaced by caps, `section.rs`).
+//!
+//! The workspace lives through a whole chain of cuts: its tables are stamped with the number of the cut instead of being
+//! cleared, so that a local cut costs time in proportion to what it removes.
+
+use glam::DVec3;
+
+use super::OpError;
+use crate::geom::predicate::{rounded_side, side_of_plane};
+use crate::geom::{Plane, RoundingBound, Side, meet_three};
+use crate::mesh::{EdgeId, FaceId, FaceKind, HalfEdgeId, Mesh, VertexId};
+
+/// A slicing plane with what is known about its numbers.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SlicingPlane {
+    /// The plane; its normal side is removed.
+    pub plane: Plane,
+    /// Normal and point as the user gave them, when they were given and not constructed: then signs are exact.
+    pub given: Option<(DVec3, DVec3)>,
+}
+
+/// How far a cut reaches.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Reach<'a> {
+    /// The whole mesh.
+    Global,
+    /// Only the part of the normal side that hangs together with these vertices.
+    Local(&'a [VertexId]),
+}
+
+/// What one cut did.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Cut {
+    /// The faces that close the wound; holes of open parts are not among them.
+    pub caps: Vec<FaceId>,
+    /// The vertices of the mesh before this command that were removed, ascending.
+    pub removed: Vec<VertexId>,
+    /// Whether the plane missed, or the element was gone: nothing changed.
+    pub is_miss: bool,
+    /// The earlier cuts of the round, by number, of which this one removed something that they had made.
+    pub met: Vec<usize>,
+}
+
+/// Where a face comes from: a face of the mesh before the command, or the cap of the n-th cut.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(super) struct Lineage(u32);
+
+/// The workspace of a chain of cuts.
+pub(super) struct Cutter {
+    pub(super) mesh: Mesh,
+    pub(super) bound: f64,
+    cut: u32,
+    faces_before: u32,
+    sides: Vec<(u32, Side)>,
+    born: Vec<u32>,
+    lineage: Vec<Lineage>,
+    doomed: Vec<u32>,
+    is_open: Option<Vec<bool>>,
+    region: Vec<FaceId>,
+    reached: Vec<VertexId>,
+    pub(super) chords: Vec<EdgeId>,
+    splits: Vec<VertexId>,
+}
+
+impl Cutter {
+    pub(super) fn new(mesh: Mesh) -> Self {
+        let (low, high) = mesh.bounds().unwrap_or_default();
+        let faces = mesh.face_slots();
+        let is_open = (!mesh.is_closed()).then(|| open_vertices(&mesh));
+        Self {
+            bound: RoundingBound::of_box(low, high).length(),
+            cut: 0,
+            faces_before: faces as u32,
+            sides: vec![(0, Side::On); mesh.vertex_slots()],
+            born: vec![0; mesh.vertex_slots()],
+            lineage: (0..faces as u32).map(Lineage).collect(),
+            doomed: vec![0; faces],
+            is_open,
+            region: Vec::new(),
+            reached: Vec::new(),
+            chords: Vec::new(),
+            splits: Vec::new(),
+            mesh,
+        }
+    }
+
+    /// Forgets what was made so far: the mesh as it is now becomes "the mesh before the command".
+    pub(super) fn start_round(&mut self) {
+        self.cut = 0;
+        self.faces_before = self.mesh.face_slots() as u32;
+        self.lineage = (0..self.faces_before).map(Lineage).collect();
+        self.born.fill(0);
+        self.sides.fill((0, Side::On));
+        self.doomed.fill(0);
+    }
+
+    /// The lineage of a face of the mesh before the round.
+    pub(super) fn lineage_of(&self, f: FaceId) -> Lineage {
+        self.lineage[f.index()]
+    }
+
+    /// The lineage of the cap of the n-th cut of the round, counted from 0.
+    pub(super) fn cap_lineage(&self, cut: usize) -> Lineage {
+        Lineage(self.faces_before + cut as u32)
+    }
+
+    /// Whether the vertex was there before the round, and still is.
+    pub(super) fn is_original(&self, v: VertexId) -> bool {
+        self.mesh.has_vertex(v) && self.born[v.index()] == 0
+    }
+
+    /// Cuts with one plane.
+    pub(super) fn cut(&mut self, plane: &SlicingPlane, reach: Reach<'_>) -> Result<Cut, OpError> {
+        self.cut += 1;
+        self.region.clear();
+        self.reached.clear();
+        self.chords.clear();
+        self.splits.clear();
+        self.reach(plane, reach);
+        if self.region.is_empty() {
+            return Ok(Cut { is_miss: true, ..Cut::default() });
+        }
+        self.decide_flat_faces(plane);
+        let mut cut = self.describe_removed();
+        cut.caps = self.close(plane)?;
+        self.undo_needless_divisions();
+        Ok(cut)
+    }
+
+    // ---- reach -----------------------------------------------------------------------------------------------------
+
+    /// On which side of the plane a vertex lies. Exact for given numbers; constructed ones within the bound are on it.
+    pub(super) fn side(&mut self, plane: &SlicingPlane, v: VertexId) -> Side {
+        let (stamp, side) = self.sides[v.index()];
+        if stamp == self.cut {
+            return side;
+        }
+        let side = self.classify(plane, v);
+        self.sides[v.index()] = (self.cut, side);
+        side
+    }
+
+    fn classify(&self, plane: &SlicingPlane, v: VertexId) -> Side {
+        let x = self.mesh.position(v);
+        match plane.given {
+            Some((normal, point)) if self.mesh.is_given(v) => match side_of_plane(normal, point, x) {
+                Side::On => Side::On,
+                _ if self.is_indistinct(plane, v, rounded_side(normal, point, x)) => Side::On,
+                side => side,
+            },
+            _ => {
+                let distance = plane.plane.signed_distance(x);
+                if distance.abs() <= self.bound { Side::On } else { Side::of(distance) }
+            }
+        }
+    }
+
+    /// Whether a vertex, though not on the plane, is so near to it that the points where its edges cross the plane cannot be
+    /// told from it: cutting there would make edges of length zero, or swap points that lie an ulp apart.
+    fn is_indistinct(&self, plane: &SlicingPlane, v: VertexId, rounded: Option<Side>) -> bool {
+        let Some(side) = rounded else { return true };
+        let x = self.mesh.position(v);
+        let is_far = plane.plane.signed_distance(x).abs() > self.bound;
+        let crosses = |h: HalfEdgeId| {
+            let there = plane.plane.signed_distance(self.mesh.position(self.mesh.target(h)));
+            Side::of(there) != side && self.point_on_edge(plane, h) == x
+        };
+        !is_far && self.mesh.outgoing(v).any(crosses)
+    }
+
+    /// The side found for `v` in this cut; only for vertices that were asked before.
+    pub(super) fn known_side(&self, v: VertexId) -> Side {
+        let (stamp, side) = self.sides[v.index()];
+        debug_assert_eq!(stamp, self.cut, "the side of {v:?} was not asked in this cut");
+        side
+    }
+
+    /// Whether the tables of this cut know the vertex.
+    pub(super) fn is_known(&self, v: VertexId) -> bool {
+        self.sides.get(v.index()).is_some_and(|&(stamp, _)| stamp == self.cut)
+    }
+
+    fn reach(&mut self, plane: &SlicingPlane, reach: Reach<'_>) {
+        let mut queue: Vec<VertexId> = match reach {
+            Reach::Global => {
+                let all: Vec<VertexId> = self.mesh.vertices().collect();
+                all.into_iter().filter(|&v| self.side(plane, v) == Side::Normal).collect()
+            }
+            Reach::Local(seeds) => seeds.iter().copied().filter(|&v| self.side(plane, v) == Side::Normal).collect(),
+        };
+        let mut faces = Vec::new();
+        while let Some(v) = queue.pop() {
+            faces.clear();
+            faces.extend(self.mesh.outgoing(v).map(|h| self.mesh.face(h)));
+            let is_untouched = |c: &Self, f: FaceId| c.doomed[f.index()] != c.cut;
+            for &f in &faces {
+                if is_untouched(self, f) && !self.mesh.is_hole(f) {
+                    self.divide_face(plane, f);
+                }
+            }
+            // Dividing may have given the sectors around v new faces; they all lie in front of the plane now.
+            faces.clear();
+            faces.extend(self.mesh.outgoing(v).map(|h| self.mesh.face(h)));
+            for &f in &faces {
+                if is_untouched(self, f) {
+                    self.doom(f);
+                    self.reach_corners(plane, f, &mut queue);
+                }
+            }
+            if faces.is_empty() {
+                self.doom_lone(v);
+            }
+        }
+    }
+
+    fn doom(&mut self, f: FaceId) {
+        self.doomed[f.index()] = self.cut;
+        self.region.push(f);
+    }
+
+    fn doom_lone(&mut self, v: VertexId) {
+        if let Some(f) = self.mesh.lone_face(v).filter(|f| self.doomed[f.index()] != self.cut) {
+            self.reached.push(v);
+            self.doom(f);
+        }
+    }
+
+    /// Passes the walk on to the corners of a face in front. A rim is left where it leaves the front: what hangs together
+    /// only by a rim does not hang together.
+    fn reach_corners(&mut self, plane: &SlicingPlane, f: FaceId, queue: &mut Vec<VertexId>) {
+        if self.mesh.is_hole(f) {
+            return;
+        }
+        let corners: Vec<VertexId> = self.mesh.face_vertices(f).collect();
+        for v in corners {
+            if self.side(plane, v) == Side::Normal {
+                // Asked again through every face; the stamp on the side keeps one visit each.
+                self.visit(v, queue);
+            }
+        }
+    }
+
+    fn visit(&mut self, v: VertexId, queue: &mut Vec<VertexId>) {
+        let has_unvisited_face = self.mesh.outgoing(v).any(|h| self.doomed[self.mesh.face(h).index()] != self.cut);
+        if has_unvisited_face {
+            queue.push(v);
+        }
+    }
+
+    // ---- faces that lie in the plane -------------------------------------------------------------------------------
+
+    /// Faces with every corner on the plane, next to the region: those that look against the plane's normal bound what is
+    /// removed and go; those that look along it stay, if anything behind the plane holds them.
+    fn decide_flat_faces(&mut self, plane: &SlicingPlane) {
+        let mut next = 0;
+        while next < self.region.len() {
+            let f = self.region[next];
+            next += 1;
+            let walk: Vec<HalfEdgeId> = self.mesh.face_half_edges(f).collect();
+            for h in walk {
+                let g = self.mesh.face(h.twin());
+                if self.doomed[g.index()] != self.cut && self.is_flat(plane, g) {
+                    self.decide_patch(plane, g);
+                }
+            }
+        }
+    }
+
+    fn is_flat(&mut self, plane: &SlicingPlane, f: FaceId) -> bool {
+        if self.mesh.is_hole(f) {
+            return false;
+        }
+        let corners: Vec<VertexId> = self.mesh.face_vertices(f).collect();
+        corners.into_iter().all(|v| self.side(plane, v) == Side::On)
+    }
+
+    fn decide_patch(&mut self, plane: &SlicingPlane, seed: FaceId) {
+        let mut patch = vec![seed];
+        let mut is_held = false;
+        let mut next = 0;
+        while let Some(&f) = patch.get(next) {
+            next += 1;
+            let walk: Vec<HalfEdgeId> = self.mesh.face_half_edges(f).collect();
+            for h in walk {
+                let g = self.mesh.face(h.twin());
+                if self.doomed[g.index()] == self.cut || patch.contains(&g) {
+                    continue;
+                }
+                if self.is_flat(plane, g) { patch.push(g) } else { is_held = true }
+            }
+        }
+        for f in patch {
+            let looks_along = self.mesh.plane(f).is_some_and(|p| p.normal().dot(plane.plane.normal()) > 0.0);
+            if !(is_held && looks_along) {
+                self.doom(f);
+            }
+        }
+    }
+
+    // ---- what was done ---------------------------------------------------------------------------------------------
+
+    fn describe_removed(&mut self) -> Cut {
+        let mut seen = std::mem::take(&mut self.reached);
+        let mut met = Vec::new();
+        for &f in &self.region {
+            seen.extend(self.mesh.face_vertices(f).filter(|v| self.sides[v.index()] == (self.cut, Side::Normal)));
+            met.extend(self.lineage[f.index()].0.checked_sub(self.faces_before));
+        }
+        seen.sort_unstable();
+        seen.dedup();
+        met.extend(seen.iter().filter_map(|v| self.born[v.index()].checked_sub(1)));
+        met.sort_unstable();
+        met.dedup();
+        let removed = seen.into_iter().filter(|v| self.born[v.index()] == 0).collect();
+        Cut { removed, met: met.into_iter().map(|k| k as usize).collect(), ..Cut::default() }
+    }
+
+    /// Takes back divisions of faces of which neither side was removed: parts that a local cut did not reach.
+    fn undo_needless_divisions(&mut self) {
+        let cap = self.cap_lineage(self.cut as usize - 1);
+        for e in std::mem::take(&mut self.chords) {
+            let is_needless = self.mesh.has_edge(e)
+                && self.mesh.edge_faces(e).into_iter().all(|f| !self.mesh.is_hole(f) && self.lineage[f.index()] != cap);
+            if is_needless {
+                self.mesh.delete_edge(e);
+            }
+        }
+        for v in std::mem::take(&mut self.splits) {
+            if self.mesh.has_vertex(v) && self.mesh.valence(v) == 2 {
+                // A vertex on a rim that was really cut has valence 2 as well, but then a cap or the new rim ends there.
+                let ends_a_cut = self.mesh.outgoing(v).any(|h| self.was_cut(h, cap));
+                if !ends_a_cut {
+                    self.mesh.join_edge(v).expect("the vertex has two edges");
+                }
+            }
+        }
+    }
+
+    fn was_cut(&self, h: HalfEdgeId, cap: Lineage) -> bool {
+        let f = self.mesh.face(h);
+        self.lineage[f.index()] == cap
+    }
+
+    // ---- elements that the steps make --------------------------------------------------------------------------------
+
+    /// Divides an edge where it crosses the plane.
+    pub(super) fn split_at_plane(&mut self, plane: &SlicingPlane, h: HalfEdgeId) {
+        let point = self.crossing(plane, h);
+        let end = self.mesh.origin(h);
+        let (v, _) = self.mesh.split_edge(h.edge(), point);
+        self.register_vertex(v, end);
+        self.splits.push(v);
+    }
+
+    /// The point where the edge of `h` meets the plane: on the edge, then moved onto the planes of its two faces as far as
+    /// rounding explains (the meeting point of three planes, solved on residuals).
+    fn crossing(&self, plane: &SlicingPlane, h: HalfEdgeId) -> DVec3 {
+        let on_edge = self.point_on_edge(plane, h);
+        let carried = [h, h.twin()].map(|side| self.mesh.carried_plane(self.mesh.face(side)));
+        let [Some(f), Some(g)] = carried else { return on_edge };
+        let is_end = |p: DVec3| [h, h.twin()].into_iter().any(|side| self.mesh.position(self.mesh.origin(side)) == p);
+        match meet_three([&f, &g, &plane.plane], on_edge) {
+            Some(met) if met.distance(on_edge) <= self.bound && !is_end(met) => met,
+            _ => on_edge,
+        }
+    }
+
+    /// The point of the edge of `h` that divides it in the ratio of its ends' distances from the plane.
+    fn point_on_edge(&self, plane: &SlicingPlane, h: HalfEdgeId) -> DVec3 {
+        let (a, b) = (self.mesh.position(self.mesh.origin(h)), self.mesh.position(self.mesh.target(h)));
+        let (da, db) = (plane.plane.signed_distance(a), plane.plane.signed_distance(b));
+        // From the nearer end, so that the error is relative to the short way. Exact signs may differ from rounded
+        // distances in the last digit, hence the clamp.
+        let (start, end, ds, de) = if da.abs() <= db.abs() { (a, b, da, db) } else { (b, a, db, da) };
+        let t = (ds / (ds - de)).clamp(0.0, 1.0);
+        if t.is_finite() { start + (end - start) * t } else { start }
+    }
+
+    /// Makes room in the tables for a new vertex, which is like `like` as far as rims are concerned.
+    pub(super) fn register_vertex(&mut self, v: VertexId, like: VertexId) {
+        grow(&mut self.sides, v.index(), (0, Side::On));
+        grow(&mut self.born, v.index(), 0);
+        self.born[v.index()] = self.cut;
+        self.sides[v.index()] = (self.cut, Side::On);
+        if let Some(is_open) = &mut self.is_open {
+            grow(is_open, v.index(), false);
+            is_open[v.index()] = is_open[like.index()];
+        }
+    }
+
+    /// Divides a face by an edge; the part in front of the plane, on the edge's left, is the new face.
+    pub(super) fn insert_chord(&mut self, from: HalfEdgeId, to: HalfEdgeId) -> HalfEdgeId {
+        let parent = self.mesh.face(from);
+        let e = self
+            .mesh
+            .insert_edge(crate::mesh::Corner::At(from), crate::mesh::Corner::At(to))
+            .expect("half-edges are corners");
+        self.register_face(self.mesh.face(e.half_edge()), self.lineage[parent.index()]);
+        self.chords.push(e);
+        e.half_edge()
+    }
+
+    pub(super) fn register_face(&mut self, f: FaceId, lineage: Lineage) {
+        grow(&mut self.lineage, f.index(), lineage);
+        grow(&mut self.doomed, f.index(), 0);
+        self.lineage[f.index()] = lineage;
+        self.doomed[f.index()] = 0;
+    }
+
+    /// The faces to be replaced, and whether their walks must stay open because their component is.
+    pub(super) fn take_region(&mut self) -> Vec<FaceId> {
+        std::mem::take(&mut self.region)
+    }
+
+    /// Whether the component of `v` had a rim before the command, so that a cut leaves a rim, too.
+    pub(super) fn is_open_at(&self, v: VertexId) -> bool {
+        self.is_open.as_ref().is_some_and(|is_open| is_open.get(v.index()).copied().unwrap_or(false))
+    }
+
+    /// Registers a face that closes a walk of the wound.
+    pub(super) fn register_cap(&mut self, f: FaceId, kind: FaceKind, plane: &Plane) {
+        let cap = self.cap_lineage(self.cut as usize - 1);
+        self.register_face(f, cap);
+        self.mesh.set_kind(f, kind);
+        if kind == FaceKind::Solid {
+            self.mesh.set_plane(f, *plane);
+        }
+    }
+}
+
+fn grow<T: Clone>(table: &mut Vec<T>, index: usize, value: T) {
+    if index >= table.len() {
+        table.resize(index + 1, value);
+    }
+}
+
+/// Marks the vertices of every component with a rim.
+fn open_vertices(mesh: &Mesh) -> Vec<bool> {
+    let mut is_open = vec![false; mesh.vertex_slots()];
+    for component in mesh.components().into_iter().filter(|c| c.holes > 0) {
+        for v in component.vertices {
+            is_open[v.index()] = true;
+        }
+    }
+    is_open
+}

@@ -1,0 +1,87 @@
+//! What a caller of an operator can mend.
+
+use crate::mesh::{EdgeId, FaceId, VertexId};
+use crate::select::SelectError;
+
+/// Why an operator refused; no mesh was made.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum OpError {
+    /// The selection could not be read on this mesh.
+    #[error(transparent)]
+    Select(#[from] SelectError),
+    /// The offset is not in (0, 2].
+    #[error(
+        "the offset is {offset}, but it must be above 0 (the element itself) and at most 2 (1 is the far ends of the edges)"
+    )]
+    OffsetOutOfRange {
+        /// What was given.
+        offset: f64,
+    },
+    /// The bend is not in [−1, 1].
+    #[error("the bend is {bend}, but it must lie between -1 (the plane of one face) and 1 (the plane of the other)")]
+    BendOutOfRange {
+        /// What was given.
+        bend: f64,
+    },
+    /// No round, or too many.
+    #[error("{repeat} rounds were asked for, but the number must lie between 1 and {limit}")]
+    RepeatOutOfRange {
+        /// What was given.
+        repeat: u32,
+        /// The most that is allowed.
+        limit: u32,
+    },
+    /// The normal of a slicing plane is zero or not finite.
+    #[error("the normal ({0}, {1}, {2}) has no direction; give three numbers that are not all zero")]
+    NoDirection(f64, f64, f64),
+    /// A point is not finite.
+    #[error("the point ({0}, {1}, {2}) is not finite")]
+    BadPoint(f64, f64, f64),
+    /// The normals around a vertex cancel, or its faces have no area.
+    #[error(
+        "no slicing plane at vertex {0}: its face normals cancel or its faces have no area; leave it out of the selection"
+    )]
+    NoPlaneAtVertex(VertexId),
+    /// The normals of an edge's faces cancel, or nothing leaves its ends.
+    #[error(
+        "no slicing plane at edge {0}: its face normals cancel or no other edge leaves its ends; leave it out of the selection"
+    )]
+    NoPlaneAtEdge(EdgeId),
+    /// A face has no area, or no edge leaves it.
+    #[error("no slicing plane at face {0}: it has no area or no edge leaves it; leave it out of the selection")]
+    NoPlaneAtFace(FaceId),
+    /// The cuts take everything away.
+    #[error("nothing is left: the {cut} of {cuts} cuts removes the rest of the model; use a smaller offset or fewer elements", cut = ordinal(*cut))]
+    NothingLeft {
+        /// Which cut it was, counted from 1.
+        cut: usize,
+        /// How many there were to be.
+        cuts: usize,
+    },
+    /// The walks of a section cross each other, so there is no cap for them.
+    #[error("the section crosses itself, so it cannot be capped; the model intersects itself there: repair it first")]
+    TangledSection,
+    /// Holes of a section could not be joined by bridges.
+    #[error(
+        "{holes} holes of a section could not be joined to their cap; the model intersects itself there: repair it first"
+    )]
+    HolesNotJoined {
+        /// How many.
+        holes: usize,
+    },
+    /// The user asked to stop.
+    #[error("stopped before the end; nothing was written")]
+    Cancelled,
+}
+
+fn ordinal(n: usize) -> String {
+    let ending = match (n % 10, n % 100) {
+        (1, 11) | (2, 12) | (3, 13) => "th",
+        (1, _) => "st",
+        (2, _) => "nd",
+        (3, _) => "rd",
+        _ => "th",
+    };
+    format!("{n}{ending}")
+}

@@ -1,0 +1,72 @@
+//! What a chain of cuts made and removed.
+
+use super::cutter::{Cutter, Lineage};
+use crate::mesh::{FaceId, Mesh, VertexId};
+use crate::select::Made;
+
+/// What a chain of cuts did. Ids of things that were made are those of the resulting mesh.
+#[derive(Debug, Clone, Default)]
+pub struct CutReport {
+    /// How many planes were applied, over all rounds.
+    pub cuts: usize,
+    /// How many of them met nothing: the plane missed, or earlier cuts had removed the element.
+    pub missed: usize,
+    /// The elements whose cut was not disjoint from the others, by their number in the mesh of their round: it removed a
+    /// vertex that was not its own, or something that another cut had made.
+    pub overcut: Vec<usize>,
+    /// What was made, for the selections `made` and `strip` of the next step.
+    pub made: Made,
+    /// Vertices of the result where other than three edges meet.
+    pub not_three_valent: Vec<VertexId>,
+    /// How many connected parts the result has.
+    pub components: usize,
+    /// Whether an offset above 1 was used, beyond the far ends of the edges.
+    pub is_beyond_far_ends: bool,
+}
+
+/// The caps and strips of one round, by lineage.
+pub(super) struct RoundMarks {
+    /// The caps of the round's cuts.
+    pub caps: Vec<Lineage>,
+    /// For each cut of an edge: its cap and the two faces along which the strip runs.
+    pub strips: Vec<(Lineage, [Lineage; 2])>,
+}
+
+impl RoundMarks {
+    /// What the round made, in the ids that the cutter's mesh has now.
+    pub(super) fn collect(&self, cutter: &Cutter) -> Made {
+        let mesh = &cutter.mesh;
+        let is_cap = |f: FaceId| self.caps.binary_search(&cutter.lineage_of(f)).is_ok();
+        let faces: Vec<FaceId> = mesh.faces().filter(|&f| is_cap(f)).collect();
+        let mut vertices: Vec<VertexId> = faces.iter().flat_map(|&f| mesh.face_vertices(f)).collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        let mut edges: Vec<_> = faces.iter().flat_map(|&f| mesh.face_half_edges(f)).map(|h| h.edge()).collect();
+        edges.sort_unstable();
+        edges.dedup();
+        let strip = edges.iter().copied().filter(|&e| self.runs_along_strip(cutter, mesh.edge_faces(e))).collect();
+        Made { vertices, edges, strip, faces }
+    }
+
+    fn runs_along_strip(&self, cutter: &Cutter, faces: [FaceId; 2]) -> bool {
+        let [a, b] = faces.map(|f| cutter.lineage_of(f));
+        let runs = |cap: Lineage, other: Lineage| {
+            let i = self.strips.binary_search_by_key(&cap, |s| s.0);
+            i.is_ok_and(|i| self.strips[i].1.contains(&other))
+        };
+        runs(a, b) || runs(b, a)
+    }
+}
+
+/// Closes the gaps in the mesh and fills in what only the result can tell.
+pub(super) fn finish(mut mesh: Mesh, mut report: CutReport) -> (Mesh, CutReport) {
+    let map = mesh.compact();
+    let made = &mut report.made;
+    made.vertices = made.vertices.iter().filter_map(|&v| map.vertex(v)).collect();
+    made.edges = made.edges.iter().filter_map(|&e| map.edge(e)).collect();
+    made.strip = made.strip.iter().filter_map(|&e| map.edge(e)).collect();
+    made.faces = made.faces.iter().filter_map(|&f| map.face(f)).collect();
+    report.not_three_valent = mesh.vertices().filter(|&v| mesh.valence(v) != 3).collect();
+    report.components = mesh.components().len();
+    (mesh, report)
+}

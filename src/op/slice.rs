@@ -1,0 +1,132 @@
+//! Slicing: cut a mesh by one plane and close it.
+//!
+//! Source: Gonen 2007, III.A. The part on the normal side is removed, what is left is closed by caps. A mesh that was open
+//! stays open along the cut. Changes: every crossed edge gets a vertex on the plane, every region of the section a cap.
+//! Volume kept + volume removed = volume before. Degenerate: a plane that misses changes nothing; faces in the plane stay
+//! when the material lies behind them; a plane that would remove everything is an error.
+
+use std::str::FromStr;
+
+use glam::DVec3;
+use serde::{Deserialize, Deserializer};
+
+use super::cutter::{Cutter, Reach, SlicingPlane};
+use super::report::{CutReport, RoundMarks, finish};
+use super::{OpContext, OpError};
+use crate::geom::Plane;
+use crate::mesh::Mesh;
+use crate::units::{Length, UnitError, parse_number};
+
+/// Which part of the mesh a slice keeps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash, clap::ValueEnum, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Keep {
+    /// The part against the normal.
+    #[default]
+    Reverse,
+    /// The part on the side to which the normal points.
+    Normal,
+}
+
+/// A direction, typed as `x`, `-z` or three numbers `1,0,1`; its length does not matter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Direction(pub DVec3);
+
+/// A point, typed as three lengths `0,0,10mm`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Point(pub DVec3);
+
+/// How to slice a mesh. One definition for the library, the command line and the recipe.
+#[derive(Debug, Clone, clap::Args, Deserialize)]
+pub struct SliceParams {
+    /// The direction of the plane's normal, which points to the side that is removed: `x`, `-z` or `1,0,1`.
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
+    pub normal: Direction,
+    /// A point on the plane, in mm unless units are given: `0,0,10`.
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
+    pub point: Point,
+    /// Which part to keep.
+    #[arg(long, value_enum, default_value_t = Keep::Reverse)]
+    #[serde(default)]
+    pub keep: Keep,
+}
+
+/// Cuts a mesh by a plane.
+///
+/// Signs of given numbers (positions from a file, and the plane) are exact; constructed positions within the rounding bound
+/// count as on the plane.
+///
+/// # Errors
+/// [`OpError::NoDirection`], [`OpError::BadPoint`], [`OpError::NothingLeft`] when the plane leaves no mesh,
+/// [`OpError::TangledSection`] when the mesh intersects itself along the plane.
+pub fn slice(mesh: &Mesh, params: &SliceParams, _context: &OpContext<'_>) -> Result<(Mesh, CutReport), OpError> {
+    let (Direction(normal), Point(point)) = (params.normal, params.point);
+    if !point.is_finite() {
+        return Err(OpError::BadPoint(point.x, point.y, point.z));
+    }
+    let normal = if params.keep == Keep::Normal { -normal } else { normal };
+    let plane = Plane::new(normal, point).ok_or(OpError::NoDirection(normal.x, normal.y, normal.z))?;
+    let mut cutter = Cutter::new(mesh.clone());
+    let cut = cutter.cut(&SlicingPlane { plane, given: Some((normal, point)) }, Reach::Global)?;
+    if cutter.mesh.face_count() == 0 {
+        return Err(OpError::NothingLeft { cut: 1, cuts: 1 });
+    }
+    let marks = RoundMarks { caps: vec![cutter.cap_lineage(0)], strips: Vec::new() };
+    let made = marks.collect(&cutter);
+    let report = CutReport { cuts: 1, missed: usize::from(cut.is_miss), made, ..CutReport::default() };
+    Ok(finish(cutter.mesh, report))
+}
+
+impl FromStr for Direction {
+    type Err = UnitError;
+    fn from_str(text: &str) -> Result<Self, UnitError> {
+        let error = || UnitError { text: text.to_owned(), wanted: "a direction", example: "z, -x or 1,0,1" };
+        let (sign, name) = text.trim().strip_prefix('-').map_or((1.0, text.trim()), |rest| (-1.0, rest));
+        let axis = match name {
+            "x" => DVec3::X,
+            "y" => DVec3::Y,
+            "z" => DVec3::Z,
+            _ => return three(text, parse_number).map(Self).ok_or_else(error),
+        };
+        Ok(Self(axis * sign))
+    }
+}
+
+impl FromStr for Point {
+    type Err = UnitError;
+    fn from_str(text: &str) -> Result<Self, UnitError> {
+        let error = || UnitError { text: text.to_owned(), wanted: "a point", example: "0,0,10 or 1cm,0,0" };
+        three(text, |part| part.parse().map(Length::mm)).map(Self).ok_or_else(error)
+    }
+}
+
+fn three(text: &str, number: impl Fn(&str) -> Result<f64, UnitError>) -> Option<DVec3> {
+    let parts: Vec<f64> = text.split(',').map(|part| number(part).ok()).collect::<Option<_>>()?;
+    <[f64; 3]>::try_from(parts).ok().map(DVec3::from_array)
+}
+
+/// A recipe gives directions and points as text or as an array of three numbers.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Typed {
+    Numbers([f64; 3]),
+    Text(String),
+}
+
+impl<'de> Deserialize<'de> for Direction {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        match Typed::deserialize(deserializer)? {
+            Typed::Numbers(n) => Ok(Self(DVec3::from_array(n))),
+            Typed::Text(text) => text.parse().map_err(serde::de::Error::custom),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Point {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        match Typed::deserialize(deserializer)? {
+            Typed::Numbers(n) => Ok(Self(DVec3::from_array(n))),
+            Typed::Text(text) => text.parse().map_err(serde::de::Error::custom),
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! Edge truncation: shave an edge off; repeated, it rolls the edge into a developable strip.
+//!
+//! Source: Gonen 2007, III.B.1, IV.A and figure 10; the "bent" control of chapter V is `bend`.
+//!
+//! P0 = mean of the edge points on all other edges at both ends; n ∝ (1 + b) n₁ + (1 − b) n₂ with n₁ the normal of the face
+//! with the lower id. Changes, while the caps are disjoint and the ends 3-valent: V + 2, E + 3, F + 1 for each chosen edge.
+//! Degenerate: as for vertices.
+
+use serde::Deserialize;
+
+use super::cutter::Cutter;
+use super::truncate::{Element, edge_point, truncate};
+use super::truncate_vertex::{default_offset, default_repeat};
+use super::{CutReport, OpContext, OpError, Scope};
+use crate::geom::Plane;
+use crate::mesh::{EdgeId, HalfEdgeId, Mesh};
+use crate::select::{Made, Selection};
+
+/// How to cut edges off. One definition for the library, the command line and the recipe.
+#[derive(Debug, Clone, clap::Args, Deserialize)]
+pub struct TruncateEdge {
+    /// Which edges, in the selection language: `all`, `3,7,10-14`, `fold>30deg`, `along=z:5deg`, `hamiltonian`, ….
+    #[arg(long, value_name = "SELECTION")]
+    pub select: Selection,
+    /// Where the plane meets the other edges at the two ends: 0 at the edge, 1 at the far ends. In (0, 2], warned above 1.
+    #[arg(long, default_value_t = default_offset(), value_parser = crate::units::parse_number)]
+    #[serde(default = "default_offset")]
+    pub offset: f64,
+    /// How far the plane leans towards one of the two faces, -1 to 1; 0 weighs their normals alike.
+    #[arg(long, default_value_t = 0.0, value_parser = crate::units::parse_number, allow_negative_numbers = true)]
+    #[serde(default)]
+    pub bend: f64,
+    /// Cut the whole mesh, or only the part that hangs together with the edge.
+    #[arg(long, value_enum, default_value_t = Scope::Global)]
+    #[serde(default)]
+    pub scope: Scope,
+    /// How many rounds, 1 to 64; every round after the first cuts the two long edges of each strip of the round before.
+    #[arg(long, default_value_t = default_repeat())]
+    #[serde(default = "default_repeat")]
+    pub repeat: u32,
+}
+
+impl TruncateEdge {
+    /// Cuts the selected edges at `offset`, everything else by default.
+    pub fn new(select: Selection, offset: f64) -> Self {
+        Self { select, offset, bend: 0.0, scope: Scope::default(), repeat: default_repeat() }
+    }
+}
+
+/// Cuts off every chosen edge. All planes of a round are set before its first cut and applied in the order of ids.
+///
+/// # Errors
+/// [`OpError::Select`] for an empty selection, [`OpError::OffsetOutOfRange`], [`OpError::BendOutOfRange`],
+/// [`OpError::RepeatOutOfRange`], [`OpError::NoPlaneAtEdge`], [`OpError::NothingLeft`] when the planes leave no mesh.
+pub fn truncate_edges(
+    mesh: &Mesh,
+    params: &TruncateEdge,
+    context: &OpContext<'_>,
+) -> Result<(Mesh, CutReport), OpError> {
+    if !(-1.0..=1.0).contains(&params.bend) {
+        return Err(OpError::BendOutOfRange { bend: params.bend });
+    }
+    let chosen = params.select.edges(&context.select(mesh))?;
+    truncate(mesh, (params.offset, params.scope, params.repeat), context, |cutter: &Cutter, made: Option<&Made>| {
+        let edges = made.map_or(&chosen, |made| &made.strip);
+        edges.iter().map(|&e| element(cutter, e, params)).collect()
+    })
+}
+
+fn element(cutter: &Cutter, e: EdgeId, params: &TruncateEdge) -> Result<Element, OpError> {
+    let mesh = &cutter.mesh;
+    let around = |h: HalfEdgeId| mesh.outgoing(mesh.origin(h)).filter(move |out| out.edge() != e);
+    let points: Vec<_> = e
+        .half_edges()
+        .into_iter()
+        .flat_map(around)
+        .map(|out| edge_point(mesh, mesh.origin(out), mesh.target(out), params.offset))
+        .collect();
+    let mut faces = mesh.edge_faces(e);
+    faces.sort_unstable();
+    let weights = [1.0 + params.bend, 1.0 - params.bend];
+    let normals: Vec<_> = faces
+        .into_iter()
+        .zip(weights)
+        .filter(|&(f, _)| !mesh.is_hole(f))
+        .filter_map(|(f, weight)| Some(mesh.plane(f)?.normal() * weight))
+        .collect();
+    let plane = Plane::through_mean(&points, &normals).ok_or(OpError::NoPlaneAtEdge(e))?;
+    let along = Some(mesh.edge_faces(e).map(|f| cutter.lineage_of(f)));
+    Ok(Element { id: e.index(), vertices: mesh.edge_vertices(e).to_vec(), plane, along })
+}

@@ -1,0 +1,72 @@
+//! Face truncation: push a face inwards along its normal, so that it and what surrounds it become planar and 3-valent.
+//!
+//! Source: Gonen 2007, III.B.3. P0 = mean of the edge points on the edges that leave the face; n = the face's normal.
+//! Changes, while the cuts are disjoint: V and E stay for 3-valent corners, F stays; a corner of higher valence is resolved.
+//! Degenerate: as for vertices.
+
+use serde::Deserialize;
+
+use super::cutter::Cutter;
+use super::truncate::{Element, edge_point, truncate};
+use super::truncate_vertex::{default_offset, default_repeat};
+use super::{CutReport, OpContext, OpError, Scope};
+use crate::geom::Plane;
+use crate::mesh::{FaceId, Mesh, VertexId};
+use crate::select::{Made, Selection};
+
+/// How to cut faces off. One definition for the library, the command line and the recipe.
+#[derive(Debug, Clone, clap::Args, Deserialize)]
+pub struct TruncateFace {
+    /// Which faces, in the selection language: `all`, `3,7,10-14`, `sides=5`, `normal=z:20deg`, ….
+    #[arg(long, value_name = "SELECTION")]
+    pub select: Selection,
+    /// Where the plane meets the edges that leave the face: 0 at the face, 1 at the far ends. In (0, 2], warned above 1.
+    #[arg(long, default_value_t = default_offset(), value_parser = crate::units::parse_number)]
+    #[serde(default = "default_offset")]
+    pub offset: f64,
+    /// Cut the whole mesh, or only the part that hangs together with the face.
+    #[arg(long, value_enum, default_value_t = Scope::Global)]
+    #[serde(default)]
+    pub scope: Scope,
+    /// How many rounds, 1 to 64; every round after the first cuts the caps of the round before.
+    #[arg(long, default_value_t = default_repeat())]
+    #[serde(default = "default_repeat")]
+    pub repeat: u32,
+}
+
+impl TruncateFace {
+    /// Cuts the selected faces at `offset`, everything else by default.
+    pub fn new(select: Selection, offset: f64) -> Self {
+        Self { select, offset, scope: Scope::default(), repeat: default_repeat() }
+    }
+}
+
+/// Cuts off every chosen face. All planes of a round are set before its first cut and applied in the order of ids.
+///
+/// # Errors
+/// [`OpError::Select`] for an empty selection, [`OpError::OffsetOutOfRange`], [`OpError::RepeatOutOfRange`],
+/// [`OpError::NoPlaneAtFace`], [`OpError::NothingLeft`] when the planes leave no mesh.
+pub fn truncate_faces(
+    mesh: &Mesh,
+    params: &TruncateFace,
+    context: &OpContext<'_>,
+) -> Result<(Mesh, CutReport), OpError> {
+    let chosen = params.select.faces(&context.select(mesh))?;
+    truncate(mesh, (params.offset, params.scope, params.repeat), context, |cutter: &Cutter, made: Option<&Made>| {
+        let faces = made.map_or(&chosen, |made| &made.faces);
+        faces.iter().map(|&f| element(&cutter.mesh, f, params.offset)).collect()
+    })
+}
+
+fn element(mesh: &Mesh, f: FaceId, t: f64) -> Result<Element, OpError> {
+    let mut points = Vec::new();
+    for h in mesh.face_half_edges(f) {
+        let own = [h.edge(), mesh.prev(h).edge()];
+        let leaving = mesh.outgoing(mesh.origin(h)).filter(|out| !own.contains(&out.edge()));
+        points.extend(leaving.map(|out| edge_point(mesh, mesh.origin(out), mesh.target(out), t)));
+    }
+    let normal = mesh.plane(f).ok_or(OpError::NoPlaneAtFace(f))?.normal();
+    let plane = Plane::through_mean(&points, &[normal]).ok_or(OpError::NoPlaneAtFace(f))?;
+    let vertices: Vec<VertexId> = mesh.face_vertices(f).collect();
+    Ok(Element { id: f.index(), vertices, plane, along: None })
+}

@@ -1,0 +1,82 @@
+//! Vertex truncation: cut a vertex off by a plane set by its own neighbourhood.
+//!
+//! Source: Gonen 2007, III.B.2 and eq. 3.1 (t runs from the vertex outwards, see `docs/operators.md`).
+//!
+//! ```text
+//!        v                 .
+//!       /|\    t·(u−v)    / \     P0 = mean of the edge points, n = mean of the face normals:
+//!      / | \    ------>  /___\    a cap with as many sides as v has edges, every corner 3-valent
+//!     u  u  u           u  u  u
+//! ```
+//!
+//! Keeps: planarity of every old face; genus. Changes, while the caps are disjoint: V + (valence − 1), E + valence, F + 1
+//! for each chosen vertex. Degenerate: a plane through a neighbour keeps that neighbour as a corner of the cap; cuts that
+//! meet are named in [`CutReport::overcut`], never silently merged.
+
+use serde::Deserialize;
+
+use super::cutter::Cutter;
+use super::truncate::{Element, edge_point, truncate};
+use super::{CutReport, OpContext, OpError, Scope};
+use crate::geom::Plane;
+use crate::mesh::{Mesh, VertexId};
+use crate::select::{Made, Selection};
+
+/// How to cut vertices off. One definition for the library, the command line and the recipe.
+#[derive(Debug, Clone, clap::Args, Deserialize)]
+pub struct TruncateVertex {
+    /// Which vertices, in the selection language: `all`, `3,7,10-14`, `valence>3`, ….
+    #[arg(long, value_name = "SELECTION")]
+    pub select: Selection,
+    /// Where the plane meets the edges of the vertex: 0 at the vertex, 1 at the far ends. In (0, 2], warned above 1.
+    #[arg(long, default_value_t = default_offset(), value_parser = crate::units::parse_number)]
+    #[serde(default = "default_offset")]
+    pub offset: f64,
+    /// Cut the whole mesh, or only the part that hangs together with the vertex.
+    #[arg(long, value_enum, default_value_t = Scope::Global)]
+    #[serde(default)]
+    pub scope: Scope,
+    /// How many rounds, 1 to 64; every round after the first cuts the corners of the caps of the round before.
+    #[arg(long, default_value_t = default_repeat())]
+    #[serde(default = "default_repeat")]
+    pub repeat: u32,
+}
+
+pub(super) fn default_offset() -> f64 {
+    0.25
+}
+
+pub(super) fn default_repeat() -> u32 {
+    1
+}
+
+impl TruncateVertex {
+    /// Cuts the selected vertices at `offset`, everything else by default.
+    pub fn new(select: Selection, offset: f64) -> Self {
+        Self { select, offset, scope: Scope::default(), repeat: default_repeat() }
+    }
+}
+
+/// Cuts off every chosen vertex. All planes of a round are set before its first cut and applied in the order of ids.
+///
+/// # Errors
+/// [`OpError::Select`] for an empty selection, [`OpError::OffsetOutOfRange`], [`OpError::RepeatOutOfRange`],
+/// [`OpError::NoPlaneAtVertex`], [`OpError::NothingLeft`] when the planes leave no mesh.
+pub fn truncate_vertices(
+    mesh: &Mesh,
+    params: &TruncateVertex,
+    context: &OpContext<'_>,
+) -> Result<(Mesh, CutReport), OpError> {
+    let chosen = params.select.vertices(&context.select(mesh))?;
+    truncate(mesh, (params.offset, params.scope, params.repeat), context, |cutter: &Cutter, made: Option<&Made>| {
+        let vertices = made.map_or(&chosen, |made| &made.vertices);
+        vertices.iter().map(|&v| element(&cutter.mesh, v, params.offset)).collect()
+    })
+}
+
+fn element(mesh: &Mesh, v: VertexId, t: f64) -> Result<Element, OpError> {
+    let points: Vec<_> = mesh.neighbours(v).map(|u| edge_point(mesh, v, u, t)).collect();
+    let normals: Vec<_> = mesh.vertex_faces(v).filter_map(|f| mesh.plane(f)).map(|p| p.normal()).collect();
+    let plane = Plane::through_mean(&points, &normals).ok_or(OpError::NoPlaneAtVertex(v))?;
+    Ok(Element { id: v.index(), vertices: vec![v], plane, along: None })
+}

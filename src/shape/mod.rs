@@ -126,8 +126,11 @@ impl Default for SolidParams {
 /// Makes the solid that `params` name: with the given edge length, or the given largest extent, or 100 mm large.
 ///
 /// # Errors
-/// [`ShapeError`] when edge and size are both given, a length is not above zero, or a box gets a second size.
+/// [`ShapeError`] when edge and size are both given, a length is not above zero, a box gets a second size, or a number in the
+/// name is out of range.
 pub fn solid(params: &SolidParams) -> Result<Mesh, ShapeError> {
+    // The reader of names knows all ranges; a name set by hand goes through it too.
+    params.name.to_string().parse::<SolidName>()?;
     let given = [("edge", params.edge), ("size", params.size)];
     if let (Some(edge), Some(size)) = (params.edge, params.size) {
         return Err(ShapeError::EdgeAndSize { edge, size });
@@ -141,9 +144,6 @@ pub fn solid(params: &SolidParams) -> Result<Mesh, ShapeError> {
         }
     }
     if let SolidName::Box(extents) = params.name {
-        if !extents.iter().all(|l| LENGTHS.contains(&l.mm())) {
-            return Err(ShapeError::BoxExtents { name: params.name.to_string() });
-        }
         return Ok(round::cuboid(DVec3::from_array(extents.map(Length::mm))).build(1.0, true)?);
     }
     let raw = raw(params.name);
@@ -155,14 +155,12 @@ pub fn solid(params: &SolidParams) -> Result<Mesh, ShapeError> {
 }
 
 fn raw(name: SolidName) -> Raw {
-    // Numbers come from the parser in range; one set by hand is brought into it.
-    let sides = |n: u32| n.clamp(3, MOST_SIDES) as usize;
     match name {
         SolidName::Platonic(solid) => solid.raw(),
         SolidName::Archimedean(solid) => solid.raw(),
-        SolidName::Prism(n) => round::prism(sides(n)),
-        SolidName::Antiprism(n) => round::antiprism(sides(n)),
-        SolidName::Geodesic(n) => round::geodesic(n.clamp(1, FINEST_GEODESIC) as usize),
+        SolidName::Prism(n) => round::prism(n as usize),
+        SolidName::Antiprism(n) => round::antiprism(n as usize),
+        SolidName::Geodesic(n) => round::geodesic(n as usize),
         SolidName::Box(extents) => round::cuboid(DVec3::from_array(extents.map(Length::mm))),
     }
 }

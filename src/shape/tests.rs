@@ -181,6 +181,9 @@ fn wrong_sizes_are_refused() {
         assert!(matches!(make("cube", mm(bad), None), Err(ShapeError::Length { what: "edge", .. })), "{bad}");
         assert!(matches!(make("cube", None, mm(bad)), Err(ShapeError::Length { what: "size", .. })), "{bad}");
     }
+    for name in [SolidName::Prism(2), SolidName::Geodesic(0), SolidName::Box([Length::from_mm(f64::NAN); 3])] {
+        assert!(solid(&SolidParams { name, ..Default::default() }).is_err(), "{name}");
+    }
     let error = make("cube", mm(0.0), None).expect_err("no edge");
     assert!(error.to_string().starts_with("the edge is 0mm; give a length above zero, like 40mm"));
 }

@@ -1,5 +1,9 @@
 //! Lengths and angles as people type them (`3mm`, `1/8in`, `30deg`) and as files show them.
 
+mod nearest;
+
+pub use nearest::nearest_word;
+
 use std::fmt;
 use std::str::FromStr;
 

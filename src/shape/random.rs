@@ -1,0 +1,167 @@
+//! Random convex solids with three edges at every vertex.
+
+use glam::DVec3;
+
+use super::hull;
+use crate::geom::Plane;
+use crate::geom::predicate::orient3d;
+use crate::mesh::{FaceId, Mesh, VertexId};
+
+/// The intersection of `n` half-spaces whose planes touch the unit sphere at uniformly random points.
+///
+/// Closed and convex, all vertices of valence 3: n faces, 3n − 6 edges, 2n − 4 vertices. Face i touches the sphere at the
+/// i-th random point and carries its exact plane; the vertices are computed and lie on their planes up to rounding. Vertices
+/// are numbered in the order in which the faces first come to them. The same `n` and `seed` give the same mesh everywhere.
+///
+/// # Panics
+/// When n is below 4.
+pub fn random_tangent_polytope(n: usize, seed: u64) -> Mesh {
+    assert!(n >= 4, "a solid has at least 4 faces, not {n}");
+    let mut random = SplitMix(seed);
+    // The planes enclose the sphere when the hull of the touching points holds the centre: nearly always but for small n.
+    loop {
+        let points: Vec<DVec3> = (0..n).map(|_| random.on_sphere()).collect();
+        if let Some(mesh) = hull::triangles(&points).and_then(|triangles| dual(&points, &triangles)) {
+            return mesh;
+        }
+    }
+}
+
+/// The polytope whose faces touch the sphere at `points`: its vertices are the triangles of their hull.
+fn dual(points: &[DVec3], triangles: &[[usize; 3]]) -> Option<Mesh> {
+    let holds_centre = |t: &[usize; 3]| orient3d(points[t[0]], points[t[1]], points[t[2]], DVec3::ZERO) > 0.0;
+    if !triangles.iter().all(holds_centre) {
+        return None;
+    }
+    let mut number = vec![usize::MAX; triangles.len()];
+    let mut positions = Vec::with_capacity(triangles.len());
+    let mut faces = fans(points.len(), triangles);
+    for corner in faces.iter_mut().flatten() {
+        let t = *corner;
+        if number[t] == usize::MAX {
+            number[t] = positions.len();
+            positions.push(meeting_point(triangles[t].map(|v| points[v])));
+        }
+        *corner = number[t];
+    }
+    let count = positions.len();
+    let mut mesh = Mesh::from_faces(positions, faces).ok()?;
+    for v in (0..count).map(VertexId::new) {
+        mesh.set_position(v, mesh.position(v), false);
+    }
+    for (i, &p) in points.iter().enumerate() {
+        mesh.set_plane(FaceId::new(i), Plane::new(p, p).expect("points on the sphere are unit vectors"));
+    }
+    Some(mesh)
+}
+
+/// For each point the triangles around it, counter-clockwise, beginning with the lowest.
+fn fans(n: usize, triangles: &[[usize; 3]]) -> Vec<Vec<usize>> {
+    // (entered from, left to, triangle) for each corner of each point.
+    let mut corners: Vec<Vec<(usize, usize, usize)>> = vec![Vec::new(); n];
+    for (t, vertices) in triangles.iter().enumerate() {
+        for i in 0..3 {
+            corners[vertices[i]].push((vertices[(i + 1) % 3], vertices[(i + 2) % 3], t));
+        }
+    }
+    let walk = |around: &Vec<(usize, usize, usize)>| {
+        let mut fan = Vec::with_capacity(around.len());
+        let mut next = around[0].0;
+        for _ in 0..around.len() {
+            let &(_, to, t) = around.iter().find(|corner| corner.0 == next).expect("the hull is closed");
+            fan.push(t);
+            next = to;
+        }
+        fan
+    };
+    corners.iter().map(walk).collect()
+}
+
+/// Where the three planes p · (x − p) = 0 meet, with the residual solved for once more, twice.
+fn meeting_point([a, b, c]: [DVec3; 3]) -> DVec3 {
+    let (bc, ca, ab) = (b.cross(c), c.cross(a), a.cross(b));
+    let determinant = a.dot(bc);
+    let step = |x: DVec3| (bc * a.dot(a - x) + ca * b.dot(b - x) + ab * c.dot(c - x)) / determinant;
+    let start = step(DVec3::ZERO);
+    let better = start + step(start);
+    better + step(better)
+}
+
+/// The splitmix64 generator (Steele, Lea and Flood 2014).
+struct SplitMix(u64);
+
+impl SplitMix {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// Uniform in [−1, 1).
+    fn signed(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+
+    /// Uniform on the unit sphere (Marsaglia 1972): nothing but a square root, so all machines agree.
+    fn on_sphere(&mut self) -> DVec3 {
+        loop {
+            let (u, v) = (self.signed(), self.signed());
+            let s = u * u + v * v;
+            if s < 1.0 {
+                let radius = 2.0 * (1.0 - s).sqrt();
+                return DVec3::new(u * radius, v * radius, 1.0 - 2.0 * s);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::assert_sound;
+
+    #[test]
+    fn counts_valence_planarity_and_convexity_hold() {
+        for (n, seed) in [(4, 1), (5, 2), (12, 3), (100, 4), (1000, 5)] {
+            let mesh = random_tangent_polytope(n, seed);
+            assert_sound(&mesh);
+            assert_eq!([mesh.vertex_count(), mesh.edge_count(), mesh.face_count()], [2 * n - 4, 3 * n - 6, n]);
+            assert!(mesh.is_closed() && mesh.vertices().all(|v| mesh.valence(v) == 3));
+            let (low, high) = mesh.bounds().expect("vertices");
+            let tolerance = 1e-15 * (high - low).length();
+            for f in mesh.faces() {
+                let plane = mesh.carried_plane(f).expect("a tangent plane");
+                assert!((plane.offset() - 1.0).abs() < 1e-15);
+                let corners = mesh.face_positions(f);
+                assert!(corners.iter().all(|&p| plane.signed_distance(p).abs() <= tolerance), "{n}: {f:?}");
+                assert!(plane.normal().dot(Plane::newell(&corners).expect("an area").normal()) > 0.9);
+                let is_below = |v| plane.signed_distance(mesh.position(v)) <= tolerance;
+                assert!(n > 200 || mesh.vertices().all(is_below), "{n}: {f:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_seed_decides_everything() {
+        let positions = |seed| {
+            let mesh = random_tangent_polytope(30, seed);
+            mesh.vertices().map(|v| mesh.position(v)).collect::<Vec<_>>()
+        };
+        assert_eq!(positions(7), positions(7));
+        assert_ne!(positions(7), positions(8));
+    }
+
+    #[test]
+    fn the_points_are_uniform_on_the_sphere() {
+        let mut random = SplitMix(42);
+        let points: Vec<DVec3> = (0..10_000).map(|_| random.on_sphere()).collect();
+        assert!(points.iter().all(|p| (p.length() - 1.0).abs() < 1e-15));
+        let mean = points.iter().sum::<DVec3>() / 10_000.0;
+        assert!(mean.abs().max_element() < 0.02, "{mean}");
+        // By Archimedes' hat-box theorem every coordinate is uniform in [−1, 1].
+        let squares = points.iter().map(|p| *p * *p).sum::<DVec3>() / 10_000.0;
+        assert!((squares - DVec3::splat(1.0 / 3.0)).abs().max_element() < 0.02, "{squares}");
+    }
+}

@@ -1,0 +1,119 @@
+//! What the colours mean, at the right of the picture.
+
+use std::collections::BTreeMap;
+
+use tiny_skia::{Paint, PathBuilder, Pixmap, Rect, Transform};
+
+use super::lettering::write;
+use super::paint;
+use crate::mesh::Mesh;
+
+/// The legend of a picture.
+pub(super) enum Legend {
+    /// A scale from 0 to the largest deviation in mm.
+    Planarity { top: f64 },
+    /// How many vertices there are of each valence.
+    Valence { counts: BTreeMap<usize, usize> },
+}
+
+impl Legend {
+    /// A scale from planar to `top`.
+    pub fn planarity(top: f64) -> Self {
+        Self::Planarity { top }
+    }
+
+    /// The valences of a mesh; 6 stands for 6 and more.
+    pub fn valence(mesh: &Mesh) -> Self {
+        let mut counts = BTreeMap::new();
+        for v in mesh.vertices() {
+            *counts.entry(mesh.valence(v).min(6)).or_insert(0) += 1;
+        }
+        Self::Valence { counts }
+    }
+
+    /// The width of the strip for the legend, in pixels.
+    pub fn width(width: u32, height: u32) -> f64 {
+        f64::from(letter_height(width, height)) * 14.0
+    }
+
+    /// Draws the legend over the right end of the picture.
+    pub fn draw(&self, pixmap: &mut Pixmap) {
+        let letter = letter_height(pixmap.width(), pixmap.height());
+        let left = pixmap.width() as f32 - letter * 13.5;
+        match self {
+            Self::Planarity { top } => draw_scale(pixmap, *top, left, letter),
+            Self::Valence { counts } => draw_counts(pixmap, counts, left, letter),
+        }
+    }
+}
+
+/// The height of capitals in pixels.
+fn letter_height(width: u32, height: u32) -> f32 {
+    (width.min(height) as f32 / 62.0).max(6.0)
+}
+
+fn draw_scale(pixmap: &mut Pixmap, top: f64, left: f32, letter: f32) {
+    let height = pixmap.height() as f32;
+    let (above, bar) = (height * 0.28, height * 0.44);
+    write(pixmap, "PLANARITY MM", (left, above - 2.2 * letter), letter, paint::LINE);
+    let rows = bar.round() as usize;
+    for row in 0..rows {
+        let share = 1.0 - (row as f64 + 0.5) / rows as f64;
+        rectangle(pixmap, [left, above + row as f32, 1.6 * letter, 1.0], paint::scale_colour(share));
+    }
+    for i in 0..=4 {
+        let share = f64::from(i) / 4.0;
+        let y = above + bar * (1.0 - share as f32);
+        rectangle(pixmap, [left + 1.6 * letter, y - 0.5, 0.6 * letter, 1.0], paint::LINE);
+        write(pixmap, &three_digits(top * share), (left + 2.9 * letter, y + letter / 2.0), letter, paint::LINE);
+    }
+}
+
+fn draw_counts(pixmap: &mut Pixmap, counts: &BTreeMap<usize, usize>, left: f32, letter: f32) {
+    let above = pixmap.height() as f32 * 0.4;
+    write(pixmap, "VALENCE", (left, above - 2.2 * letter), letter, paint::LINE);
+    for (i, (&valence, count)) in counts.iter().enumerate() {
+        let y = above + i as f32 * 2.4 * letter;
+        disc(pixmap, (left + 0.7 * letter, y), 0.6 * letter, paint::valence_colour(valence));
+        let name = if valence < 6 { valence.to_string() } else { "6+".to_owned() };
+        write(pixmap, &name, (left + 2.2 * letter, y + letter / 2.0), letter, paint::LINE);
+        let grey = [120, 116, 110];
+        write(pixmap, &count.to_string(), (left + 5.4 * letter, y + letter / 2.0), letter, grey);
+    }
+}
+
+/// A number with three significant digits, as short as can be.
+fn three_digits(x: f64) -> String {
+    if x == 0.0 {
+        return "0".to_owned();
+    }
+    let magnitude = x.abs().log10().floor() as i32;
+    if (-4..6).contains(&magnitude) { format!("{x:.*}", (2 - magnitude).max(0) as usize) } else { format!("{x:.2e}") }
+}
+
+fn rectangle(pixmap: &mut Pixmap, [x, y, width, height]: [f32; 4], colour: [u8; 3]) {
+    let mut paint = Paint { anti_alias: false, ..Paint::default() };
+    paint.set_color_rgba8(colour[0], colour[1], colour[2], 255);
+    if let Some(rect) = Rect::from_xywh(x.round(), y.round(), width.round().max(1.0), height.round().max(1.0)) {
+        pixmap.fill_rect(rect, &paint, Transform::identity(), None);
+    }
+}
+
+fn disc(pixmap: &mut Pixmap, (x, y): (f32, f32), radius: f32, colour: [u8; 3]) {
+    let mut paint = Paint::default();
+    paint.set_color_rgba8(colour[0], colour[1], colour[2], 255);
+    if let Some(path) = PathBuilder::from_circle(x, y, radius) {
+        pixmap.fill_path(&path, &paint, tiny_skia::FillRule::Winding, Transform::identity(), None);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_three_digits() {
+        let shown = [0.0, 0.012345, 1.0, 12.345, 123.4, 12345.6, 1.5e-7, 2e9].map(three_digits);
+        assert_eq!(shown, ["0", "0.0123", "1.00", "12.3", "123", "12346", "1.50e-7", "2.00e9"]);
+    }
+}

@@ -1,0 +1,273 @@
+//! What is to be drawn, projected and coloured: facets, lines and dots.
+
+use glam::{DVec2, DVec3};
+
+use super::camera::Camera;
+use super::paint::{self, Light, Modelling};
+use super::params::EdgeLines;
+use super::{Colour, RenderParams};
+use crate::geom::{Frame, Plane};
+use crate::mesh::{EdgeId, FaceId, FaceMap, HalfEdgeId, HalfEdgeMap, Mesh, VertexId, VertexMap};
+
+/// Faces that are bent by more than this part of their size are cut into triangles; flatter ones are drawn whole.
+const BENT: f64 = 1e-3;
+/// Faces with more corners are always drawn whole: cutting takes the square of their number.
+const MAX_CUT_CORNERS: usize = 256;
+
+/// A polygon in the picture with the plane of its depth.
+pub(super) struct Facet {
+    /// The face that it is (a part of).
+    pub face: FaceId,
+    /// Its corners in [`Scene::corners`].
+    pub corners: std::ops::Range<usize>,
+    /// Its colour.
+    pub light: Light,
+    /// Highest and lowest corner, in pixels.
+    pub top: f64,
+    pub bottom: f64,
+    anchor: DVec3,
+    slope: DVec2,
+    depths: (f64, f64),
+}
+
+impl Facet {
+    /// The depth at a point of the picture. Kept between the depths of the corners, because rounding tilts facets that
+    /// are seen from the edge.
+    pub fn depth(&self, x: f64, y: f64) -> f64 {
+        let depth = self.anchor.z + self.slope.x * (x - self.anchor.x) + self.slope.y * (y - self.anchor.y);
+        depth.clamp(self.depths.0, self.depths.1)
+    }
+}
+
+/// An edge in the picture.
+pub(super) struct Line {
+    pub ends: [DVec3; 2],
+    /// The faces whose sight makes the edge seen.
+    pub faces: [FaceId; 2],
+    /// Full width in pixels.
+    pub width: f64,
+    /// Opacity in 0..=1.
+    pub strength: f32,
+    /// Whether one of its faces is seen from the front and the other from the back, or is missing.
+    pub is_outline: bool,
+    pub is_rim: bool,
+}
+
+/// A vertex in the picture.
+pub(super) struct Dot {
+    pub place: DVec3,
+    pub vertex: VertexId,
+    pub colour: [u8; 3],
+}
+
+/// All that is to be drawn, in pixels.
+pub(super) struct Scene {
+    pub corners: Vec<DVec3>,
+    pub facets: Vec<Facet>,
+    pub lines: Vec<Line>,
+    pub dots: Vec<Dot>,
+    /// Radius of the dots in pixels.
+    pub dot_radius: f64,
+}
+
+/// The thickness of a normal line in pixels: grows with the picture.
+pub(super) fn line_width(width: u32, height: u32) -> f64 {
+    (1.25 * f64::from(width.max(height)) / 1200.0).max(0.6)
+}
+
+impl Scene {
+    /// Projects and colours the faces, edges and vertices. `colours` are those of the faces seen from the front.
+    pub fn new(mesh: &Mesh, params: &RenderParams, camera: &Camera, colours: &FaceMap<[u8; 3]>) -> Self {
+        let mut stage = Stage::new(mesh, params, camera);
+        let corners = mesh.faces().map(|f| mesh.sides(f)).sum();
+        stage.scene.corners.reserve(corners);
+        stage.scene.facets.reserve(mesh.face_count());
+        for f in mesh.faces() {
+            stage.add_face(f, colours[f]);
+        }
+        if params.edges == EdgeLines::On {
+            stage.scene.lines = mesh.edges().filter_map(|e| stage.line(e)).collect();
+        }
+        if params.colour == Colour::Valence {
+            stage.add_dots();
+        }
+        stage.scene
+    }
+}
+
+/// A scene in the making.
+struct Stage<'a> {
+    mesh: &'a Mesh,
+    plain: bool,
+    /// Pixels per half diagonal.
+    scale: f64,
+    line_width: f64,
+    /// Positions in half diagonals, turned as the camera.
+    turned: VertexMap<DVec3>,
+    /// Positions in the picture.
+    places: VertexMap<DVec3>,
+    /// Unit normals, turned as the camera; zero for faces without area.
+    normals: FaceMap<DVec3>,
+    /// Areas in square pixels as if seen from straight ahead.
+    areas: FaceMap<f64>,
+    /// Whether the part of the face at the half-edge is seen from the front.
+    fronts: HalfEdgeMap<bool>,
+    scene: Scene,
+}
+
+impl<'a> Stage<'a> {
+    fn new(mesh: &'a Mesh, params: &RenderParams, camera: &Camera) -> Self {
+        let mut turned = VertexMap::filled(mesh.vertex_slots(), DVec3::ZERO);
+        let mut places = VertexMap::filled(mesh.vertex_slots(), DVec3::ZERO);
+        for v in mesh.vertices() {
+            turned[v] = camera.turned(mesh.position(v));
+            places[v] = camera.project(mesh.position(v));
+        }
+        let (width, height) = params.pixels();
+        let scene =
+            Scene { corners: Vec::new(), facets: Vec::new(), lines: Vec::new(), dots: Vec::new(), dot_radius: 0.0 };
+        Self {
+            mesh,
+            plain: params.colour == Colour::Faces,
+            scale: camera.scale(),
+            line_width: line_width(width, height),
+            turned,
+            places,
+            normals: FaceMap::filled(mesh.face_slots(), DVec3::ZERO),
+            areas: FaceMap::filled(mesh.face_slots(), 0.0),
+            fronts: HalfEdgeMap::filled(mesh.half_edge_slots(), true),
+            scene,
+        }
+    }
+
+    fn add_face(&mut self, f: FaceId, colour: [u8; 3]) {
+        let half_edges: Vec<HalfEdgeId> = self.mesh.face_half_edges(f).collect();
+        let vertices = half_edges.iter().map(|&h| self.mesh.origin(h));
+        let turned: Vec<DVec3> = vertices.map(|v| self.turned[v]).collect();
+        let Some(plane) = Plane::newell(&turned) else { return };
+        self.normals[f] = plane.normal();
+        self.areas[f] = newell(&turned).length() / 2.0 * self.scale * self.scale;
+        if is_bent(&turned, &plane) {
+            let frame = Frame::on_plane(&plane);
+            let flat: Vec<DVec2> = turned.iter().map(|&p| frame.flatten(p)).collect();
+            for triangle in super::ears::ears(&flat) {
+                let normal = Plane::newell(&triangle.map(|i| turned[i])).map_or(plane.normal(), |p| p.normal());
+                let is_front = self.add_facet(f, &triangle.map(|i| half_edges[i]), normal, colour);
+                // The sides of the triangle that are edges of the face, not cuts.
+                for (i, j) in [(0, 1), (1, 2), (2, 0)].map(|(i, j)| (triangle[i], triangle[j])) {
+                    if (i + 1) % half_edges.len() == j {
+                        self.fronts[half_edges[i]] = is_front;
+                    }
+                }
+            }
+        } else {
+            let is_front = self.add_facet(f, &half_edges, plane.normal(), colour);
+            for h in half_edges {
+                self.fronts[h] = is_front;
+            }
+        }
+    }
+
+    /// Adds the polygon of the origins of `half_edges`; tells whether its front is seen.
+    fn add_facet(&mut self, face: FaceId, half_edges: &[HalfEdgeId], normal: DVec3, colour: [u8; 3]) -> bool {
+        let start = self.scene.corners.len();
+        self.scene.corners.extend(half_edges.iter().map(|&h| self.places[self.mesh.origin(h)]));
+        let places = &self.scene.corners[start..];
+        let tilt = newell(places);
+        // y runs down in the picture, so the front runs clockwise.
+        let is_front = tilt.z < 0.0;
+        if tilt.z == 0.0 {
+            // Seen exactly from the edge: covers nothing.
+            self.scene.corners.truncate(start);
+            return is_front;
+        }
+        let (low, high) = places.iter().fold((places[0], places[0]), |(low, high), &p| (low.min(p), high.max(p)));
+        let light = match (self.plain, is_front) {
+            (true, true) => paint::lit(colour, normal, Modelling::Full),
+            (true, false) => paint::lit(paint::BACK, -normal, Modelling::Full),
+            (false, _) => paint::lit(colour, if is_front { normal } else { -normal }, Modelling::Soft),
+        };
+        self.scene.facets.push(Facet {
+            face,
+            light,
+            top: low.y,
+            bottom: high.y,
+            anchor: places.iter().sum::<DVec3>() / places.len() as f64,
+            slope: DVec2::new(-tilt.x / tilt.z, -tilt.y / tilt.z),
+            depths: (low.z, high.z),
+            corners: start..self.scene.corners.len(),
+        });
+        is_front
+    }
+
+    /// How an edge is drawn; `None` when it would hardly be seen.
+    fn line(&self, e: EdgeId) -> Option<Line> {
+        let faces = self.mesh.edge_faces(e);
+        let is_rim = self.mesh.is_rim(e);
+        let [is_front, is_other_front] = e.half_edges().map(|h| self.fronts[h]);
+        let is_outline = is_rim || is_front != is_other_front;
+        let [n, m] = faces.map(|f| self.normals[f]);
+        let fold = n.cross(m).length().atan2(n.dot(m)).to_degrees();
+        // How many line widths there are between this edge and the next ones: where few, lines would blacken the faces.
+        let [area, other_area] = faces.map(|f| self.areas[f]);
+        let spacing = area.max(other_area).sqrt() / self.line_width;
+        let strength = if is_outline {
+            ramp(spacing, 0.1, 0.5)
+        } else {
+            // Edges in a smooth or flat part are light, real folds dark; sharp folds stay longer where it gets dense.
+            let sharp = ramp(fold, 20.0, 40.0);
+            let by_fold = 0.13 + 0.45 * ramp(fold, 0.5, 8.0) + 0.32 * ramp(fold, 8.0, 30.0);
+            by_fold * ramp(spacing, 2.5 - 1.5 * sharp, 16.0 - 10.0 * sharp)
+        };
+        let width = self.line_width * if is_outline { 1.9 } else { 0.75 + 0.45 * ramp(fold, 0.5, 8.0) };
+        let ends = self.mesh.edge_vertices(e).map(|v| self.places[v]);
+        (strength > 0.02).then_some(Line { ends, faces, width, strength: strength as f32, is_outline, is_rim })
+    }
+
+    fn add_dots(&mut self) {
+        let mesh = self.mesh;
+        let lengths = mesh.edges().map(|e| {
+            let [a, b] = mesh.edge_vertices(e).map(|v| self.places[v]);
+            a.distance(b)
+        });
+        let mean = lengths.sum::<f64>() / mesh.edge_count().max(1) as f64;
+        self.scene.dot_radius = (5.5 * self.line_width).min(mean / 5.0).max(0.75);
+        let dots = mesh.vertices().filter(|&v| mesh.vertex_start(v).is_some());
+        let dot = |v| Dot { place: self.places[v], vertex: v, colour: paint::valence_colour(mesh.valence(v)) };
+        self.scene.dots = dots.map(dot).collect();
+    }
+}
+
+/// Twice the vector area of a polygon.
+fn newell(corners: &[DVec3]) -> DVec3 {
+    let first = corners.first().copied().unwrap_or_default();
+    corners.windows(2).map(|w| (w[0] - first).cross(w[1] - first)).sum()
+}
+
+fn is_bent(corners: &[DVec3], plane: &Plane) -> bool {
+    if !(4..=MAX_CUT_CORNERS).contains(&corners.len()) {
+        return false;
+    }
+    let size = corners.iter().map(|p| p.distance(corners[0])).fold(0.0, f64::max);
+    corners.iter().any(|&p| plane.signed_distance(p).abs() > BENT * size)
+}
+
+/// 0 below `low`, 1 above `high`, straight between.
+fn ramp(x: f64, low: f64, high: f64) -> f64 {
+    ((x - low) / (high - low)).clamp(0.0, 1.0)
+}
+
+/// Whether a face touches a vertex.
+pub(super) fn touches(mesh: &Mesh, v: VertexId, f: FaceId) -> bool {
+    mesh.outgoing(v).any(|h| mesh.face(h) == f)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ramps_are_clamped() {
+        assert_eq!([ramp(-1.0, 0.0, 2.0), ramp(1.0, 0.0, 2.0), ramp(9.0, 0.0, 2.0)], [0.0, 0.5, 1.0]);
+    }
+}

@@ -2,6 +2,7 @@
 
 mod fit;
 mod frame;
+mod meet;
 mod plane;
 pub mod polygon;
 pub mod predicate;
@@ -9,6 +10,7 @@ mod rounding;
 
 pub use fit::fit_plane;
 pub use frame::Frame;
+pub use meet::{meet_planes, meet_planes_near};
 pub use plane::Plane;
 pub use predicate::Side;
 pub use rounding::RoundingBound;

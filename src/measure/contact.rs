@@ -119,7 +119,7 @@ mod tests {
     fn contact(corners: &[[f64; 2]]) -> Option<[usize; 2]> {
         // Tilted out of all axes by an integer shear, so that the plane stays exact.
         let points = corners.iter().map(|p| DVec3::new(p[0], p[1], p[0] + 2.0 * p[1]));
-        let mesh = Mesh::from_faces(points, [0..corners.len()]).expect("a polygon");
+        let mesh = Mesh::from_faces(points, std::iter::once(0..corners.len())).expect("a polygon");
         self_contact(&mesh, FaceId::new(0)).map(|pair| pair.map(EdgeId::index))
     }
 

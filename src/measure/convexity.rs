@@ -49,7 +49,9 @@ pub fn convexity(mesh: &Mesh) -> Convexity {
     for f in mesh.faces() {
         deviations[f] = planarity(mesh, f).mm;
     }
-    convexity_of(mesh, &deviations)
+    let components = mesh.components();
+    let is_ball = mesh.is_closed() && components.len() == 1 && components[0].genus == 0;
+    convexity_of(mesh, &deviations, is_ball)
 }
 
 /// The edges where the surface bends inwards by more than rounding, ascending. Rims are none.
@@ -57,11 +59,12 @@ pub fn concave_edges(mesh: &Mesh) -> Vec<EdgeId> {
     convexity(mesh).concave_edges
 }
 
-/// The same, with the faces' deviations from planar already measured.
-pub(crate) fn convexity_of(mesh: &Mesh, deviations: &FaceMap<f64>) -> Convexity {
+/// Judges a mesh of which the faces' deviations from planar, and whether it is closed, of one part and without handles,
+/// are known already.
+pub(crate) fn convexity_of(mesh: &Mesh, deviations: &FaceMap<f64>, is_ball: bool) -> Convexity {
     let Some((low, high)) = mesh.bounds() else { return Convexity::default() };
     let judge = Judge { mesh, deviations, bound: RoundingBound::of_box(low, high).length() };
-    let mut found = Convexity::default();
+    let mut found = Convexity { is_ball, ..Convexity::default() };
     let mut deepest = 0.0_f64;
     let mut keep = |depth: Option<f64>| {
         deepest = deepest.max(depth.unwrap_or(0.0));
@@ -70,10 +73,8 @@ pub(crate) fn convexity_of(mesh: &Mesh, deviations: &FaceMap<f64>) -> Convexity 
     found.concave_edges = mesh.edges().filter(|&e| keep(judge.edge_depth(e))).collect();
     found.concave_faces = mesh.faces().filter(|&f| keep(judge.face_depth(f))).collect();
     found.deepest_mm = deepest;
-    let components = mesh.components();
-    found.is_ball = mesh.is_closed() && components.len() == 1 && components[0].genus == 0;
     let is_locally_convex = found.concave_edges.is_empty() && found.concave_faces.is_empty();
-    found.winds_once = found.is_ball && is_locally_convex && winds_once(mesh);
+    found.winds_once = is_ball && is_locally_convex && winds_once(mesh);
     found
 }
 

@@ -12,6 +12,7 @@ mod topology;
 mod vertex;
 
 pub use contact::self_contact;
+pub(crate) use convexity::convexity_of;
 pub use convexity::{Convexity, concave_edges, convexity};
 pub use edge::{dihedral_angle, edge_length, fold_angle};
 pub use extent::{face_area, face_centroid, face_diameter, size, surface_area, volume};

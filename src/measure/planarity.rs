@@ -115,7 +115,8 @@ mod tests {
 
     #[test]
     fn concave_faces_and_straight_corners_are_not_twisted() {
-        let ell = points(&[[0., 0., 0.], [1., 0., 0.], [2., 0., 0.], [2., 1., 0.], [1., 1., 0.], [1., 2., 0.], [0., 2., 0.]]);
+        let ell =
+            points(&[[0., 0., 0.], [1., 0., 0.], [2., 0., 0.], [2., 1., 0.], [1., 1., 0.], [1., 2., 0.], [0., 2., 0.]]);
         let found = polygon_planarity(&ell);
         assert!(found.mm < 1e-15 && found.degrees < 1e-12, "{found:?}");
         // The straight corner a hair off its line, as a file with seven digits would have it.

@@ -1,1 +1,17 @@
 //! Findings against limits, as data.
+//!
+//! [`check`] measures a mesh and compares it with the limits of a [`Profile`] and with what the user requires. It prints
+//! nothing and decides nothing but pass or fail; the writers in `io` show the [`Report`].
+
+mod findings;
+mod params;
+mod profile;
+mod report;
+mod short;
+
+pub use params::{CheckError, CheckParams, Requirement};
+pub use profile::{Breach, Limits, Profile, Unit};
+pub use report::{
+    CheckKind, ConicalNode, Element, FaceReport, Finding, ModelCounts, Report, ValenceReport, Verdict, check,
+};
+pub(crate) use short::short;

@@ -2,7 +2,8 @@
 
 mod fit;
 mod frame;
-mod meet3;
+mod meet;
+mod meet_three;
 mod plane;
 pub mod polygon;
 pub mod predicate;
@@ -10,7 +11,8 @@ mod rounding;
 
 pub use fit::fit_plane;
 pub use frame::Frame;
-pub use meet3::meet_three;
+pub use meet::{meet_planes, meet_planes_near};
+pub use meet_three::meet_three;
 pub use plane::Plane;
 pub use predicate::Side;
 pub use rounding::RoundingBound;

@@ -1,0 +1,331 @@
+//! The report of a check: what was measured, what was found, and the verdict.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use glam::DVec3;
+
+use super::{Breach, CheckError, CheckParams, Limits, Profile, Requirement, Unit, findings};
+use crate::measure::{self, Convexity, Planarity, planarity, plane_deviation};
+use crate::mesh::{EdgeId, FaceId, FaceMap, Mesh, VertexId};
+
+/// Everything that a check measured and found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Report {
+    /// The profile that was asked for.
+    pub profile: Profile,
+    /// The limits that were applied: the profile's with the user's in their place.
+    pub limits: Limits,
+    /// What was required, sorted, each once.
+    pub require: Vec<Requirement>,
+    /// Counts and size.
+    pub model: ModelCounts,
+    /// Each face with its planarity, ascending.
+    pub faces: Vec<FaceReport>,
+    /// The largest of each planarity measure; `percent` is `None` without quads.
+    pub worst: Planarity,
+    /// Each profile, and whether all faces keep its own limits.
+    pub profiles: [(Profile, bool); 4],
+    /// The largest distance of a corner from the plane that its face carries, in mm; `None` when no face carries one.
+    pub carried_mm: Option<f64>,
+    /// Valences.
+    pub valence: ValenceReport,
+    /// What stands between the model and convexity.
+    pub convexity: Convexity,
+    /// The end vertices of the concave edges, in the order of `convexity.concave_edges`.
+    pub concave_ends: Vec<[VertexId; 2]>,
+    /// The vertices with more than three edges, ascending, and whether plates meet there.
+    pub conical: Vec<ConicalNode>,
+    /// What breaks a limit or a requirement, in the order of [`CheckKind`] and ascending by id.
+    pub findings: Vec<Finding>,
+}
+
+/// Counts and size of the model.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ModelCounts {
+    /// Number of vertices.
+    pub vertices: usize,
+    /// Number of edges.
+    pub edges: usize,
+    /// Number of faces, holes not counted.
+    pub faces: usize,
+    /// Number of connected parts.
+    pub components: usize,
+    /// Number of handles of all parts.
+    pub genus: usize,
+    /// Number of rims.
+    pub rims: usize,
+    /// Extent along the three axes.
+    pub size_mm: DVec3,
+}
+
+/// One face.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FaceReport {
+    /// The face.
+    pub face: FaceId,
+    /// Number of sides.
+    pub sides: usize,
+    /// How far it is from planar.
+    pub planarity: Planarity,
+    /// The limit that it breaks worst, if it does.
+    pub breach: Option<Breach>,
+}
+
+/// How many vertices have how many edges.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct ValenceReport {
+    /// Number of vertices by valence.
+    pub histogram: BTreeMap<usize, usize>,
+    /// The vertices whose valence is not three, ascending.
+    pub other: Vec<VertexId>,
+}
+
+/// A vertex with more than three edges.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ConicalNode {
+    /// The vertex.
+    pub vertex: VertexId,
+    /// Number of its edges.
+    pub valence: usize,
+    /// By how many mm per mm of thickness plates miss each other there ([`measure::conical_residual`]).
+    pub residual: Option<f64>,
+}
+
+/// What was checked. Findings are sorted in this order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum CheckKind {
+    /// A face without area, or with fewer than three sides.
+    DegenerateFace,
+    /// An edge without length.
+    ZeroLengthEdge,
+    /// A face whose outline crosses or touches itself.
+    SelfIntersection,
+    /// A face that is not planar within the profile.
+    Planarity,
+    /// A vertex without exactly three edges.
+    Valence,
+    /// A rim.
+    Closed,
+    /// Something that is not convex.
+    Convex,
+    /// Two vertices at one place.
+    Manifold,
+    /// More than one connected part.
+    OneComponent,
+}
+
+/// What a finding is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Element {
+    /// A face; the id is its number in the file.
+    Face,
+    /// An edge; the id is its number in the mesh, the message names its vertices.
+    Edge,
+    /// A vertex; the id is its number in the file.
+    Vertex,
+    /// A rim; rims are numbered from 0, the message names vertices on it.
+    Rim,
+    /// The whole model; the id is 0.
+    Model,
+}
+
+/// Something that breaks a limit or a requirement.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Finding {
+    /// What was checked.
+    pub check: CheckKind,
+    /// What kind of element it is about.
+    pub element: Element,
+    /// Which one.
+    pub id: usize,
+    /// What was measured.
+    pub measured: f64,
+    /// What is allowed.
+    pub limit: f64,
+    /// The unit of both.
+    pub unit: Unit,
+    /// The same in words.
+    pub message: String,
+}
+
+/// Pass or fail.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Verdict {
+    /// No finding.
+    Pass,
+    /// At least one finding.
+    Fail,
+}
+
+/// Measures a mesh and compares it with the limits and requirements of `params`.
+///
+/// Always findings: faces beyond the planarity limits, without area or with an outline that meets itself, and edges without
+/// length (shorter than the rounding bound, 1e-12 of the model). Only when required: valence, rims, convexity, vertices at
+/// one place, several components; these are still reported as data.
+///
+/// # Errors
+/// [`CheckError::BadLimit`] when a limit is negative or not finite.
+pub fn check(mesh: &Mesh, params: &CheckParams) -> Result<Report, CheckError> {
+    let limits = params.limits()?;
+    let mut require = params.require.clone();
+    require.sort_unstable();
+    require.dedup();
+    let faces: Vec<FaceReport> = mesh.faces().map(|f| face_report(mesh, f, &limits)).collect();
+    let mut deviations = FaceMap::filled(mesh.face_slots(), 0.0);
+    for f in &faces {
+        deviations[f.face] = f.planarity.mm;
+    }
+    let model = counts(mesh);
+    let is_ball = (model.components, model.genus, model.rims) == (1, 0, 0);
+    let convexity = measure::convexity_of(mesh, &deviations, is_ball);
+    let mut report = Report {
+        profile: params.profile,
+        limits,
+        require,
+        model,
+        worst: faces.iter().fold(Planarity::default(), |worst, f| largest(worst, f.planarity)),
+        profiles: Profile::ALL.map(|p| (p, faces.iter().all(|f| p.limits().allow(&f.planarity)))),
+        carried_mm: mesh.faces().filter_map(|f| plane_deviation(mesh, f)).reduce(f64::max),
+        valence: ValenceReport { histogram: measure::valence_histogram(mesh), other: measure::other_valences(mesh) },
+        concave_ends: convexity.concave_edges.iter().map(|&e: &EdgeId| mesh.edge_vertices(e)).collect(),
+        conical: conical_nodes(mesh),
+        convexity,
+        faces,
+        findings: Vec::new(),
+    };
+    report.findings = findings::all(mesh, &report);
+    Ok(report)
+}
+
+impl Report {
+    /// Whether there is a finding.
+    pub fn has_findings(&self) -> bool {
+        !self.findings.is_empty()
+    }
+
+    /// Pass without a finding, else fail.
+    pub fn verdict(&self) -> Verdict {
+        if self.has_findings() { Verdict::Fail } else { Verdict::Pass }
+    }
+
+    /// Whether the mesh bounds a convex solid.
+    pub fn is_convex(&self) -> bool {
+        self.convexity.is_convex()
+    }
+
+    /// The `count` faces that use most of their limits, worst first; equal ones by mm, then by id.
+    pub fn worst_faces(&self, count: usize) -> Vec<&FaceReport> {
+        let mut ranked: Vec<(f64, &FaceReport)> =
+            self.faces.iter().map(|f| (self.limits.share(&f.planarity), f)).collect();
+        ranked.sort_by(|(a, f), (b, g)| {
+            b.total_cmp(a).then(g.planarity.mm.total_cmp(&f.planarity.mm)).then(f.face.cmp(&g.face))
+        });
+        ranked.into_iter().take(count).map(|(_, f)| f).collect()
+    }
+}
+
+fn face_report(mesh: &Mesh, face: FaceId, limits: &Limits) -> FaceReport {
+    let planarity = planarity(mesh, face);
+    FaceReport { face, sides: mesh.sides(face), planarity, breach: limits.breach(&planarity) }
+}
+
+fn largest(a: Planarity, b: Planarity) -> Planarity {
+    Planarity {
+        mm: a.mm.max(b.mm),
+        permille: a.permille.max(b.permille),
+        degrees: a.degrees.max(b.degrees),
+        percent: a.percent.into_iter().chain(b.percent).reduce(f64::max),
+    }
+}
+
+fn counts(mesh: &Mesh) -> ModelCounts {
+    let components = mesh.components();
+    ModelCounts {
+        vertices: mesh.vertex_count(),
+        edges: mesh.edge_count(),
+        faces: mesh.face_count(),
+        components: components.len(),
+        genus: components.iter().map(|c| c.genus).sum(),
+        rims: mesh.hole_count(),
+        size_mm: measure::size(mesh),
+    }
+}
+
+fn conical_nodes(mesh: &Mesh) -> Vec<ConicalNode> {
+    let crowded: Vec<(VertexId, usize)> =
+        mesh.vertices().map(|v| (v, mesh.valence(v))).filter(|&(_, valence)| valence > 3).collect();
+    if crowded.is_empty() {
+        return Vec::new();
+    }
+    // Each face is seen from all its corners; its normal is worked out once.
+    let mut normals = FaceMap::filled(mesh.face_slots(), None);
+    for f in mesh.faces() {
+        normals[f] = mesh.plane(f).map(|plane| plane.normal());
+    }
+    let node = |(vertex, valence)| {
+        let around: Option<Vec<DVec3>> = mesh.vertex_faces(vertex).map(|f| normals[f]).collect();
+        ConicalNode { vertex, valence, residual: around.and_then(|n| measure::conical_residual_of(&n)) }
+    };
+    crowded.into_iter().map(node).collect()
+}
+
+impl CheckKind {
+    /// The name as files show it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::DegenerateFace => "degenerate-face",
+            Self::ZeroLengthEdge => "zero-length-edge",
+            Self::SelfIntersection => "self-intersection",
+            Self::Planarity => "planarity",
+            Self::Valence => "valence",
+            Self::Closed => "closed",
+            Self::Convex => "convex",
+            Self::Manifold => "manifold",
+            Self::OneComponent => "one-component",
+        }
+    }
+}
+
+impl Element {
+    /// The name as files show it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Face => "face",
+            Self::Edge => "edge",
+            Self::Vertex => "vertex",
+            Self::Rim => "rim",
+            Self::Model => "model",
+        }
+    }
+}
+
+impl Verdict {
+    /// The name as files show it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Pass => "pass",
+            Self::Fail => "fail",
+        }
+    }
+}
+
+impl fmt::Display for CheckKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl fmt::Display for Element {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}

@@ -1,0 +1,1 @@
+//! Counts and volumes of the truncations on all solids, against an independent intersection of half-spaces.

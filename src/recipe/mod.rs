@@ -1,1 +1,96 @@
 //! A chain of steps read from TOML, run in order.
+//!
+//! Every step is the same parameter struct as the verb of that name on the command line. The steps of a recipe share one
+//! [`Job`]: the mesh as it is by then, what the last step made, and the results that are written at the end.
+
+mod error;
+mod fabricate;
+mod job;
+mod outputs;
+mod parse;
+
+use std::path::PathBuf;
+
+use serde::Deserialize;
+
+pub use error::{Position, RecipeError, StepError, StepFailure};
+pub use fabricate::{FabricateParams, Fabrication, fabricate};
+pub use job::Job;
+pub use outputs::{fabrication_outputs, job_outputs, sheet_picture};
+
+use crate::check::CheckParams;
+use crate::io::ReadOptions;
+use crate::op::{SliceParams, TruncateEdge, TruncateFace, TruncateVertex};
+use crate::picture::RenderParams;
+use crate::shape::SolidParams;
+use crate::sheet::SheetParams;
+use crate::unfold::UnfoldParams;
+
+/// A recipe: a name and what to do, in order.
+#[derive(Debug, Clone)]
+pub struct Recipe {
+    /// What it makes.
+    pub name: Option<String>,
+    /// The steps.
+    pub steps: Vec<Step>,
+}
+
+/// A mesh file to read.
+#[derive(Debug, Clone, clap::Args, Deserialize)]
+pub struct ReadStep {
+    /// The file, relative to the recipe's folder.
+    #[arg(value_name = "FILE")]
+    pub path: PathBuf,
+    /// How to read it.
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub options: ReadOptions,
+}
+
+/// One step of a recipe.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub enum Step {
+    /// `solid = "cube"`: a ready-made mesh.
+    Solid(SolidParams),
+    /// `read = "model.obj"`: a mesh file.
+    Read(ReadStep),
+    /// `cut = "vertex"`.
+    CutVertex(TruncateVertex),
+    /// `cut = "edge"`.
+    CutEdge(TruncateEdge),
+    /// `cut = "face"`.
+    CutFace(TruncateFace),
+    /// `cut = "plane"`.
+    CutPlane(SliceParams),
+    /// `check = "glass"`: limits for the report.
+    Check(CheckParams),
+    /// `unfold = "auto"`: pieces and sheets.
+    Unfold {
+        /// How to divide the model.
+        unfold: UnfoldParams,
+        /// Which edges open.
+        fabricate: FabricateParams,
+        /// Where the pieces go.
+        sheet: SheetParams,
+    },
+    /// `render = "iso"`: how the picture of the model looks.
+    Render(RenderParams),
+}
+
+impl Step {
+    /// The verb that the step begins with.
+    pub fn verb(&self) -> &'static str {
+        match self {
+            Self::Solid(_) => "solid",
+            Self::Read(_) => "read",
+            Self::CutVertex(_) => "cut vertex",
+            Self::CutEdge(_) => "cut edge",
+            Self::CutFace(_) => "cut face",
+            Self::CutPlane(_) => "cut plane",
+            Self::Check(_) => "check",
+            Self::Unfold { .. } => "unfold",
+            Self::Render(_) => "render",
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! What is wrong with a recipe, with line and column.
+
+use std::fmt;
+
+use crate::check::CheckError;
+use crate::io::IoError;
+use crate::op::OpError;
+use crate::picture::PictureError;
+use crate::select::SelectError;
+use crate::shape::ShapeError;
+use crate::sheet::SheetError;
+use crate::unfold::UnfoldError;
+
+/// A place in a recipe file, counted from 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Position {
+    /// The line.
+    pub line: usize,
+    /// The character in the line.
+    pub column: usize,
+}
+
+impl fmt::Display for Position {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "line {}, column {}", self.line, self.column)
+    }
+}
+
+/// Why a recipe could not be read.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RecipeError {
+    /// Not TOML.
+    #[error("{at}: {message}")]
+    Syntax {
+        /// Where.
+        at: Position,
+        /// What the TOML reader says.
+        message: String,
+    },
+    /// A key that nobody knows.
+    #[error("{at}: `{key}` is not known {place}; {advice}")]
+    UnknownKey {
+        /// Where.
+        at: Position,
+        /// The key.
+        key: String,
+        /// In what.
+        place: String,
+        /// The nearest known key, or all of them.
+        advice: String,
+    },
+    /// A step that does not say what to do.
+    #[error("{at}: this step does not say what to do; it needs one of the keys {verbs}")]
+    NoVerb {
+        /// Where the step begins.
+        at: Position,
+        /// The known verbs.
+        verbs: String,
+    },
+    /// A step that says two things.
+    #[error("{at}: this step says both `{first}` and `{second}`; make two steps of it")]
+    TwoVerbs {
+        /// Where the second verb stands.
+        at: Position,
+        /// The first verb.
+        first: String,
+        /// The second verb.
+        second: String,
+    },
+    /// A value that does not fit.
+    #[error("{at}: {message}")]
+    BadValue {
+        /// Where.
+        at: Position,
+        /// What is wrong with it.
+        message: String,
+    },
+    /// No step at all.
+    #[error("the recipe has no [[step]]; the first one names a solid or reads a file, e.g. solid = \"dodecahedron\"")]
+    NoSteps,
+}
+
+/// Why a recipe could not be carried out. The step is counted from 1.
+#[derive(Debug, thiserror::Error)]
+#[error("step {step} ({verb}): {cause}")]
+pub struct StepError {
+    /// Which step.
+    pub step: usize,
+    /// What it does.
+    pub verb: &'static str,
+    /// Why it failed.
+    pub cause: StepFailure,
+}
+
+/// What stopped a step.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum StepFailure {
+    /// The step needs a mesh, and none has been made.
+    #[error("there is no mesh yet; begin with a step that names a solid or reads a file")]
+    NoMesh,
+    /// The step would throw away the mesh made so far.
+    #[error("there is a mesh already; only the first step may make or read one")]
+    SecondMesh,
+    /// A file could not be read.
+    #[error(transparent)]
+    Io(#[from] IoError),
+    /// A solid could not be made.
+    #[error(transparent)]
+    Shape(#[from] ShapeError),
+    /// An operator refused.
+    #[error(transparent)]
+    Op(#[from] OpError),
+    /// A selection could not be read on the mesh.
+    #[error(transparent)]
+    Select(#[from] SelectError),
+    /// A limit of the check is no limit.
+    #[error(transparent)]
+    Check(#[from] CheckError),
+    /// The mesh could not be unfolded.
+    #[error(transparent)]
+    Unfold(#[from] UnfoldError),
+    /// The pieces could not be laid out.
+    #[error(transparent)]
+    Sheet(#[from] SheetError),
+    /// The picture could not be drawn.
+    #[error(transparent)]
+    Picture(#[from] PictureError),
+}

@@ -6,9 +6,11 @@ mod plane;
 pub mod polygon;
 pub mod predicate;
 mod rounding;
+mod triangulate;
 
 pub use fit::fit_plane;
 pub use frame::Frame;
 pub use plane::Plane;
 pub use predicate::Side;
 pub use rounding::RoundingBound;
+pub use triangulate::triangulate;

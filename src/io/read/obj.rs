@@ -222,26 +222,13 @@ fn locate(bytes: &[u8], error: &LoadError, count: usize) -> Located {
     let mut vertices = 0;
     for statement in Statements::new(bytes) {
         let (keyword, rest) = statement.parts();
-        let rest = without_comment(rest);
-        let text = || excerpt(&statement.text);
         let fault = match keyword {
             b"v" => {
                 vertices += 1;
-                (!is_vertex(rest)).then(|| ContentFault::NotAVertex { text: text(), example: VERTEX_EXAMPLE })
+                let fault = || ContentFault::NotAVertex { text: excerpt(&statement.text), example: VERTEX_EXAMPLE };
+                (!is_vertex(without_comment(rest))).then(fault)
             }
-            b"f" => match words(rest).map(index).collect::<Option<Vec<i64>>>() {
-                None => Some(ContentFault::NotAFace { text: text(), example: FACE_EXAMPLE }),
-                Some(corners) => {
-                    let is_missing = |&i: &i64| resolve(i, vertices).is_none_or(|v| v as usize >= count);
-                    corners.into_iter().find(is_missing).map(|i| no_such_vertex(&statement.text, i, count)).or_else(
-                        // Whatever else tobj minds, such as a fourth index.
-                        || {
-                            let is_read = words(rest).all(|word| is_corner(word));
-                            (!is_read).then(|| ContentFault::NotAFace { text: text(), example: FACE_EXAMPLE })
-                        },
-                    )
-                }
-            },
+            b"f" => face_fault(&statement.text, without_comment(rest), vertices, count),
             _ => None,
         };
         if let Some(fault) = fault {
@@ -249,6 +236,16 @@ fn locate(bytes: &[u8], error: &LoadError, count: usize) -> Located {
         }
     }
     Located::anywhere(ContentFault::NotThisFormat { format: "OBJ", text: format!("{}; {error}", excerpt(bytes)) })
+}
+
+/// What is wrong with a face after `before` of `count` vertices.
+fn face_fault(text: &[u8], corners: &[u8], before: usize, count: usize) -> Option<ContentFault> {
+    let indices: Option<Vec<i64>> = words(corners).map(index).collect();
+    let Some(indices) = indices.filter(|_| words(corners).all(is_corner)) else {
+        return Some(ContentFault::NotAFace { text: excerpt(text), example: FACE_EXAMPLE });
+    };
+    let is_missing = |&i: &i64| resolve(i, before).is_none_or(|v| v as usize >= count);
+    indices.into_iter().find(is_missing).map(|i| no_such_vertex(text, i, count))
 }
 
 fn is_vertex(rest: &[u8]) -> bool {

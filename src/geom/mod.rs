@@ -8,6 +8,7 @@ mod plane;
 pub mod polygon;
 pub mod predicate;
 mod rounding;
+mod triangulate;
 
 pub use fit::fit_plane;
 pub use frame::Frame;
@@ -16,3 +17,4 @@ pub use meet_three::meet_three;
 pub use plane::Plane;
 pub use predicate::Side;
 pub use rounding::RoundingBound;
+pub use triangulate::triangulate;

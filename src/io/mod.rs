@@ -1,5 +1,18 @@
 //! Files in and out, one direction of one format per file.
+//!
+//! [`read_mesh`] reads OBJ, PLY, STL and OFF, [`write_mesh`] writes them; `-` is standard input or output and means OBJ.
+//! Everything that kerfold writes goes through [`output`], so that a file is whole or not there.
 
+mod error;
+mod format;
+pub mod output;
+mod read;
 pub mod report_csv;
 pub mod report_json;
 pub mod report_text;
+mod write;
+
+pub use error::{ContentFault, IoError, Place};
+pub use format::MeshFormat;
+pub use read::{MeshUnit, ReadMesh, ReadNote, ReadOptions, read_mesh, read_mesh_bytes};
+pub use write::{PlyEncoding, WriteOptions, mesh_bytes, write_mesh};

@@ -1,0 +1,248 @@
+//! Flat polygons cut into triangles between their own corners.
+
+use glam::DVec2;
+use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
+
+use super::polygon::signed_area;
+use super::predicate::orient2d;
+
+/// Cuts a polygon into triangles between its corners, which are named by their places in `polygon`.
+///
+/// The polygon may be concave and may have corners on straight sides; the triangles run the way the polygon runs and none
+/// of them is flat, n − 2 of them for n corners. When the polygon touches or crosses itself, n − 2 triangles come all the
+/// same, by clipping ears as well as they can be found; some of them may be flat or overlap. Fewer than three corners give none.
+///
+/// The same polygon always gives the same triangles. Simple polygons go through a constrained Delaunay triangulation
+/// (Chew 1989, by the `spade` crate), which avoids slivers where it can.
+pub fn triangulate(polygon: &[DVec2]) -> Vec<[usize; 3]> {
+    let Some(polygon) = scaled(polygon) else { return fan(polygon.len()) };
+    match polygon.len() {
+        0..=3 => fan(polygon.len()),
+        4 if is_convex_quad(&polygon) => {
+            let diagonals = [polygon[0].distance_squared(polygon[2]), polygon[1].distance_squared(polygon[3])];
+            if diagonals[0] <= diagonals[1] { vec![[0, 1, 2], [0, 2, 3]] } else { vec![[0, 1, 3], [1, 2, 3]] }
+        }
+        _ => by_delaunay(&polygon).unwrap_or_else(|| by_ears(&polygon)),
+    }
+}
+
+fn fan(corners: usize) -> Vec<[usize; 3]> {
+    (2..corners).map(|i| [0, i - 1, i]).collect()
+}
+
+/// The corners scaled by a power of two to a size near 1, so that no predicate over- or underflows and spade accepts them.
+/// That changes no digit, save that coordinates forty orders of magnitude below the largest become zero.
+/// `None` when a corner is not finite.
+fn scaled(polygon: &[DVec2]) -> Option<Vec<DVec2>> {
+    if !polygon.iter().all(|p| p.is_finite()) {
+        return None;
+    }
+    let largest = polygon.iter().map(|p| p.abs().max_element()).fold(f64::MIN_POSITIVE, f64::max);
+    let exponent = -(largest.log2().floor() as i32);
+    // In two halves, so that neither factor overflows.
+    let (half, rest) = (2f64.powi(exponent / 2), 2f64.powi(exponent - exponent / 2));
+    let place = |x: f64| if (x * half * rest).abs() < 1e-40 { 0.0 } else { x * half * rest };
+    Some(polygon.iter().map(|p| DVec2::new(place(p.x), place(p.y))).collect())
+}
+
+/// Whether all four corners turn the same way. A quad cannot wind twice, so it is convex then.
+fn is_convex_quad(quad: &[DVec2]) -> bool {
+    let turns = [0, 1, 2, 3].map(|i| orient2d(quad[i], quad[(i + 1) % 4], quad[(i + 2) % 4]));
+    turns.iter().all(|&t| t > 0.0) || turns.iter().all(|&t| t < 0.0)
+}
+
+/// `None` when the polygon is not simple.
+fn by_delaunay(polygon: &[DVec2]) -> Option<Vec<[usize; 3]>> {
+    let n = polygon.len();
+    let is_clockwise = turn_at_lowest(polygon)? < 0.0;
+    let mut net = ConstrainedDelaunayTriangulation::<Point2<f64>>::new();
+    let mut handles = Vec::with_capacity(n);
+    for (i, p) in polygon.iter().enumerate() {
+        let handle = net.insert(Point2::new(p.x, p.y)).ok()?;
+        // A second corner at the same point gets the handle of the first.
+        if handle.index() != i {
+            return None;
+        }
+        handles.push(handle);
+    }
+    for (i, &from) in handles.iter().enumerate() {
+        let to = handles[(i + 1) % n];
+        if !net.can_add_constraint(from, to) {
+            return None;
+        }
+        net.add_constraint(from, to);
+    }
+    let outside = outside_faces(&net);
+    let mut triangles: Vec<[usize; 3]> = net
+        .inner_faces()
+        .filter(|face| !outside[face.fix().index()])
+        .map(|face| lowest_first(face.vertices().map(|v| v.fix().index())))
+        .collect();
+    triangles.sort_unstable();
+    if is_clockwise {
+        triangles.iter_mut().for_each(|t| t.swap(1, 2));
+    }
+    // A corner that lies on another side splits it; then the count is off.
+    (triangles.len() == n - 2).then_some(triangles)
+}
+
+/// The turn at the lowest of the leftmost corners: its sign is the sense of a simple polygon. `None` when it is flat,
+/// which no simple polygon is there.
+fn turn_at_lowest(polygon: &[DVec2]) -> Option<f64> {
+    let n = polygon.len();
+    let key = |i: usize| (polygon[i].x, polygon[i].y);
+    let lowest = (1..n).fold(0, |best, i| if key(i) < key(best) { i } else { best });
+    let turn = orient2d(polygon[(lowest + n - 1) % n], polygon[lowest], polygon[(lowest + 1) % n]);
+    (turn != 0.0).then_some(turn)
+}
+
+/// For each face whether it can be reached from outside without crossing a side of the polygon.
+fn outside_faces(net: &ConstrainedDelaunayTriangulation<Point2<f64>>) -> Vec<bool> {
+    let mut outside = vec![false; net.num_all_faces()];
+    let mut open = vec![net.outer_face().fix()];
+    outside[open[0].index()] = true;
+    // The outer face may have no edges of its own to walk along, so its neighbours come from the hull.
+    let hull: Vec<_> = net.convex_hull().filter(|e| !e.is_constraint_edge()).collect();
+    for edge in hull {
+        for face in [edge.face(), edge.rev().face()] {
+            if !std::mem::replace(&mut outside[face.fix().index()], true) {
+                open.push(face.fix());
+            }
+        }
+    }
+    while let Some(face) = open.pop() {
+        let Some(face) = net.face(face).as_inner() else { continue };
+        for edge in face.adjacent_edges() {
+            let next = edge.rev().face().fix();
+            if !edge.is_constraint_edge() && !std::mem::replace(&mut outside[next.index()], true) {
+                open.push(next);
+            }
+        }
+    }
+    outside
+}
+
+fn lowest_first([a, b, c]: [usize; 3]) -> [usize; 3] {
+    if a < b && a < c {
+        [a, b, c]
+    } else if b < c {
+        [b, c, a]
+    } else {
+        [c, a, b]
+    }
+}
+
+/// Beyond this many corners a polygon that is not simple gets a plain fan: clipping takes cubic time.
+const MOST_EARS: usize = 500;
+
+/// Clips ears; good for polygons that touch themselves, such as one with a slit to its hole.
+fn by_ears(polygon: &[DVec2]) -> Vec<[usize; 3]> {
+    if polygon.len() > MOST_EARS {
+        return fan(polygon.len());
+    }
+    let is_clockwise = signed_area(polygon) < 0.0;
+    let mut left: Vec<usize> = (0..polygon.len()).collect();
+    if is_clockwise {
+        left.reverse();
+    }
+    let mut triangles = Vec::with_capacity(polygon.len() - 2);
+    while left.len() > 2 {
+        let at = (0..left.len()).find(|&i| is_ear(polygon, &left, i)).unwrap_or(0);
+        let [a, b, c] = around(&left, at);
+        triangles.push(if is_clockwise { [c, b, a] } else { [a, b, c] });
+        left.remove(at);
+    }
+    triangles
+}
+
+fn around(left: &[usize], at: usize) -> [usize; 3] {
+    let n = left.len();
+    [left[(at + n - 1) % n], left[at], left[(at + 1) % n]]
+}
+
+/// Whether the corner turns left and no other corner lies in its triangle, save those at one point with its own.
+fn is_ear(polygon: &[DVec2], left: &[usize], at: usize) -> bool {
+    let [a, b, c] = around(left, at).map(|i| polygon[i]);
+    let is_inside = |p: DVec2| {
+        p != a && p != b && p != c && orient2d(a, b, p) >= 0.0 && orient2d(b, c, p) >= 0.0 && orient2d(c, a, p) >= 0.0
+    };
+    orient2d(a, b, c) > 0.0 && !left.iter().any(|&i| is_inside(polygon[i]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn polygon(points: &[(f64, f64)]) -> Vec<DVec2> {
+        points.iter().map(|&(x, y)| DVec2::new(x, y)).collect()
+    }
+
+    /// Asserts n − 2 triangles that turn as the polygon does and cover its area.
+    fn assert_covers(corners: &[DVec2]) {
+        let triangles = triangulate(corners);
+        assert_eq!(triangles.len(), corners.len() - 2, "{corners:?}");
+        let area = signed_area(corners);
+        let areas: Vec<f64> = triangles.iter().map(|t| orient2d(corners[t[0]], corners[t[1]], corners[t[2]])).collect();
+        assert!(areas.iter().all(|a| a * area.signum() > 0.0), "{corners:?}: {triangles:?}");
+        let sum: f64 = areas.iter().sum::<f64>() / 2.0;
+        assert!((sum - area).abs() <= 1e-9 * area.abs(), "{sum} is not {area}");
+    }
+
+    #[test]
+    fn concave_polygons_with_corners_on_straight_sides_are_covered() {
+        let comb = polygon(&[(0., 0.), (1., 0.), (2., 0.), (4., 0.), (4., 3.), (3., 1.), (2., 3.), (1., 1.), (0., 3.)]);
+        for scale in [1e-200, 1e-3, 1.0, 1e5, 1e200] {
+            let scaled: Vec<DVec2> = comb.iter().map(|&p| p * scale).collect();
+            assert_eq!(triangulate(&scaled), triangulate(&comb), "{scale}");
+        }
+        assert_covers(&comb);
+        assert_covers(&comb.iter().copied().rev().collect::<Vec<_>>());
+        let dart = polygon(&[(0., 0.), (2., 1.), (0., 2.), (1., 1.)]);
+        assert_covers(&dart);
+        assert_eq!(triangulate(&dart), [[0, 1, 3], [1, 2, 3]]);
+    }
+
+    #[test]
+    fn a_slit_to_a_hole_is_walked_around() {
+        let slit = polygon(&[
+            (0., 0.),
+            (4., 0.),
+            (4., 4.),
+            (0., 4.),
+            (0., 0.),
+            (1., 1.),
+            (1., 3.),
+            (3., 3.),
+            (3., 1.),
+            (1., 1.),
+        ]);
+        let triangles = triangulate(&slit);
+        assert_eq!(triangles.len(), 8);
+        let areas = triangles.iter().map(|t| orient2d(slit[t[0]], slit[t[1]], slit[t[2]]) / 2.0);
+        assert_eq!(areas.inspect(|&a| assert!(a >= 0.0)).sum::<f64>(), 12.0);
+    }
+
+    #[test]
+    fn nothing_panics_on_nonsense() {
+        let bow = polygon(&[(0., 0.), (1., 1.), (1., 0.), (0., 1.)]);
+        let line = polygon(&[(0., 0.), (1., 0.), (2., 0.), (3., 0.), (1.5, 0.)]);
+        let point = vec![DVec2::ONE; 5];
+        let nan = vec![DVec2::NAN; 5];
+        let large = vec![DVec2::ONE; 1000];
+        for nonsense in [bow, line, point, nan, large] {
+            assert_eq!(triangulate(&nonsense).len(), nonsense.len() - 2);
+        }
+        assert!(triangulate(&[DVec2::ZERO, DVec2::X]).is_empty());
+    }
+
+    proptest! {
+        #[test]
+        fn stars_are_covered(radii in prop::collection::vec(0.1_f64..10.0, 4..40), far in -1e4_f64..1e4) {
+            let n = radii.len() as f64;
+            let corner = |(i, r): (usize, &f64)| DVec2::from_angle(i as f64 / n * std::f64::consts::TAU) * *r + DVec2::splat(far);
+            let star: Vec<DVec2> = radii.iter().enumerate().map(corner).collect();
+            assert_covers(&star);
+        }
+    }
+}

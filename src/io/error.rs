@@ -1,0 +1,377 @@
+//! What can be wrong with a file, with its place and what to do.
+
+use std::fmt;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use crate::mesh::BuildError;
+
+/// Where in a file something is. Shown as `spot.obj:17`, or as `spot.stl` when the file has no lines.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Place {
+    /// The file, as it was named.
+    pub path: PathBuf,
+    /// The line, counted from 1; `None` in binary files, or when the whole file is meant.
+    pub line: Option<usize>,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", Shown(&self.path))?;
+        self.line.map_or(Ok(()), |line| write!(f, ":{line}"))
+    }
+}
+
+/// A path as messages show it: `-` is the standard stream.
+struct Shown<'a>(&'a Path);
+
+impl fmt::Display for Shown<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.0.as_os_str() == "-" { f.write_str("standard input") } else { self.0.display().fmt(f) }
+    }
+}
+
+/// Why a file could not be read or written.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum IoError {
+    /// The file to read does not exist.
+    #[error("there is no file {}; check the name and the folder", path.display())]
+    Missing {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A folder was named where a file is needed.
+    #[error("{} is a folder; name a file", path.display())]
+    IsFolder {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The file cannot be opened or read.
+    #[error("{} cannot be read ({source}); check that you may read it", Shown(path))]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// Neither the name nor the content tells the format.
+    #[error("{}: unknown mesh format; use a name that ends in .obj, .ply, .stl or .off", path.display())]
+    UnknownFormat {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The file has no content.
+    #[error("{} is empty; export the model again", Shown(path))]
+    Empty {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The content does not follow the format.
+    #[error("{place}: {fault}")]
+    Content {
+        /// Where.
+        place: Place,
+        /// What is wrong.
+        fault: ContentFault,
+    },
+    /// The vertices and faces do not make a mesh.
+    #[error("{place}: {fault}{}{}", advice(fault), AlsoSee(also_lines))]
+    Mesh {
+        /// Where.
+        place: Place,
+        /// What is wrong; vertices and faces are numbered from 0 in the order of the file.
+        fault: BuildError,
+        /// Lines of other elements that take part.
+        also_lines: Vec<usize>,
+    },
+    /// A seam line of an OBJ file runs where the mesh has no edge.
+    #[error("{place}: the seam runs from vertex {} to vertex {} (counted from 1), but no edge does; let it follow the edges of the mesh", a + 1, b + 1)]
+    SeamOffEdges {
+        /// Where.
+        place: Place,
+        /// One end, counted from 0 (OBJ counts from 1, and so does the message).
+        a: usize,
+        /// The other end.
+        b: usize,
+    },
+    /// The surface would be closed if vertices at one point were one.
+    #[error(
+        "{}: the surface is torn: each of its {rim_edges} rim edges lies exactly on another one; \
+         vertices {a} and {b} lie at one point{}; weld them with --weld 0",
+        Shown(path),
+        AlsoSee(lines)
+    )]
+    Torn {
+        /// The file.
+        path: PathBuf,
+        /// Number of rim edges.
+        rim_edges: usize,
+        /// A vertex, counted from 0.
+        a: usize,
+        /// Another vertex at the same point.
+        b: usize,
+        /// The lines of both; empty in binary files.
+        lines: Vec<usize>,
+    },
+    /// Welding left no face.
+    #[error("{}: welding leaves no face; weld by less than the shortest edge", Shown(path))]
+    WeldedAway {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The welding distance is below zero.
+    #[error("cannot weld vertices {mm}mm apart; --weld takes a distance of 0mm or more")]
+    BadWeld {
+        /// What was asked.
+        mm: f64,
+    },
+    /// The wanted size is not above zero.
+    #[error("cannot make the model {mm}mm large; --size takes a length above 0mm")]
+    BadSize {
+        /// What was asked.
+        mm: f64,
+    },
+    /// The folder to write into does not exist.
+    #[error("cannot write {}: there is no folder {}; make it first", path.display(), folder.display())]
+    NoFolder {
+        /// The file.
+        path: PathBuf,
+        /// The missing folder.
+        folder: PathBuf,
+    },
+    /// Something else than a folder stands where a folder is needed.
+    #[error("cannot write into {}: {} is a file, not a folder; choose another place", path.display(), file.display())]
+    NotAFolder {
+        /// What was to be written, or made.
+        path: PathBuf,
+        /// The file in the way.
+        file: PathBuf,
+    },
+    /// The existing file is marked as read-only.
+    #[error("{} is write-protected; lift the protection or choose another name", path.display())]
+    WriteProtected {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The system refuses to write.
+    #[error("cannot write {} ({source}); check that you may write there and that the disk has room", path.display())]
+    Unwritable {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// A coordinate does not fit the single precision of STL.
+    #[error("vertex {vertex} is too far out for STL, which holds numbers up to 3e38; write OBJ or PLY")]
+    TooFarForStl {
+        /// The vertex, counted from 0 among the vertices that are written.
+        vertex: usize,
+    },
+}
+
+impl IoError {
+    /// Whether the reader at the other end of a pipe has gone, which is no failure of ours.
+    pub fn is_broken_pipe(&self) -> bool {
+        matches!(self, Self::Unwritable { source, .. } if source.kind() == ErrorKind::BrokenPipe)
+    }
+
+    /// The error of reading `path`.
+    pub(super) fn reading(path: &Path, source: std::io::Error) -> Self {
+        let path = path.to_owned();
+        match source.kind() {
+            ErrorKind::NotFound => Self::Missing { path },
+            ErrorKind::IsADirectory => Self::IsFolder { path },
+            _ => Self::Unreadable { path, source },
+        }
+    }
+}
+
+/// What to do, where the fault itself does not say it.
+fn advice(fault: &BuildError) -> &'static str {
+    match fault {
+        BuildError::NoFaces => "; export the model as a polygon mesh",
+        BuildError::NotFinite { .. } => "; correct it or export the model again",
+        BuildError::MissingVertex { .. } => "; correct the number or export the model again",
+        BuildError::TooFewCorners { .. } => "; remove it",
+        BuildError::TooMany { .. } => "; simplify the model first",
+        _ => "",
+    }
+}
+
+/// ` (see also line 3)`, ` (see also lines 3 and 7)`, or nothing.
+struct AlsoSee<'a>(&'a [usize]);
+
+impl fmt::Display for AlsoSee<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            [] => Ok(()),
+            [line] => write!(f, " (see also line {line})"),
+            [first @ .., last] => {
+                f.write_str(" (see also lines ")?;
+                for (i, line) in first.iter().enumerate() {
+                    write!(f, "{}{line}", if i > 0 { ", " } else { "" })?;
+                }
+                write!(f, " and {last})")
+            }
+        }
+    }
+}
+
+/// How the content of a mesh file breaks its format. Texts from the file are shortened.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ContentFault {
+    /// Bytes that no text has.
+    #[error("this is binary data, not {format} text; check the file's type or export the model again")]
+    NotText {
+        /// The format that was expected.
+        format: &'static str,
+    },
+    /// A line that should be a vertex.
+    #[error("`{text}` is not a vertex; it needs three numbers, as in `{example}`")]
+    NotAVertex {
+        /// The line.
+        text: String,
+        /// How it should look.
+        example: &'static str,
+    },
+    /// A line that should be a face.
+    #[error("`{text}` is not a face; it needs the numbers of its vertices, as in `{example}`")]
+    NotAFace {
+        /// The line.
+        text: String,
+        /// How it should look.
+        example: &'static str,
+    },
+    /// An OBJ face or seam names a vertex that is not there.
+    #[error(
+        "`{text}` names vertex {index}, but the file has {count}, counted from 1; correct the number or export the model again"
+    )]
+    NoSuchVertex {
+        /// The line.
+        text: String,
+        /// The number as it stands in the file.
+        index: i64,
+        /// Number of vertices.
+        count: usize,
+    },
+    /// An OBJ seam line that cannot be read.
+    #[error("`{text}` is not a seam; it needs the numbers of at least two vertices, as in `l 1 2 3`")]
+    NotASeam {
+        /// The line.
+        text: String,
+    },
+    /// A header line of a PLY or OFF file that cannot be read.
+    #[error("`{text}` does not belong in the header of a {format} file; {wanted}")]
+    BadHeader {
+        /// The line.
+        text: String,
+        /// PLY or OFF.
+        format: &'static str,
+        /// What should be there.
+        wanted: &'static str,
+    },
+    /// The header says that there are more elements than the rest of the file can hold.
+    #[error(
+        "the header announces {count} of `{element}`, but only {bytes} bytes follow; \
+         the file is cut short or its header is wrong, export the model again"
+    )]
+    CountTooLarge {
+        /// The element.
+        element: String,
+        /// What the header says.
+        count: u64,
+        /// How much is left of the file.
+        bytes: usize,
+    },
+    /// A PLY file without a property that a mesh needs.
+    #[error("`{element}` has no property `{property}`; export the model again with its vertices and faces")]
+    NoProperty {
+        /// The element.
+        element: &'static str,
+        /// The missing property.
+        property: &'static str,
+    },
+    /// The file ends within its elements.
+    #[error(
+        "the file ends within `{element}` number {index} (of {count}, counted from 0); it is cut short, export the model again"
+    )]
+    CutShort {
+        /// The element.
+        element: String,
+        /// Which one.
+        index: usize,
+        /// How many there should be.
+        count: usize,
+    },
+    /// A value of a PLY file that does not fit its property.
+    #[error(
+        "`{text}` in `{element}` number {index} (counted from 0) is not {wanted}; correct it or export the model again"
+    )]
+    BadValue {
+        /// What stands there.
+        text: String,
+        /// The element.
+        element: String,
+        /// Which one.
+        index: usize,
+        /// What should be there.
+        wanted: &'static str,
+    },
+    /// A text STL file with a word out of order.
+    #[error("`{text}` is out of place in triangle {triangle} (counted from 0); {wanted}, or export the model again")]
+    BadTriangle {
+        /// What stands there.
+        text: String,
+        /// The triangle.
+        triangle: usize,
+        /// What should be there.
+        wanted: &'static str,
+    },
+    /// An STL triangle with a NaN or an infinite coordinate.
+    #[error(
+        "triangle {triangle} (counted from 0) has a coordinate that is not a finite number; correct it or export the model again"
+    )]
+    TriangleNotFinite {
+        /// The triangle.
+        triangle: usize,
+    },
+    /// A file whose first line is not that of its format.
+    #[error("this is not {format}: it begins with `{text}`; check the file's type")]
+    NotThisFormat {
+        /// The format that was expected.
+        format: &'static str,
+        /// How the file begins.
+        text: String,
+    },
+}
+
+/// A fault with its line; the path is added by the caller.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Located {
+    pub line: Option<usize>,
+    pub fault: ContentFault,
+}
+
+impl Located {
+    pub fn at(line: usize, fault: ContentFault) -> Self {
+        Self { line: Some(line), fault }
+    }
+
+    pub fn anywhere(fault: ContentFault) -> Self {
+        Self { line: None, fault }
+    }
+
+    pub fn in_file(self, path: &Path) -> IoError {
+        IoError::Content { place: Place { path: path.to_owned(), line: self.line }, fault: self.fault }
+    }
+}
+
+/// The start of a text from a file, fit for a message: one line, no control characters, not long.
+pub(super) fn excerpt(bytes: &[u8]) -> String {
+    const LONGEST: usize = 40;
+    let text = String::from_utf8_lossy(&bytes[..bytes.len().min(4 * LONGEST)]);
+    let clean: String = text.trim().chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect();
+    if clean.chars().count() > LONGEST { clean.chars().take(LONGEST).chain(['…']).collect() } else { clean }
+}

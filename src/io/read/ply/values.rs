@@ -1,0 +1,134 @@
+//! The values after a PLY header, one after the other.
+
+use super::header::{Element, Property, Scalar};
+use super::{ContentFault, Located, excerpt};
+use crate::io::read::text::number;
+
+/// Numbers in the order of the file. All types fit into f64 without loss.
+pub(super) trait Values {
+    /// The next number.
+    fn next(&mut self, kind: Scalar) -> Result<f64, Missing>;
+    /// Number of bytes that have not been read.
+    fn remaining(&self) -> usize;
+    /// The fewest bytes that one number takes.
+    fn least_item_bytes(&self, kind: Scalar) -> usize;
+    /// The line of the last number; `None` in binary files.
+    fn line(&self) -> Option<usize>;
+
+    /// The fewest bytes that a property takes.
+    fn least_bytes(&self, property: &Property) -> usize {
+        self.least_item_bytes(property.list_count.unwrap_or(property.item))
+    }
+}
+
+/// Why there is no next number.
+pub(super) enum Missing {
+    End,
+    NotANumber { text: String, line: usize },
+}
+
+impl Missing {
+    /// The fault, for an element.
+    pub fn within(self, element: &Element, index: usize) -> Located {
+        let name = element.name.clone();
+        match self {
+            Self::End => {
+                Located::anywhere(ContentFault::CutShort { element: name, index, count: element.count as usize })
+            }
+            Self::NotANumber { text, line } => {
+                Located::at(line, ContentFault::BadValue { text, element: name, index, wanted: "a number" })
+            }
+        }
+    }
+}
+
+/// Numbers as words; line ends count as white space.
+pub(super) struct Text<'a> {
+    rest: &'a [u8],
+    line: usize,
+}
+
+impl<'a> Text<'a> {
+    /// The words of `rest`, which begins after `lines_before` lines.
+    pub fn new(rest: &'a [u8], lines_before: usize) -> Self {
+        Self { rest, line: lines_before + 1 }
+    }
+}
+
+impl Values for Text<'_> {
+    fn next(&mut self, _kind: Scalar) -> Result<f64, Missing> {
+        let start = self.rest.iter().position(|b| !b.is_ascii_whitespace()).ok_or(Missing::End)?;
+        let (space, from_word) = self.rest.split_at(start);
+        // CR LF is one end, and so is CR alone.
+        let ends =
+            (0..space.len()).filter(|&i| space[i] == b'\n' || space[i] == b'\r' && space.get(i + 1) != Some(&b'\n'));
+        self.line += ends.count();
+        let end = from_word.iter().position(u8::is_ascii_whitespace).unwrap_or(from_word.len());
+        let (word, rest) = from_word.split_at(end);
+        self.rest = rest;
+        number(word).ok_or_else(|| Missing::NotANumber { text: excerpt(word), line: self.line })
+    }
+
+    fn remaining(&self) -> usize {
+        self.rest.len()
+    }
+
+    /// A digit and the space after it; the last of the file may lack the space.
+    fn least_item_bytes(&self, _kind: Scalar) -> usize {
+        1
+    }
+
+    fn line(&self) -> Option<usize> {
+        Some(self.line)
+    }
+}
+
+/// Numbers as they are in memory.
+pub(super) struct Binary<'a> {
+    rest: &'a [u8],
+    is_big_endian: bool,
+}
+
+impl<'a> Binary<'a> {
+    /// The numbers in `rest`.
+    pub fn new(rest: &'a [u8], is_big_endian: bool) -> Self {
+        Self { rest, is_big_endian }
+    }
+
+    fn take<const N: usize>(&mut self) -> Result<[u8; N], Missing> {
+        let (bytes, rest) = self.rest.split_first_chunk::<N>().ok_or(Missing::End)?;
+        self.rest = rest;
+        let mut bytes = *bytes;
+        if self.is_big_endian {
+            bytes.reverse();
+        }
+        Ok(bytes)
+    }
+}
+
+impl Values for Binary<'_> {
+    fn next(&mut self, kind: Scalar) -> Result<f64, Missing> {
+        Ok(match kind {
+            Scalar::I8 => f64::from(i8::from_le_bytes(self.take()?)),
+            Scalar::U8 => f64::from(u8::from_le_bytes(self.take()?)),
+            Scalar::I16 => f64::from(i16::from_le_bytes(self.take()?)),
+            Scalar::U16 => f64::from(u16::from_le_bytes(self.take()?)),
+            Scalar::I32 => f64::from(i32::from_le_bytes(self.take()?)),
+            Scalar::U32 => f64::from(u32::from_le_bytes(self.take()?)),
+            Scalar::F32 => f64::from(f32::from_le_bytes(self.take()?)),
+            Scalar::F64 => f64::from_le_bytes(self.take()?),
+        })
+    }
+
+    fn remaining(&self) -> usize {
+        self.rest.len()
+    }
+
+    fn least_item_bytes(&self, kind: Scalar) -> usize {
+        kind.size()
+    }
+
+    fn line(&self) -> Option<usize> {
+        None
+    }
+}

@@ -1,0 +1,96 @@
+//! What a reader finds in a file, before it is a mesh.
+
+use glam::DVec3;
+
+/// Vertices and faces in the order of the file, with the places where they stand.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct RawMesh {
+    pub positions: Vec<DVec3>,
+    /// The corners of all faces, one face after the other.
+    pub corners: Vec<u32>,
+    /// Where the corners of each face end.
+    pub ends: Vec<usize>,
+    pub groups: Vec<GroupRun>,
+    pub seams: Vec<SeamSegment>,
+    /// The line of each vertex; empty in binary files.
+    pub vertex_lines: Vec<u32>,
+    /// The line of each face in the file, dropped ones included; empty in binary files.
+    pub face_lines: Vec<u32>,
+    /// The number that each face has in the file, when faces were dropped.
+    pub face_numbers: Option<Vec<u32>>,
+}
+
+/// The faces from `first_face` on belong to a group, until the next run.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct GroupRun {
+    pub first_face: usize,
+    pub name: Option<String>,
+}
+
+/// A stretch of a seam line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct SeamSegment {
+    pub line: usize,
+    pub ends: [u32; 2],
+}
+
+impl RawMesh {
+    pub fn push_face(&mut self, corners: impl IntoIterator<Item = u32>) {
+        self.corners.extend(corners);
+        self.ends.push(self.corners.len());
+    }
+
+    pub fn face(&self, face: usize) -> &[u32] {
+        let start = if face == 0 { 0 } else { self.ends[face - 1] };
+        &self.corners[start..self.ends[face]]
+    }
+
+    /// Replaces every face by what `change` makes of its corners, and drops it when fewer than three are left.
+    /// Returns the number of dropped faces and the number of the first.
+    pub fn change_faces(&mut self, mut change: impl FnMut(&mut Vec<u32>)) -> Option<(usize, usize)> {
+        let old = std::mem::take(&mut self.corners);
+        let old_ends = std::mem::take(&mut self.ends);
+        let mut numbers = Vec::with_capacity(old_ends.len());
+        let mut dropped = None;
+        let (mut start, mut face) = (0, Vec::new());
+        let mut first_kept = Vec::with_capacity(if self.groups.is_empty() { 0 } else { old_ends.len() + 1 });
+        for (index, &end) in old_ends.iter().enumerate() {
+            if !self.groups.is_empty() {
+                first_kept.push(self.ends.len());
+            }
+            face.clear();
+            face.extend_from_slice(&old[start..end]);
+            start = end;
+            change(&mut face);
+            let number = self.file_face(index);
+            if face.len() < 3 {
+                dropped = dropped.map(|(count, first)| (count + 1, first)).or(Some((1, number)));
+            } else {
+                self.push_face(face.iter().copied());
+                numbers.push(number as u32);
+            }
+        }
+        for run in &mut self.groups {
+            run.first_face = first_kept.get(run.first_face).copied().unwrap_or(self.ends.len());
+        }
+        if dropped.is_some() {
+            self.face_numbers = Some(numbers);
+        }
+        dropped
+    }
+
+    /// The number that a face has in the file.
+    pub fn file_face(&self, face: usize) -> usize {
+        self.face_numbers.as_ref().and_then(|numbers| numbers.get(face)).map_or(face, |&n| n as usize)
+    }
+
+    /// The line of a face, by its number in the file.
+    pub fn face_line(&self, file_face: usize) -> Option<usize> {
+        self.face_lines.get(file_face).map(|&line| line as usize)
+    }
+
+    /// The line of a vertex.
+    pub fn vertex_line(&self, vertex: usize) -> Option<usize> {
+        self.vertex_lines.get(vertex).map(|&line| line as usize)
+    }
+}

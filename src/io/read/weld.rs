@@ -1,0 +1,157 @@
+//! Making one vertex of those that lie together.
+
+use std::collections::HashMap;
+
+use glam::DVec3;
+
+use super::raw::RawMesh;
+
+/// What welding did.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Welded {
+    /// Number of vertices that went into others.
+    pub vertices: usize,
+    /// Number of faces that lost their area, and the first of them; they are dropped.
+    pub faces: Option<(usize, usize)>,
+}
+
+/// Lets each vertex go into the nearest earlier one that stays and is at most `distance` away; 0 welds equal positions
+/// only. The vertices that stay are further apart than `distance`, keep their numbers and do not move. The others have no
+/// face any more.
+pub(super) fn weld(raw: &mut RawMesh, distance: f64) -> Welded {
+    let target =
+        if distance > 0.0 { nearest_earlier(&raw.positions, distance) } else { first_equal(raw.positions.iter()) };
+    let vertices = target.iter().enumerate().filter(|&(v, &t)| v != t as usize).count();
+    // A number beyond the vertices is left for the builder to tell.
+    let place = |v: u32| target.get(v as usize).copied().unwrap_or(v);
+    let faces = raw.change_faces(|face| {
+        let is_changed = face.iter().any(|&v| place(v) != v);
+        if is_changed {
+            face.iter_mut().for_each(|v| *v = place(*v));
+            remove_spikes(face);
+        }
+    });
+    for seam in &mut raw.seams {
+        seam.ends = seam.ends.map(place);
+    }
+    raw.seams.retain(|seam| seam.ends[0] != seam.ends[1]);
+    Welded { vertices, faces }
+}
+
+/// The first vertex at the same position, for each.
+pub(super) fn first_equal<'a>(positions: impl ExactSizeIterator<Item = &'a DVec3>) -> Vec<u32> {
+    let mut first = HashMap::with_capacity(positions.len());
+    positions.enumerate().map(|(v, &p)| *first.entry(position_key(p)).or_insert(v as u32)).collect()
+}
+
+/// Equal positions have equal keys; −0 equals 0.
+pub(super) fn position_key(p: DVec3) -> [u64; 3] {
+    (p + 0.0).to_array().map(f64::to_bits)
+}
+
+fn nearest_earlier(positions: &[DVec3], distance: f64) -> Vec<u32> {
+    let low = positions.iter().copied().reduce(DVec3::min).unwrap_or_default();
+    let high = positions.iter().copied().reduce(DVec3::max).unwrap_or_default();
+    // Cells may be larger than the distance, never smaller, so that only neighbours are searched and the numbers stay small.
+    let cell = distance.max((high - low).max_element() / (1_u64 << 40) as f64);
+    let cell_of = |p: DVec3| ((p - low) / cell).floor().to_array().map(|x| x as i64);
+    // For each cell the last vertex that stays there; for each such vertex the one before it.
+    let mut last: HashMap<[i64; 3], u32> = HashMap::new();
+    let mut before = vec![u32::MAX; positions.len()];
+    let mut target = Vec::with_capacity(positions.len());
+    for (v, &p) in positions.iter().enumerate() {
+        let home = cell_of(p);
+        let mut nearest = None;
+        for neighbour in cells_around(home) {
+            let mut w = last.get(&neighbour).copied().unwrap_or(u32::MAX);
+            while w != u32::MAX {
+                let d = p.distance(positions[w as usize]);
+                if d <= distance && nearest.is_none_or(|(e, x)| (d, w) < (e, x)) {
+                    nearest = Some((d, w));
+                }
+                w = before[w as usize];
+            }
+        }
+        if nearest.is_none() {
+            before[v] = last.insert(home, v as u32).unwrap_or(u32::MAX);
+        }
+        target.push(nearest.map_or(v as u32, |(_, w)| w));
+    }
+    target
+}
+
+fn cells_around([x, y, z]: [i64; 3]) -> impl Iterator<Item = [i64; 3]> {
+    (-1..=1).flat_map(move |i| (-1..=1).flat_map(move |j| (-1..=1).map(move |k| [x + i, y + j, z + k])))
+}
+
+/// Removes corners that repeat the one before, and spikes that run out and back: neither bounds any area.
+fn remove_spikes(face: &mut Vec<u32>) {
+    let mut at = 0;
+    let mut unchanged = 0;
+    while face.len() > 1 && unchanged < face.len() {
+        let n = face.len();
+        at %= n;
+        let (here, next) = (face[at], face[(at + 1) % n]);
+        if here == next {
+            face.remove(at);
+        } else if n > 2 && face[(at + 2) % n] == here {
+            // here – next – here: next goes, and one of the two.
+            face.remove((at + 1) % n);
+            let at_here = if (at + 1) % n < at { at - 1 } else { at };
+            face.remove(at_here);
+        } else {
+            at += 1;
+            unchanged += 1;
+            continue;
+        }
+        at = at.saturating_sub(2);
+        unchanged = 0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn spikes_go_and_the_rest_stays() {
+        let cleaned = |face: &[u32]| {
+            let mut face = face.to_vec();
+            remove_spikes(&mut face);
+            face
+        };
+        assert_eq!(cleaned(&[1, 2, 3, 4]), [1, 2, 3, 4]);
+        assert_eq!(cleaned(&[1, 1, 2, 3, 3]), [1, 2, 3]);
+        assert!(cleaned(&[1, 2, 1, 3]).len() < 3);
+        assert!(cleaned(&[1, 1, 1]).len() < 3);
+        let mut kept = cleaned(&[1, 2, 3, 2, 4]);
+        kept.sort_unstable();
+        assert_eq!(kept, [1, 2, 4]);
+        assert_eq!(cleaned(&[1, 2, 3, 1, 4, 5]), [1, 2, 3, 1, 4, 5]);
+    }
+
+    #[test]
+    fn minus_zero_is_zero() {
+        assert_eq!(first_equal([DVec3::ZERO, DVec3::X, -DVec3::ZERO].iter()), [0, 1, 0]);
+    }
+
+    proptest! {
+        #[test]
+        fn survivors_are_further_apart_than_the_distance(
+            points in prop::collection::vec(prop::array::uniform3(-3_i8..3), 1..40),
+            distance in 0.01_f64..2.5,
+        ) {
+            let positions: Vec<DVec3> = points.iter().map(|p| DVec3::from_array(p.map(f64::from)) * 0.7).collect();
+            let target = nearest_earlier(&positions, distance);
+            for (v, &t) in target.iter().enumerate() {
+                prop_assert_eq!(target[t as usize], t);
+                prop_assert!(positions[v].distance(positions[t as usize]) <= distance);
+                for (w, &u) in target.iter().enumerate() {
+                    let both_stay = t as usize == v && u as usize == w && v != w;
+                    prop_assert!(!both_stay || positions[v].distance(positions[w]) > distance);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! Writing mesh files: one writer for each format. Elements are numbered densely in the order of their ids; holes are not
+//! written.
+
+use std::path::Path;
+
+use super::error::IoError;
+use super::format::MeshFormat;
+use super::output;
+use crate::mesh::Mesh;
+
+mod obj;
+mod off;
+mod ply;
+mod polygons;
+mod stl;
+
+/// How a mesh file is written.
+#[derive(Debug, Clone, Default)]
+pub struct WriteOptions {
+    /// The whole command line that made the mesh (`kerfold solid cube -o cube.obj`), for a comment in the file.
+    pub command: Option<String>,
+    /// How PLY files are encoded.
+    pub ply: PlyEncoding,
+}
+
+/// How the numbers of a PLY file are written. All three keep every digit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum PlyEncoding {
+    /// As text.
+    #[default]
+    Text,
+    /// Binary, lowest byte first.
+    BinaryLittleEndian,
+    /// Binary, highest byte first.
+    BinaryBigEndian,
+}
+
+impl WriteOptions {
+    /// The command line as a comment of one line.
+    fn comment(&self) -> Option<String> {
+        self.command.as_ref().map(|command| one_line(command))
+    }
+}
+
+/// The text without control characters, which would end a line.
+fn one_line(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
+}
+
+/// Writes a mesh to a file in the format of its extension, or as OBJ to standard output when the path is `-`.
+/// The file is whole or not there ([`output::write_file`]).
+///
+/// # Errors
+/// When the extension is not known or the file cannot be written.
+pub fn write_mesh(path: &Path, mesh: &Mesh, options: &WriteOptions) -> Result<(), IoError> {
+    let format = MeshFormat::of_path(path).ok_or_else(|| IoError::UnknownFormat { path: path.to_owned() })?;
+    output::write_file(path, &mesh_bytes(format, mesh, options)?)
+}
+
+/// The content of a mesh file.
+///
+/// OBJ, PLY and OFF keep every digit of the coordinates; OBJ alone keeps groups and seams; STL rounds to single precision
+/// and cuts faces into triangles.
+///
+/// # Errors
+/// [`IoError::TooFarForStl`] when a coordinate does not fit.
+pub fn mesh_bytes(format: MeshFormat, mesh: &Mesh, options: &WriteOptions) -> Result<Vec<u8>, IoError> {
+    Ok(match format {
+        MeshFormat::Obj => obj::write(mesh, options),
+        MeshFormat::Ply => ply::write(mesh, options),
+        MeshFormat::Off => off::write(mesh, options),
+        MeshFormat::Stl => stl::write(mesh, options)?,
+    })
+}
+
+#[cfg(test)]
+mod tests;

@@ -5,7 +5,7 @@ use std::fmt;
 use super::layout::SheetId;
 use crate::net::PieceId;
 
-/// Why pieces could not be laid out. The last five variants are the findings of [`super::verify`]: our own bugs, reported
+/// Why pieces could not be laid out. The last three variants are the findings of [`super::verify`]: our own bugs, reported
 /// instead of written to a file.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]

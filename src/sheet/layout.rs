@@ -214,6 +214,7 @@ mod tests {
     use super::super::{Labels, SheetSize};
     use super::*;
     use crate::units::Length;
+    use proptest::prelude::*;
 
     #[test]
     fn quarter_turns_are_exact() {
@@ -305,6 +306,26 @@ mod tests {
                 let result = lay_out(&net_of(vec![contour.clone()]), &params);
                 assert!(matches!(result, Err(SheetError::BadContour { contour: 0, .. })), "{result:?}");
             }
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(32))]
+        /// Spiky pieces, any kerf, any spacing: the re-measuring at the end finds nothing.
+        #[test]
+        fn spiky_pieces_pass_the_re_measuring(
+            stars in prop::collection::vec(prop::collection::vec(1.0..60.0_f64, 5..16), 1..12),
+            (kerf, spacing, margin) in (0.0..1.0_f64, 0.01..10.0_f64, 0.0..20.0_f64),
+            far in -1e5..1e5_f64,
+        ) {
+            let corner = |i: usize, n: usize, r: f64| {
+                DVec2::from_angle(i as f64 * std::f64::consts::TAU / n as f64) * r + DVec2::splat(far)
+            };
+            let star = |radii: Vec<f64>| radii.iter().enumerate().map(|(i, &r)| corner(i, radii.len(), r)).collect();
+            let [kerf, spacing, margin] = [kerf, spacing, margin].map(Length::from_mm);
+            let params = SheetParams { kerf, spacing, margin, sheet: SheetSize::of_mm(250.0, 200.0), ..Default::default() };
+            let set = lay_out(&net_of(stars.into_iter().map(star).collect()), &params);
+            prop_assert!(set.is_ok(), "{set:?}");
         }
     }
 }

@@ -5,11 +5,14 @@
 
 mod error;
 mod format;
+pub mod layout_json;
 pub mod output;
+pub mod pieces_json;
 mod read;
 pub mod report_csv;
 pub mod report_json;
 pub mod report_text;
+pub mod svg;
 mod write;
 
 pub use error::{ContentFault, IoError, Place};

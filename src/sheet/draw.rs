@@ -1,0 +1,391 @@
+//! Drawing a layout: cuts, folds, lettering and information of every sheet.
+
+use std::collections::BTreeMap;
+
+use glam::DVec2;
+
+use super::drawing::{Drawing, MarkKind, Stroke};
+use super::error::SheetError;
+use super::glyph::lettering;
+use super::kerf::CutShape;
+use super::label::{Label, Taken, name_label, number_label};
+use super::layout::{Layout, Placed, SheetReport};
+use super::params::{Labels, ScoreStyle, SheetParams, Stock};
+use crate::geom::polygon::bounds;
+use crate::net::{Fold, FoldKind, Net, Piece, PieceId, Seam};
+
+/// Length of a dash, and about the length of the gap after it, in mm.
+const DASH: f64 = 2.0;
+
+/// Sides of the reference square that are tried, in mm.
+const REFERENCE_SIDES: [f64; 3] = [100.0, 10.0, 1.0];
+
+/// What lies on a piece besides its outline.
+#[derive(Default)]
+struct Features<'a> {
+    folds: Vec<&'a Fold>,
+    /// The seams of the piece with the side, 0 or 1, that lies on it.
+    seams: Vec<(&'a Seam, usize)>,
+}
+
+fn features(net: &Net) -> Result<BTreeMap<PieceId, Features<'_>>, SheetError> {
+    let mut all: BTreeMap<PieceId, Features<'_>> = net.pieces.iter().map(|p| (p.id, Features::default())).collect();
+    let unknown = |edge: String, piece| SheetError::UnknownPiece { edge, piece };
+    for fold in &net.folds {
+        let here = all.get_mut(&fold.piece).ok_or_else(|| unknown(fold.id.to_string(), fold.piece))?;
+        here.folds.push(fold);
+    }
+    for seam in &net.seams {
+        for (i, side) in seam.sides.iter().enumerate() {
+            let here = all.get_mut(&side.piece).ok_or_else(|| unknown(seam.id.to_string(), side.piece))?;
+            here.seams.push((seam, i));
+        }
+    }
+    Ok(all)
+}
+
+/// Draws every sheet of a layout.
+pub(crate) fn draw(
+    net: &Net,
+    shapes: &[CutShape],
+    layout: &Layout,
+    stock: &Stock,
+    params: &SheetParams,
+) -> Result<(Vec<Drawing>, SheetReport), SheetError> {
+    let features = features(net)?;
+    let by_id: BTreeMap<PieceId, (&Piece, &CutShape)> =
+        net.pieces.iter().zip(shapes).map(|(p, s)| (p.id, (p, s))).collect();
+    let mut report = SheetReport::default();
+    let mut drawings = Vec::new();
+    for sheet in &layout.sheets {
+        let mut drawing = Drawing::new(sheet);
+        for placed in &sheet.placed {
+            let (piece, shape) = by_id[&placed.piece];
+            let here = &features[&placed.piece];
+            draw_cuts(&mut drawing, shape, placed);
+            draw_folds(&mut drawing, here, placed, params.score, &mut report);
+            draw_labels(&mut drawing, piece, here, placed, params.labels, &mut report)?;
+        }
+        draw_info(&mut drawing, stock, params)?;
+        drawings.push(drawing);
+    }
+    Ok((drawings, report))
+}
+
+fn draw_cuts(drawing: &mut Drawing, shape: &CutShape, placed: &Placed) {
+    let id = shape.piece;
+    let stroke = |points: &[DVec2], closed| vec![Stroke { points: placed.apply_all(points), closed }];
+    drawing.add(MarkKind::Outline, id.to_string(), stroke(&shape.outline, true));
+    for (i, hole) in shape.holes.iter().enumerate() {
+        drawing.add(MarkKind::Hole, format!("{id}-hole-{}", i + 1), stroke(hole, true));
+    }
+    for (i, slit) in shape.slits.iter().enumerate() {
+        drawing.add(MarkKind::Slit, format!("{id}-slit-{}", i + 1), stroke(slit, false));
+    }
+}
+
+fn draw_folds(
+    drawing: &mut Drawing,
+    here: &Features<'_>,
+    placed: &Placed,
+    style: ScoreStyle,
+    report: &mut SheetReport,
+) {
+    for fold in &here.folds {
+        let kind = match fold.kind {
+            FoldKind::Mountain => MarkKind::MountainFold,
+            FoldKind::Valley => MarkKind::ValleyFold,
+            FoldKind::Flat => {
+                report.flat_folds += 1;
+                continue;
+            }
+        };
+        let [a, b] = fold.segment.map(|p| placed.apply(p));
+        drawing.add(kind, fold.id.to_string(), score_strokes(a, b, style));
+    }
+}
+
+/// A fold as one line, or as dashes that begin and end at its ends.
+fn score_strokes(a: DVec2, b: DVec2, style: ScoreStyle) -> Vec<Stroke> {
+    let length = a.distance(b);
+    // As many gaps of about a dash's length as leave room for a dash at each end.
+    let gaps = ((length - DASH) / (2.0 * DASH)).round();
+    if style == ScoreStyle::Solid || gaps.is_nan() || gaps < 1.0 {
+        return vec![Stroke { points: vec![a, b], closed: false }];
+    }
+    let period = (length - DASH) / gaps;
+    let at = |distance: f64| a.lerp(b, distance / length);
+    let dash = |i: u32| Stroke {
+        points: vec![at(f64::from(i) * period), at((f64::from(i) * period + DASH).min(length))],
+        closed: false,
+    };
+    (0..=gaps as u32).map(dash).collect()
+}
+
+fn draw_labels(
+    drawing: &mut Drawing,
+    piece: &Piece,
+    here: &Features<'_>,
+    placed: &Placed,
+    labels: Labels,
+    report: &mut SheetReport,
+) -> Result<(), SheetError> {
+    let seams: &[(&Seam, usize)] = if labels == Labels::All { &here.seams } else { &[] };
+    if labels == Labels::None {
+        return Ok(());
+    }
+    let mut lettered = letter(piece, seams, placed, Order::NameFirst)?;
+    if lettered.unnumbered > 0 {
+        // A seam without its number is the greater loss: the name makes room.
+        let other = letter(piece, seams, placed, Order::NumbersFirst)?;
+        lettered = if other.unnumbered < lettered.unnumbered { other } else { lettered };
+    }
+    if !lettered.named {
+        report.unnamed_pieces.push(piece.id);
+    }
+    report.unnumbered_sides += lettered.unnumbered;
+    for (kind, id, label) in lettered.labels {
+        let open = |points: &Vec<DVec2>| Stroke { points: placed.apply_all(points), closed: false };
+        drawing.add(kind, id, label.strokes.iter().map(open).collect());
+    }
+    Ok(())
+}
+
+/// What is lettered first and so gets the best place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Order {
+    NameFirst,
+    NumbersFirst,
+}
+
+/// The lettering of one piece.
+#[derive(Default)]
+struct Lettered {
+    labels: Vec<(MarkKind, String, Label)>,
+    named: bool,
+    unnumbered: usize,
+}
+
+fn letter(piece: &Piece, seams: &[(&Seam, usize)], placed: &Placed, order: Order) -> Result<Lettered, SheetError> {
+    let mut lettered = Lettered::default();
+    let mut taken = Taken::new();
+    if order == Order::NameFirst {
+        letter_name(piece, placed, &mut taken, &mut lettered)?;
+    }
+    letter_numbers(piece, seams, &mut taken, &mut lettered)?;
+    if order == Order::NumbersFirst {
+        letter_name(piece, placed, &mut taken, &mut lettered)?;
+    }
+    Ok(lettered)
+}
+
+fn letter_name(piece: &Piece, placed: &Placed, taken: &mut Taken, lettered: &mut Lettered) -> Result<(), SheetError> {
+    let upright = DVec2::from_angle(-placed.rotation.to_radians());
+    if let Some((face, label)) = name_label(piece, upright, taken)? {
+        taken.entry(face).or_default().push(label.frame);
+        lettered.labels.push((MarkKind::PieceName, format!("{}-name", piece.id), label));
+        lettered.named = true;
+    }
+    Ok(())
+}
+
+fn letter_numbers(
+    piece: &Piece,
+    seams: &[(&Seam, usize)],
+    taken: &mut Taken,
+    lettered: &mut Lettered,
+) -> Result<(), SheetError> {
+    let faces: BTreeMap<usize, usize> = piece.faces.iter().enumerate().map(|(i, f)| (f.face, i)).collect();
+    for &(seam, i) in seams {
+        let side = &seam.sides[i];
+        let number = seam.id.0.to_string();
+        let at = faces.get(&side.face).copied();
+        let taken = taken.entry(at.unwrap_or_default()).or_default();
+        let label = at.map(|f| number_label(&number, &piece.faces[f], seam.edge, side.segment, taken)).transpose()?;
+        match label.flatten() {
+            Some(label) => {
+                taken.push(label.frame);
+                lettered.labels.push((MarkKind::SeamNumber, format!("{}-number-{}", seam.id, i + 1), label));
+            }
+            None => lettered.unnumbered += 1,
+        }
+    }
+    Ok(())
+}
+
+/// The reference square, clear of all pieces where there is room and else in the lower left corner; and a note in the
+/// lower margin, where it is high enough.
+fn draw_info(drawing: &mut Drawing, stock: &Stock, params: &SheetParams) -> Result<(), SheetError> {
+    let inset = stock.margin / 2.0;
+    let room = stock.size - DVec2::splat(2.0 * inset);
+    if let Some(side) = REFERENCE_SIDES.into_iter().find(|&s| s <= room.min_element()) {
+        let low = free_corner(drawing, stock, side).unwrap_or(DVec2::splat(inset));
+        let corners = [(0.0, 0.0), (side, 0.0), (side, side), (0.0, side)].map(|(x, y)| low + DVec2::new(x, y));
+        let mut strokes = vec![Stroke { points: corners.to_vec(), closed: true }];
+        let text = lettering(&format!("{side} MM"), side / 20.0)?;
+        strokes.extend(text_strokes(text.strokes, low + DVec2::splat(side / 20.0)));
+        drawing.add(MarkKind::Reference, "reference".to_owned(), strokes);
+    }
+    let short = |value: f64| (value * 1e4).round() / 1e4;
+    let (width, height, kerf) = (short(stock.size.x), short(stock.size.y), short(params.kerf.mm()));
+    let text =
+        lettering(&format!("{}  {width} X {height} MM  KERF {kerf} MM", drawing.sheet), (stock.margin / 2.0).min(3.0))?;
+    let fits = text.high.x + 2.0 * stock.margin <= stock.size.x;
+    if stock.margin >= 2.0 && fits {
+        let strokes = text_strokes(text.strokes, DVec2::new(stock.margin, stock.margin / 4.0 + 0.25 * -text.low.y));
+        drawing.add(MarkKind::Note, "note".to_owned(), strokes);
+    }
+    Ok(())
+}
+
+fn text_strokes(strokes: Vec<Vec<DVec2>>, at: DVec2) -> Vec<Stroke> {
+    let moved = |points: Vec<DVec2>| points.into_iter().map(|p| p + at).collect();
+    strokes.into_iter().map(|points| Stroke { points: moved(points), closed: false }).collect()
+}
+
+/// The lower left corner of a free square on the sheet, searched from the upper right on a grid of places.
+fn free_corner(drawing: &Drawing, stock: &Stock, side: f64) -> Option<DVec2> {
+    const PLACES: usize = 24;
+    let outlines = drawing.marks().filter(|m| m.kind == MarkKind::Outline).flat_map(|m| &m.strokes);
+    let boxes: Vec<(DVec2, DVec2)> = outlines.filter_map(|s| bounds(&s.points)).collect();
+    let (first, room) = (DVec2::splat(stock.margin), stock.usable() - DVec2::splat(side));
+    let corner = |i: usize| {
+        let part = |k: usize| 1.0 - k as f64 / (PLACES - 1) as f64;
+        first + room * DVec2::new(part(i % PLACES), part(i / PLACES))
+    };
+    let is_free = |low: &DVec2| {
+        let high = *low + DVec2::splat(side);
+        boxes.iter().all(|(l, h)| l.cmpgt(high).any() || h.cmplt(*low).any())
+    };
+    Some(room).filter(|r| r.min_element() >= 0.0)?;
+    (0..PLACES * PLACES).map(corner).find(is_free)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::drawing::LayerKind;
+    use super::super::label::segments_meet;
+    use super::super::lay_out;
+    use super::super::testing::{net_of, random_convex, ring, square, two_pieces};
+    use super::super::verify::edges;
+    use super::*;
+    use crate::units::Length;
+
+    fn drawn(net: &Net, params: &SheetParams) -> (Drawing, SheetReport) {
+        let set = lay_out(net, params).expect("the net fits");
+        (set.drawings.into_iter().next().expect("one sheet"), set.report)
+    }
+
+    fn ids(drawing: &Drawing, kind: LayerKind) -> Vec<&str> {
+        drawing.marks().filter(|m| m.kind.layer() == kind).map(|m| m.id.as_str()).collect()
+    }
+
+    fn lines(drawing: &Drawing) -> Vec<(LayerKind, DVec2, DVec2)> {
+        let strokes = drawing.marks().flat_map(|m| m.strokes.iter().map(|s| (m.kind.layer(), s)));
+        strokes
+            .flat_map(|(layer, s)| {
+                let count = s.points.len() - usize::from(!s.closed);
+                edges(&s.points).take(count).map(move |(a, b)| (layer, a, b)).collect::<Vec<_>>()
+            })
+            .collect()
+    }
+
+    #[test]
+    fn layers_come_in_working_order_with_all_lines_once() {
+        let (drawing, report) = drawn(&two_pieces(), &SheetParams::default());
+        assert_eq!(drawing.layers.iter().map(|l| l.kind).collect::<Vec<_>>(), LayerKind::ALL);
+        assert_eq!(ids(&drawing, LayerKind::CutOuter), ["P01", "P02"]);
+        assert_eq!(ids(&drawing, LayerKind::Score), ["E004"]);
+        assert_eq!(ids(&drawing, LayerKind::Engrave), ["P01-name", "E016-number-1", "P02-name", "E016-number-2"]);
+        assert_eq!(ids(&drawing, LayerKind::Info), ["reference", "note"]);
+        assert_eq!(report, SheetReport::default());
+        let mut seen: Vec<[DVec2; 2]> = Vec::new();
+        for (_, a, b) in lines(&drawing) {
+            assert!(!seen.contains(&[a, b]) && !seen.contains(&[b, a]), "{a} {b} twice");
+            seen.push([a, b]);
+        }
+    }
+
+    #[test]
+    fn lettering_crosses_no_cut_and_no_fold_and_the_square_no_piece() {
+        let mut net = two_pieces();
+        net.pieces.push(ring(PieceId(2)));
+        net.pieces.extend((3..20).map(|i| super::super::testing::piece(PieceId(i), random_convex(i as u64))));
+        let params = SheetParams { kerf: Length::from_mm(0.2), ..SheetParams::default() };
+        let (drawing, _) = drawn(&net, &params);
+        let lines = lines(&drawing);
+        let solid = |l: LayerKind| matches!(l, LayerKind::Score | LayerKind::CutInner | LayerKind::CutOuter);
+        for (_, a, b) in lines.iter().filter(|(l, ..)| !solid(*l)) {
+            for (_, c, d) in lines.iter().filter(|(l, ..)| solid(*l)) {
+                assert!(!segments_meet(*a, *b, *c, *d), "{a} {b} meets {c} {d}");
+            }
+        }
+    }
+
+    #[test]
+    fn labels_are_left_out_on_request_and_counted_when_too_small() {
+        for (labels, expected) in [(Labels::None, vec![]), (Labels::Pieces, vec!["P01-name", "P02-name"])] {
+            let (drawing, _) = drawn(&two_pieces(), &SheetParams { labels, ..SheetParams::default() });
+            assert_eq!(ids(&drawing, LayerKind::Engrave), expected);
+        }
+        let mut small = two_pieces();
+        for piece in &mut small.pieces {
+            let faces = piece.faces.iter_mut().flat_map(|f| &mut f.polygon);
+            faces.chain(&mut piece.outline).for_each(|p| *p *= 0.1);
+        }
+        small.folds[0].segment = small.folds[0].segment.map(|p| p * 0.1);
+        small.seams[0].sides.iter_mut().for_each(|s| s.segment = s.segment.map(|p| p * 0.1));
+        let (drawing, report) = drawn(&small, &SheetParams::default());
+        assert_eq!(ids(&drawing, LayerKind::Engrave), [""; 0]);
+        assert_eq!((report.unnamed_pieces.len(), report.unnumbered_sides), (2, 2));
+    }
+
+    #[test]
+    fn dashes_begin_and_end_with_a_dash() {
+        let dashes = score_strokes(DVec2::ZERO, DVec2::new(30.0, 0.0), ScoreStyle::Dashed);
+        assert_eq!(dashes.len(), 8);
+        assert_eq!(dashes[0].points[0], DVec2::ZERO);
+        assert!((dashes[7].points[1].x - 30.0).abs() < 1e-12);
+        assert!(dashes.iter().all(|d| (d.length() - 2.0).abs() < 1e-12));
+        assert_eq!(score_strokes(DVec2::ZERO, DVec2::new(3.0, 0.0), ScoreStyle::Dashed).len(), 1);
+        let (drawing, _) = drawn(&two_pieces(), &SheetParams { score: ScoreStyle::Dashed, ..SheetParams::default() });
+        assert!((drawing.score_length() - 16.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn flat_folds_are_not_scored_and_valleys_are_told_apart() {
+        let mut net = two_pieces();
+        net.folds[0].kind = FoldKind::Valley;
+        let (drawing, _) = drawn(&net, &SheetParams::default());
+        assert!(drawing.marks().any(|m| m.kind == MarkKind::ValleyFold));
+        net.folds[0].kind = FoldKind::Flat;
+        let (drawing, report) = drawn(&net, &SheetParams::default());
+        assert_eq!((ids(&drawing, LayerKind::Score).len(), report.flat_folds), (0, 1));
+    }
+
+    #[test]
+    fn the_reference_square_shrinks_with_the_sheet() {
+        let sizes = [(600.0, 100.0), (60.0, 10.0), (9.0, 1.0)].map(|(sheet, side)| {
+            let params = SheetParams {
+                sheet: super::super::SheetSize::of_mm(sheet, sheet),
+                margin: Length::from_mm(1.0),
+                ..SheetParams::default()
+            };
+            let (drawing, _) = drawn(&net_of(vec![square(5.0)]), &params);
+            let reference = drawing.marks().find(|m| m.id == "reference").expect("a reference");
+            (reference.strokes[0].length() / 4.0 - side).abs() < 1e-9
+        });
+        assert_eq!(sizes, [true; 3]);
+    }
+
+    #[test]
+    fn a_seam_on_a_missing_piece_is_an_error() {
+        let mut net = two_pieces();
+        net.pieces.pop();
+        let error = lay_out(&net, &SheetParams::default()).expect_err("P02 is missing");
+        assert_eq!(
+            error.to_string(),
+            "edge E016 lies on piece P02, which the net does not hold; read the pieces file again"
+        );
+    }
+}

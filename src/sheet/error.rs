@@ -1,0 +1,164 @@
+//! What can go wrong between pieces and sheets.
+
+use std::fmt;
+
+use super::layout::SheetId;
+use crate::net::PieceId;
+
+/// Why pieces could not be laid out. The last three variants are the findings of [`super::verify`]: our own bugs, reported
+/// instead of written to a file.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SheetError {
+    /// A parameter outside its range.
+    #[error("{name} is {value} mm, but must be at least {least} mm and finite")]
+    OutOfRange {
+        /// Which parameter.
+        name: &'static str,
+        /// What it was, in mm.
+        value: f64,
+        /// What it must be at least, in mm.
+        least: f64,
+    },
+    /// The margin leaves nothing of the sheet.
+    #[error(
+        "a margin of {margin} mm and a kerf of {kerf} mm leaves no room on a {width} × {height} mm sheet; \
+         choose a smaller margin or a larger sheet"
+    )]
+    MarginTooLarge {
+        /// The free border.
+        margin: f64,
+        /// The width of the cut.
+        kerf: f64,
+        /// The sheet.
+        width: f64,
+        /// The sheet.
+        height: f64,
+    },
+    /// Pieces that fit on no sheet at any angle; all of them.
+    #[error("{}", too_large(pieces, *width, *height, *margin))]
+    PiecesTooLarge {
+        /// The pieces with the box each needs.
+        pieces: Vec<TooLarge>,
+        /// The sheet.
+        width: f64,
+        /// The sheet.
+        height: f64,
+        /// The free border.
+        margin: f64,
+    },
+    /// An outline or hole that bounds no area.
+    #[error(
+        "contour {contour} of piece {piece} has {corners} corners or numbers that are not finite; unfold the mesh again"
+    )]
+    BadContour {
+        /// The piece.
+        piece: PieceId,
+        /// 0 for the outline, then the holes.
+        contour: usize,
+        /// Its number of corners.
+        corners: usize,
+    },
+    /// An outline that crosses itself or runs clockwise cannot grow by the kerf.
+    #[error(
+        "the outline of piece {piece} falls into {parts} parts when it grows by half the kerf; unfold the mesh again"
+    )]
+    KerfSplit {
+        /// The piece.
+        piece: PieceId,
+        /// Number of parts; one is right.
+        parts: usize,
+    },
+    /// A fold or seam names a piece that the net does not hold.
+    #[error("edge {edge} lies on piece {piece}, which the net does not hold; read the pieces file again")]
+    UnknownPiece {
+        /// The edge's name.
+        edge: String,
+        /// The missing piece.
+        piece: PieceId,
+    },
+    /// A character without a glyph.
+    #[error("no glyph for {character:?} in {text:?}; use A-Z, 0-9, space and - . / # + : _ °")]
+    NoGlyph {
+        /// The character.
+        character: char,
+        /// The text that holds it.
+        text: String,
+    },
+    /// A piece on no sheet, or on several.
+    #[error("piece {piece} was placed {times} times instead of once; please report this bug")]
+    NotPlacedOnce {
+        /// The piece.
+        piece: PieceId,
+        /// How often it was placed.
+        times: usize,
+    },
+    /// A cut line in the margin or off the sheet.
+    #[error("piece {piece} on sheet {sheet} reaches {by} mm over the margin; please report this bug")]
+    OverMargin {
+        /// The piece.
+        piece: PieceId,
+        /// The sheet.
+        sheet: SheetId,
+        /// How far, in mm.
+        by: f64,
+    },
+    /// Two pieces nearer than the spacing.
+    #[error(
+        "pieces {first} and {second} on sheet {sheet} are {distance} mm apart instead of {spacing} mm; please report this bug"
+    )]
+    TooClose {
+        /// One piece.
+        first: PieceId,
+        /// The other.
+        second: PieceId,
+        /// The sheet.
+        sheet: SheetId,
+        /// Their distance; 0 when they touch or overlap.
+        distance: f64,
+        /// What it must be.
+        spacing: f64,
+    },
+}
+
+/// A piece that fits on no sheet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TooLarge {
+    /// The piece.
+    pub piece: PieceId,
+    /// Longer side of its smallest bounding box, kerf included.
+    pub width: f64,
+    /// Shorter side of that box.
+    pub height: f64,
+    /// Number of its faces; a single face cannot be split further.
+    pub faces: usize,
+}
+
+/// How many pieces a message lists before it only counts.
+const LISTED: usize = 10;
+
+fn too_large(pieces: &[TooLarge], width: f64, height: f64, margin: f64) -> String {
+    let (usable_width, usable_height) = (width - 2.0 * margin, height - 2.0 * margin);
+    let mut text = format!(
+        "{} too large for a {width} × {height} mm sheet ({usable_width} × {usable_height} mm inside the margin):",
+        if pieces.len() == 1 { "1 piece is".to_owned() } else { format!("{} pieces are", pieces.len()) },
+    );
+    for p in pieces.iter().take(LISTED) {
+        text += &format!(" {} needs {:.1} × {:.1} mm", p.piece, p.width, p.height);
+        text += if p.faces == 1 { " (a single face);" } else { ";" };
+    }
+    if pieces.len() > LISTED {
+        text += &format!(" and {} more;", pieces.len() - LISTED);
+    }
+    let need = pieces.iter().fold((0.0, 0.0), |(w, h), p| (p.width.max(w), p.height.max(h)));
+    // Rounded up, so that the sheet asked for is large enough.
+    let need = ((need.0 + 2.0 * margin).ceil(), (need.1 + 2.0 * margin).ceil());
+    text += &format!(" use sheets of {} × {} mm, more pieces, or a smaller model", need.0, need.1);
+    text
+}
+
+impl fmt::Display for SheetId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "S{:02}", self.0 + 1)
+    }
+}

@@ -1,0 +1,226 @@
+//! Kerf: outlines grow by half the width of the cut, holes shrink by as much, corners stay sharp.
+//!
+//! Growing is done by `i_overlay` on a grid of 2⁶¹ steps across the piece, which unites what overlaps: no loops, at narrow
+//! notches neither. What growing closes is opened again by a single cut, see [`super::slit`].
+
+use glam::DVec2;
+use i_overlay::mesh::float::outline::offset::OutlineOffset;
+use i_overlay::mesh::float::style::{LineJoin, OutlineStyle};
+
+use super::error::SheetError;
+use super::slit::{notch_slits, take_spikes};
+use crate::geom::polygon::{bounds, signed_area};
+use crate::net::{Piece, PieceId};
+
+/// Corners sharper than this are cut off square: the mitre would reach more than four times the offset.
+const SHARPEST_MITRE: f64 = 29.0;
+
+/// Corners straighter than this would be found only roughly, so they are cut off as well; the bevel lies less than a
+/// 10000th of the offset inside the mitre.
+const STRAIGHTEST_MITRE: f64 = 1.0;
+
+/// What is cut to get one piece, in the piece's frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CutShape {
+    /// The piece.
+    pub piece: PieceId,
+    /// The outer cut, counter-clockwise; the piece's outline to the digit when the kerf is zero.
+    pub outline: Vec<DVec2>,
+    /// Inner cuts, clockwise.
+    pub holes: Vec<Vec<DVec2>>,
+    /// Open inner cuts: slits without width, and the ends of notches narrower than the kerf.
+    pub slits: Vec<Vec<DVec2>>,
+    /// Holes that vanish because they are narrower than the kerf.
+    pub lost_holes: usize,
+    /// Notches narrower than the kerf that no single cut could open from end to end.
+    pub closed_notches: usize,
+}
+
+impl CutShape {
+    /// What must be cut so that a piece comes out true to size with a cut of width `kerf` mm.
+    ///
+    /// # Errors
+    /// [`SheetError::BadContour`] for a contour without area or with numbers that are not finite;
+    /// [`SheetError::KerfSplit`] for an outline that crosses itself.
+    pub fn of_piece(piece: &Piece, kerf: f64) -> Result<Self, SheetError> {
+        let mut contours = Vec::new();
+        let mut spikes = Vec::new();
+        for (i, contour) in std::iter::once(&piece.outline).chain(&piece.holes).enumerate() {
+            let bad = || SheetError::BadContour { piece: piece.id, contour: i, corners: contour.len() };
+            if !contour.iter().all(|p| p.is_finite()) {
+                return Err(bad());
+            }
+            let (rest, found) = take_spikes(contour);
+            spikes.extend(found);
+            let area = signed_area(&rest);
+            // A hole that is nothing but a slit has no area and needs none.
+            if rest.is_empty() && i > 0 && contour.len() > 1 {
+                continue;
+            }
+            if rest.len() < 3 || !area.is_finite() || (area > 0.0) != (i == 0) {
+                return Err(bad());
+            }
+            contours.push(rest);
+        }
+        if kerf > 0.0 {
+            return grown(piece.id, &contours, spikes, kerf);
+        }
+        let mut contours = contours.into_iter();
+        let outline = contours.next().unwrap_or_default();
+        Ok(Self {
+            piece: piece.id,
+            outline,
+            holes: contours.collect(),
+            slits: spikes,
+            lost_holes: 0,
+            closed_notches: 0,
+        })
+    }
+
+    /// The area inside the cuts, in mm².
+    pub fn area(&self) -> f64 {
+        self.contours().map(|c| signed_area(c)).sum()
+    }
+
+    /// The outline, then the holes.
+    pub fn contours(&self) -> impl Iterator<Item = &Vec<DVec2>> {
+        std::iter::once(&self.outline).chain(&self.holes)
+    }
+}
+
+fn grown(piece: PieceId, contours: &[Vec<DVec2>], spikes: Vec<Vec<DVec2>>, kerf: f64) -> Result<CutShape, SheetError> {
+    let (low, high) = bounds(contours.iter().flatten()).unwrap_or_default();
+    // A kerf below the rounding of the coordinates moves nothing; the grid could not show it either.
+    let coarse = 1e-12 * (high - low).length();
+    let shapes = if kerf > coarse { grow(contours, low.midpoint(high), kerf / 2.0) } else { vec![contours.to_vec()] };
+    let parts = shapes.len();
+    let mut shape = shapes.into_iter().next().unwrap_or_default().into_iter();
+    let outline = shape.next().filter(|_| parts == 1).ok_or(SheetError::KerfSplit { piece, parts })?;
+    let holes: Vec<Vec<DVec2>> = shape.collect();
+    let lost_holes = (contours.len() - 1).saturating_sub(holes.len());
+    // A notch that closes at its mouth only leaves a hole more, and its flaps together.
+    let closed_mouths = (holes.len() + 1).saturating_sub(contours.len());
+    let mut grown = CutShape { piece, outline, holes, slits: Vec::new(), lost_holes, closed_notches: 0 };
+    let (slits, closed) = notch_slits(contours, &spikes, &grown, kerf);
+    (grown.slits, grown.closed_notches) = (slits, closed + closed_mouths);
+    Ok(grown)
+}
+
+/// The Minkowski sum with a disc of radius `by`, its arcs drawn as mitres.
+fn grow(contours: &[Vec<DVec2>], centre: DVec2, by: f64) -> Vec<Vec<Vec<DVec2>>> {
+    let shape: Vec<Vec<[f64; 2]>> =
+        contours.iter().map(|c| c.iter().map(|&p| (p - centre).to_array()).collect()).collect();
+    let style = OutlineStyle::new(by)
+        .line_join(LineJoin::Miter(SHARPEST_MITRE.to_radians()))
+        .miter_min_turn(STRAIGHTEST_MITRE.to_radians());
+    let to_points = |c: Vec<[f64; 2]>| c.into_iter().map(|p| DVec2::from(p) + centre).collect();
+    let shapes = shape.outline_as::<i64>(&style);
+    shapes.into_iter().map(|s| s.into_iter().map(to_points).collect()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{ell, piece, points, random_convex, ring, square};
+    use super::super::verify::distance_to_contour;
+    use super::*;
+    use crate::geom::polygon::{Location, locate, segments_cross};
+    use proptest::prelude::*;
+
+    fn cut(contour: Vec<DVec2>, kerf: f64) -> CutShape {
+        CutShape::of_piece(&piece(PieceId(0), contour), kerf).expect("a sound piece")
+    }
+
+    fn assert_simple(contour: &[DVec2]) {
+        let n = contour.len();
+        for i in 0..n {
+            for j in 0..i {
+                let (a, b, c, d) = (contour[i], contour[(i + 1) % n], contour[j], contour[(j + 1) % n]);
+                assert!(!segments_cross(a, b, c, d), "edges {i} and {j} cross");
+            }
+        }
+    }
+
+    #[test]
+    fn no_kerf_changes_no_digit() {
+        let contour = random_convex(3);
+        assert_eq!(cut(contour.clone(), 0.0).outline, contour);
+    }
+
+    #[test]
+    fn a_square_grows_with_sharp_corners() {
+        let grown = cut(square(10.0), 0.2);
+        assert_eq!(grown.outline.len(), 4);
+        assert!((grown.area() - 10.2 * 10.2).abs() < 1e-6, "{}", grown.area());
+        assert!(grown.slits.is_empty());
+    }
+
+    #[test]
+    fn a_hole_shrinks_and_a_narrow_one_is_counted() {
+        let ring = ring(PieceId(0));
+        let grown = CutShape::of_piece(&ring, 0.2).expect("a ring");
+        assert_eq!(grown.holes.len(), 1);
+        assert!((signed_area(&grown.holes[0]) + 9.8 * 9.8).abs() < 1e-6);
+        assert!((signed_area(&grown.outline) - 30.2 * 30.2).abs() < 1e-6);
+        let lost = CutShape::of_piece(&ring, 12.0).expect("a ring without its hole");
+        assert_eq!((lost.holes.len(), lost.lost_holes), (0, 1));
+    }
+
+    #[test]
+    fn a_concave_corner_keeps_its_distance() {
+        let grown = cut(ell(), 1.0);
+        assert_eq!(grown.outline.len(), 6);
+        // 40 × 40 less 20 × 20, grown by 0.5 on all sides.
+        assert!((grown.area() - (41.0 * 41.0 - 20.0 * 20.0)).abs() < 1e-6, "{}", grown.area());
+    }
+
+    #[test]
+    fn a_notch_that_closes_at_its_mouth_is_counted() {
+        let contour = points([
+            (0.0, 0.0),
+            (50.0, 0.0),
+            (50.0, 24.95),
+            (40.0, 24.95),
+            (40.0, 10.0),
+            (20.0, 10.0),
+            (20.0, 40.0),
+            (40.0, 40.0),
+            (40.0, 25.05),
+            (50.0, 25.05),
+            (50.0, 50.0),
+            (0.0, 50.0),
+        ]);
+        let grown = cut(contour.clone(), 0.2);
+        assert_eq!((grown.holes.len(), grown.closed_notches, grown.lost_holes), (1, 1, 0));
+        assert_eq!(cut(contour, 0.05).closed_notches, 0);
+    }
+
+    #[test]
+    fn a_needle_is_cut_off_square_near_its_tip() {
+        let grown = cut([(0.0, 0.0), (100.0, -1.0), (100.0, 1.0)].map(DVec2::from).to_vec(), 0.2);
+        let reach = grown.outline.iter().map(|p| p.x).fold(f64::INFINITY, f64::min);
+        assert!((-0.45..=-0.1).contains(&reach), "{reach}");
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(48))]
+        /// Star-shaped outlines with spikes and notches: every corner of the grown contour keeps half the kerf, the contour
+        /// does not cross itself, and the piece lies inside.
+        #[test]
+        fn grown_outlines_keep_their_distance(radii in prop::collection::vec(2.0..60.0_f64, 5..24), kerf in 0.01..2.0_f64) {
+            let n = radii.len() as f64;
+            let star: Vec<DVec2> = radii.iter().enumerate()
+                .map(|(i, r)| DVec2::from_angle(i as f64 * std::f64::consts::TAU / n) * r).collect();
+            let grown = cut(star.clone(), kerf);
+            for contour in grown.contours() {
+                assert_simple(contour);
+                for (i, &p) in contour.iter().enumerate() {
+                    let middle = p.midpoint(contour[(i + 1) % contour.len()]);
+                    prop_assert!(distance_to_contour(p, &star) >= kerf / 2.0 - 1e-6);
+                    prop_assert!(distance_to_contour(middle, &star) >= kerf / 2.0 * 0.999 - 1e-6);
+                    prop_assert!(distance_to_contour(p, &star) <= kerf / 2.0 * 4.05 + 1e-6);
+                }
+            }
+            prop_assert!(star.iter().all(|&p| locate(&grown.outline, p) == Location::Inside));
+        }
+    }
+}

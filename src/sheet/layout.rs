@@ -1,0 +1,331 @@
+//! Where every piece lies, and the one call from a net to drawings.
+
+use std::collections::BTreeMap;
+
+use glam::DVec2;
+
+use super::bounding_box::{MinBox, convex_hull, fitting_box, rounded, smallest_box};
+use super::draw::draw;
+use super::drawing::Drawing;
+use super::error::{SheetError, TooLarge};
+use super::kerf::CutShape;
+use super::params::{SheetParams, Stock};
+use super::place::{Item, Spot, pack};
+use super::verify::verify;
+use crate::geom::polygon::bounds;
+use crate::net::{Net, Piece, PieceId};
+
+/// A sheet's number, counted from 0, shown as `S01`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct SheetId(pub usize);
+
+/// Which piece lies where: what `layout.json` holds.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Layout {
+    /// The sheets; none for `sheet = none`.
+    pub sheets: Vec<Sheet>,
+    /// Area of the pieces over the area of the sheets, 0 to 1.
+    pub density: f64,
+    /// Length of all cuts, in mm.
+    pub cut_length: f64,
+    /// Length of all score lines as drawn, in mm.
+    pub score_length: f64,
+}
+
+/// One sheet of stock.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sheet {
+    /// Its name.
+    pub id: SheetId,
+    /// Along x, in mm.
+    pub width: f64,
+    /// Along y, in mm.
+    pub height: f64,
+    /// The pieces on it, ascending by name.
+    pub placed: Vec<Placed>,
+}
+
+/// A piece on a sheet: a point p of the piece lands at R(rotation)·p + (x, y).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Placed {
+    /// The piece.
+    pub piece: PieceId,
+    /// Where the origin of the piece's frame lands, in mm; nine decimals.
+    pub x: f64,
+    /// As `x`.
+    pub y: f64,
+    /// Degrees counter-clockwise, in [0, 360); nine decimals.
+    pub rotation: f64,
+}
+
+impl Placed {
+    /// Where a point of the piece lands.
+    pub fn apply(&self, p: DVec2) -> DVec2 {
+        Turn::degrees(self.rotation).apply(p) + DVec2::new(self.x, self.y)
+    }
+
+    /// Where all points of a line land.
+    pub fn apply_all(&self, points: &[DVec2]) -> Vec<DVec2> {
+        let turn = Turn::degrees(self.rotation);
+        points.iter().map(|&p| turn.apply(p) + DVec2::new(self.x, self.y)).collect()
+    }
+}
+
+/// A rotation that is exact at multiples of 90°.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Turn(DVec2);
+
+impl Turn {
+    pub fn degrees(degrees: f64) -> Self {
+        // Only the rest below 90° goes through the sine, so that quarter turns change no digit.
+        let quarters = (degrees / 90.0).floor();
+        let rest = DVec2::from_angle((degrees - quarters * 90.0).to_radians());
+        Self(match quarters.rem_euclid(4.0) as u8 {
+            0 => rest,
+            1 => rest.perp(),
+            2 => -rest,
+            _ => -rest.perp(),
+        })
+    }
+
+    pub fn apply(self, p: DVec2) -> DVec2 {
+        self.0.rotate(p)
+    }
+}
+
+/// What could not be drawn, in numbers; nothing here makes a sheet wrong.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SheetReport {
+    /// Pieces too small for their name.
+    pub unnamed_pieces: Vec<PieceId>,
+    /// Sides of seams too short for their number.
+    pub unnumbered_sides: usize,
+    /// Folds between faces in one plane: nothing to score.
+    pub flat_folds: usize,
+    /// Holes narrower than the kerf, which nothing can cut.
+    pub lost_holes: usize,
+    /// Notches narrower than the kerf that no single cut could open from end to end: the flaps hang together there.
+    pub closed_notches: usize,
+}
+
+/// Sheets with their drawings, measured and ready to be written.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SheetSet {
+    /// Where the pieces lie.
+    pub layout: Layout,
+    /// One drawing per sheet.
+    pub drawings: Vec<Drawing>,
+    /// What was left out.
+    pub report: SheetReport,
+}
+
+/// Whether a piece, kerf included, fits on an empty sheet at any angle. Every piece fits on `sheet = none`.
+///
+/// # Errors
+/// As [`lay_out`], for the parameters and the piece's contours; a piece too large is no error here.
+pub fn fits(piece: &Piece, params: &SheetParams) -> Result<bool, SheetError> {
+    let Some(stock) = params.stock()? else { return Ok(true) };
+    Ok(pose(&CutShape::of_piece(piece, params.kerf.mm())?, &stock).is_some())
+}
+
+/// Places, letters, draws and measures all pieces of a net. For `sheet = none` everything is empty.
+///
+/// # Errors
+/// [`SheetError::OutOfRange`] and [`SheetError::MarginTooLarge`] for parameters; [`SheetError::PiecesTooLarge`] with all
+/// pieces that fit at no angle, so that they can be split; [`SheetError::BadContour`], [`SheetError::KerfSplit`] and
+/// [`SheetError::UnknownPiece`] for a broken net; what [`verify`] finds, for a bug of ours.
+pub fn lay_out(net: &Net, params: &SheetParams) -> Result<SheetSet, SheetError> {
+    let Some(stock) = params.stock()? else {
+        return Ok(SheetSet { layout: Layout::default(), drawings: Vec::new(), report: SheetReport::default() });
+    };
+    let shapes = net.pieces.iter().map(|p| CutShape::of_piece(p, params.kerf.mm())).collect::<Result<Vec<_>, _>>()?;
+    let mut layout = place_all(net, &shapes, &stock)?;
+    let (drawings, mut report) = draw(net, &shapes, &layout, &stock, params)?;
+    report.lost_holes = shapes.iter().map(|s| s.lost_holes).sum();
+    report.closed_notches = shapes.iter().map(|s| s.closed_notches).sum();
+    layout.cut_length = drawings.iter().map(Drawing::cut_length).sum();
+    layout.score_length = drawings.iter().map(Drawing::score_length).sum();
+    verify(&shapes, &layout, params)?;
+    Ok(SheetSet { layout, drawings, report })
+}
+
+/// The turn at which a shape lies best on the stock.
+fn pose(shape: &CutShape, stock: &Stock) -> Option<MinBox> {
+    fitting_box(&convex_hull(&shape.outline), stock.usable(), stock.rounding())
+}
+
+fn place_all(net: &Net, shapes: &[CutShape], stock: &Stock) -> Result<Layout, SheetError> {
+    let poses: Vec<Option<MinBox>> = shapes.iter().map(|s| pose(s, stock)).collect();
+    let too_large: Vec<TooLarge> = net
+        .pieces
+        .iter()
+        .zip(shapes)
+        .zip(&poses)
+        .filter(|(_, pose)| pose.is_none())
+        .map(|((piece, shape), _)| {
+            let least = smallest_box(&shape.outline);
+            TooLarge { piece: piece.id, width: least.width, height: least.height, faces: piece.faces.len() }
+        })
+        .collect();
+    if !too_large.is_empty() {
+        let (width, height, margin) = (stock.size.x, stock.size.y, stock.margin);
+        return Err(SheetError::PiecesTooLarge { pieces: too_large, width, height, margin });
+    }
+    let poses: Vec<MinBox> = poses.into_iter().flatten().collect();
+    // A box with the spacing on two sides, in a room with the spacing on two sides: neighbours keep their distance.
+    let room = stock.usable() + DVec2::splat(stock.spacing);
+    let item = |p: &MinBox| {
+        let grown = DVec2::new(p.width, p.height) + DVec2::splat(stock.spacing);
+        // A box that touches the room may be larger by rounding.
+        let fit = |size: DVec2| (size - DVec2::splat(stock.rounding())).cmple(room).all().then(|| size.min(room));
+        Item { upright: fit(grown), turned: fit(DVec2::new(grown.y, grown.x)) }
+    };
+    let spots = pack(&poses.iter().map(item).collect::<Vec<_>>(), room);
+    Ok(layout_of(shapes, &poses, &spots, stock))
+}
+
+fn layout_of(shapes: &[CutShape], poses: &[MinBox], spots: &[Spot], stock: &Stock) -> Layout {
+    let mut sheets: BTreeMap<usize, Vec<Placed>> = BTreeMap::new();
+    for ((shape, pose), spot) in shapes.iter().zip(poses).zip(spots) {
+        let rotation = rounded(pose.angle + if spot.turned { 90.0 } else { 0.0 });
+        let turn = Turn::degrees(rotation);
+        let turned: Vec<DVec2> = shape.outline.iter().map(|&p| turn.apply(p)).collect();
+        let low = bounds(&turned).unwrap_or_default().0;
+        let shift = spot.low + DVec2::splat(stock.margin) - low;
+        let placed = Placed { piece: shape.piece, x: rounded(shift.x), y: rounded(shift.y), rotation };
+        sheets.entry(spot.bin).or_default().push(placed);
+    }
+    let sheets: Vec<Sheet> = sheets
+        .into_values()
+        .enumerate()
+        .map(|(i, mut placed)| {
+            placed.sort_by_key(|p| p.piece);
+            Sheet { id: SheetId(i), width: rounded(stock.size.x), height: rounded(stock.size.y), placed }
+        })
+        .collect();
+    let area: f64 = shapes.iter().map(CutShape::area).sum();
+    let density = if sheets.is_empty() { 0.0 } else { area / (sheets.len() as f64 * stock.size.x * stock.size.y) };
+    Layout { sheets, density, cut_length: 0.0, score_length: 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{ell, net_of, random_convex, ring, square};
+    use super::super::{Labels, SheetSize};
+    use super::*;
+    use crate::units::Length;
+    use proptest::prelude::*;
+
+    #[test]
+    fn quarter_turns_are_exact() {
+        let p = DVec2::new(0.1, 0.7);
+        let turned = [0.0, 90.0, 180.0, 270.0, 360.0, -90.0].map(|d| Turn::degrees(d).apply(p));
+        let expected = [p, p.perp(), -p, -p.perp(), p, -p.perp()];
+        assert_eq!(turned, expected);
+    }
+
+    #[test]
+    fn two_squares_lie_side_by_side_within_margin_and_spacing() {
+        let net = net_of(vec![square(40.0), square(40.0)]);
+        let set = lay_out(&net, &SheetParams::default()).expect("two squares fit");
+        assert_eq!(set.layout.sheets.len(), 1);
+        let placed = &set.layout.sheets[0].placed;
+        assert_eq!((placed[0].x, placed[0].y, placed[0].rotation), (5.0, 5.0, 0.0));
+        assert_eq!(placed[0].apply(DVec2::ZERO), DVec2::splat(5.0));
+        assert_eq!(placed[1].apply(DVec2::ZERO).distance(DVec2::splat(5.0)), 43.0);
+        assert_eq!(set.layout.cut_length, 320.0);
+        assert!((set.layout.density - 3200.0 / 240_000.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn one_piece_as_large_as_the_sheet_allows_fits_and_one_larger_is_named() {
+        let net = net_of(vec![square(390.0)]);
+        assert!(lay_out(&net, &SheetParams::default()).is_ok());
+        let net = net_of(vec![square(390.1), square(10.0), square(500.0)]);
+        let error = lay_out(&net, &SheetParams::default()).expect_err("two are too large");
+        let SheetError::PiecesTooLarge { pieces, .. } = &error else { panic!("{error}") };
+        assert_eq!(pieces.iter().map(|p| p.piece.0).collect::<Vec<_>>(), [0, 2]);
+        let text = error.to_string();
+        assert!(text.contains("P01 needs 390.1 × 390.1 mm (a single face)"), "{text}");
+        assert!(text.contains("use sheets of 510 × 510 mm"), "{text}");
+        let fit = |size: f64| fits(&net_of(vec![square(size)]).pieces[0], &SheetParams::default());
+        assert_eq!((fit(390.0), fit(390.1)), (Ok(true), Ok(false)));
+    }
+
+    #[test]
+    fn the_kerf_counts_when_pieces_are_placed() {
+        let params = SheetParams { kerf: Length::from_mm(0.2), ..SheetParams::default() };
+        let net = net_of(vec![square(390.0)]);
+        assert!(matches!(lay_out(&net, &params), Err(SheetError::PiecesTooLarge { .. })));
+        let set = lay_out(&net_of(vec![square(389.8)]), &params).expect("fits with its kerf");
+        let placed = set.layout.sheets[0].placed[0];
+        assert!((placed.apply(DVec2::ZERO) - DVec2::splat(5.1)).length() < 1e-8);
+        assert!((set.layout.cut_length - 4.0 * 390.0).abs() < 1e-5, "{}", set.layout.cut_length);
+    }
+
+    #[test]
+    fn a_long_sliver_lies_along_the_diagonal() {
+        let sliver = [(0.0, 0.0), (650.0, 0.0), (650.0, 4.0)].map(DVec2::from).to_vec();
+        let set = lay_out(&net_of(vec![sliver]), &SheetParams::default()).expect("fits along the diagonal");
+        let rotation = set.layout.sheets[0].placed[0].rotation;
+        assert!(rotation % 90.0 > 10.0, "{rotation}");
+    }
+
+    #[test]
+    fn many_pieces_go_on_to_further_sheets_and_twice_gives_the_same() {
+        let mut contours: Vec<_> = (0..40).map(random_convex).collect();
+        contours.extend([ell(), square(200.0)]);
+        let mut net = net_of(contours);
+        net.pieces.push(ring(PieceId(42)));
+        let params = SheetParams {
+            sheet: SheetSize::of_mm(300.0, 260.0),
+            kerf: Length::from_mm(0.15),
+            labels: Labels::All,
+            ..SheetParams::default()
+        };
+        let set = lay_out(&net, &params).expect("all fit");
+        assert!(set.layout.sheets.len() > 1);
+        assert_eq!(set.layout.sheets.iter().map(|s| s.placed.len()).sum::<usize>(), 43);
+        assert!(set.layout.density > 0.3, "{}", set.layout.density);
+        assert_eq!(lay_out(&net, &params), Ok(set));
+    }
+
+    #[test]
+    fn no_sheets_means_nothing_to_draw() {
+        let params = SheetParams { sheet: SheetSize::None, ..SheetParams::default() };
+        let set = lay_out(&net_of(vec![square(1e6)]), &params).expect("everything fits nowhere");
+        assert!(set.layout.sheets.is_empty() && set.drawings.is_empty());
+        assert_eq!(lay_out(&net_of(vec![]), &SheetParams::default()).expect("nothing to place").layout.sheets, []);
+    }
+
+    #[test]
+    fn a_broken_outline_is_an_error_and_no_panic() {
+        for contour in [vec![], vec![DVec2::ZERO, DVec2::ONE], vec![DVec2::ZERO, DVec2::X, DVec2::splat(f64::NAN)]] {
+            for kerf in [0.0, 0.1] {
+                let params = SheetParams { kerf: Length::from_mm(kerf), ..SheetParams::default() };
+                let result = lay_out(&net_of(vec![contour.clone()]), &params);
+                assert!(matches!(result, Err(SheetError::BadContour { contour: 0, .. })), "{result:?}");
+            }
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(32))]
+        /// Spiky pieces, any kerf, any spacing: the re-measuring at the end finds nothing.
+        #[test]
+        fn spiky_pieces_pass_the_re_measuring(
+            stars in prop::collection::vec(prop::collection::vec(1.0..60.0_f64, 5..16), 1..12),
+            (kerf, spacing, margin) in (0.0..1.0_f64, 0.01..10.0_f64, 0.0..20.0_f64),
+            far in -1e5..1e5_f64,
+        ) {
+            let corner = |i: usize, n: usize, r: f64| {
+                DVec2::from_angle(i as f64 * std::f64::consts::TAU / n as f64) * r + DVec2::splat(far)
+            };
+            let star = |radii: Vec<f64>| radii.iter().enumerate().map(|(i, &r)| corner(i, radii.len(), r)).collect();
+            let [kerf, spacing, margin] = [kerf, spacing, margin].map(Length::from_mm);
+            let params = SheetParams { kerf, spacing, margin, sheet: SheetSize::of_mm(250.0, 200.0), ..Default::default() };
+            let set = lay_out(&net_of(stars.into_iter().map(star).collect()), &params);
+            prop_assert!(set.is_ok(), "{set:?}");
+        }
+    }
+}

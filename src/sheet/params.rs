@@ -1,0 +1,324 @@
+//! How sheets are laid out and drawn: one definition for the library, the command line and the recipe.
+
+use std::fmt;
+use std::str::FromStr;
+
+use clap::ValueEnum;
+use glam::DVec2;
+use serde::{Deserialize, Deserializer};
+
+use super::error::SheetError;
+use crate::units::{Length, UnitError, parse_number};
+
+/// Smallest spacing in mm: nearer cut lines would be one line in a file with four decimals.
+const MIN_SPACING: f64 = 0.01;
+
+/// How pieces are placed on sheets and drawn.
+#[derive(Debug, Clone, PartialEq, clap::Args, Deserialize)]
+pub struct SheetParams {
+    /// Size of a sheet, width x height: 600x400, 24inx12in, A0 to A5, letter; none for no sheets
+    #[arg(long, value_name = "SIZE", default_value = "600x400")]
+    #[serde(default = "default_sheet")]
+    pub sheet: SheetSize,
+    /// Free border of every sheet, measured to the cut line; 0 or more
+    #[arg(long, value_name = "LENGTH", default_value = "5mm")]
+    #[serde(default = "default_margin")]
+    pub margin: Length,
+    /// Least distance between the cut lines of two pieces; at least 0.01mm
+    #[arg(long, value_name = "LENGTH", default_value = "3mm")]
+    #[serde(default = "default_spacing")]
+    pub spacing: Length,
+    /// Full width of the cut: outlines grow by half of it, holes shrink; 0 or more
+    #[arg(long, value_name = "LENGTH", default_value = "0mm")]
+    #[serde(default)]
+    pub kerf: Length,
+    /// Colours and stroke widths of the drawing
+    #[arg(long, value_enum, default_value = "red-cut")]
+    #[serde(default)]
+    pub preset: Preset,
+    /// What is engraved: nothing, the names of the pieces, or these and the numbers of the seams
+    #[arg(long, value_enum, default_value = "all")]
+    #[serde(default)]
+    pub labels: Labels,
+    /// How folds are scored
+    #[arg(long, value_enum, default_value = "solid")]
+    #[serde(default)]
+    pub score: ScoreStyle,
+    /// What joins the two sides of a seam
+    #[arg(long, value_enum, default_value = "none")]
+    #[serde(default)]
+    pub joint: Joint,
+}
+
+fn default_sheet() -> SheetSize {
+    SheetSize::of_mm(600.0, 400.0)
+}
+
+fn default_margin() -> Length {
+    Length::from_mm(5.0)
+}
+
+fn default_spacing() -> Length {
+    Length::from_mm(3.0)
+}
+
+impl Default for SheetParams {
+    fn default() -> Self {
+        Self {
+            sheet: default_sheet(),
+            margin: default_margin(),
+            spacing: default_spacing(),
+            kerf: Length::default(),
+            preset: Preset::default(),
+            labels: Labels::default(),
+            score: ScoreStyle::default(),
+            joint: Joint::default(),
+        }
+    }
+}
+
+/// The stock that pieces are cut from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SheetSize {
+    /// No sheets: pieces only.
+    None,
+    /// Sheets of one size.
+    Size {
+        /// Along x, positive.
+        width: Length,
+        /// Along y, positive.
+        height: Length,
+    },
+}
+
+/// Colours and stroke widths that a machine's software expects.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Preset {
+    /// Red cuts, blue scores, black engraving.
+    #[default]
+    RedCut,
+    /// The colours of boxes.py.
+    Boxes,
+    /// The palette of LightBurn; the info layer is its tool layer.
+    Lightburn,
+    /// Ponoko: blue cuts, red line engraving.
+    Ponoko,
+    /// Glowforge: one step per colour.
+    Glowforge,
+    /// Epilog, Trotec, ULS: hairlines.
+    Epilog,
+}
+
+/// What is engraved on the pieces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Labels {
+    /// Nothing.
+    None,
+    /// The name of every piece.
+    Pieces,
+    /// The name of every piece, and on both sides of every seam its number.
+    #[default]
+    All,
+}
+
+/// How folds are scored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ScoreStyle {
+    /// One line per fold.
+    #[default]
+    Solid,
+    /// Dashes of 2 mm with gaps of about 2 mm, beginning and ending with a dash.
+    Dashed,
+}
+
+/// What joins the two sides of a seam.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Joint {
+    /// The bare edges, for tape or glue.
+    #[default]
+    None,
+}
+
+/// Sizes with a name, width and height in mm.
+const NAMED_SIZES: [(&str, f64, f64); 7] = [
+    ("a0", 841.0, 1189.0),
+    ("a1", 594.0, 841.0),
+    ("a2", 420.0, 594.0),
+    ("a3", 297.0, 420.0),
+    ("a4", 210.0, 297.0),
+    ("a5", 148.0, 210.0),
+    ("letter", 215.9, 279.4),
+];
+
+impl SheetSize {
+    /// A sheet of the given width and height in mm.
+    pub const fn of_mm(width: f64, height: f64) -> Self {
+        Self::Size { width: Length::from_mm(width), height: Length::from_mm(height) }
+    }
+
+    /// Width and height in mm; nothing for [`SheetSize::None`].
+    pub fn mm(self) -> Option<DVec2> {
+        match self {
+            Self::None => None,
+            Self::Size { width, height } => Some(DVec2::new(width.mm(), height.mm())),
+        }
+    }
+}
+
+impl FromStr for SheetSize {
+    type Err = UnitError;
+    fn from_str(text: &str) -> Result<Self, UnitError> {
+        let name = text.trim().to_ascii_lowercase();
+        if name == "none" {
+            return Ok(Self::None);
+        }
+        if let Some(&(_, width, height)) = NAMED_SIZES.iter().find(|&&(n, ..)| n == name) {
+            return Ok(Self::of_mm(width, height));
+        }
+        two_lengths(&name).filter(|(w, h)| w.mm() > 0.0 && h.mm() > 0.0).map_or_else(
+            || {
+                let example = "600x400, 24inx12in, A4, letter or none";
+                Err(UnitError { text: text.to_owned(), wanted: "a sheet size", example })
+            },
+            |(width, height)| Ok(Self::Size { width, height }),
+        )
+    }
+}
+
+/// Reads `24inx12in`; a unit that stands only behind the second number is meant for both.
+fn two_lengths(text: &str) -> Option<(Length, Length)> {
+    let (first, second) = text.split_once(['x', '×'])?;
+    let unit = second.trim_start_matches(|c: char| c.is_ascii_digit() || " .+-/".contains(c));
+    let shared = parse_number(first).is_ok() && !unit.is_empty();
+    let first = if shared { format!("{first}{unit}") } else { first.to_owned() };
+    Some((first.parse().ok()?, second.parse().ok()?))
+}
+
+impl fmt::Display for SheetSize {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::None => f.write_str("none"),
+            Self::Size { width, height } => write!(f, "{width}x{height}"),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for SheetSize {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        String::deserialize(deserializer)?.parse().map_err(serde::de::Error::custom)
+    }
+}
+
+/// A sheet in checked numbers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Stock {
+    /// Width and height of the sheet.
+    pub size: DVec2,
+    /// Free border.
+    pub margin: f64,
+    /// Least distance between two pieces.
+    pub spacing: f64,
+}
+
+impl Stock {
+    /// Width and height inside the margin.
+    pub fn usable(&self) -> DVec2 {
+        self.size - DVec2::splat(2.0 * self.margin)
+    }
+
+    /// How far rounding may carry a point of a piece: a nanometre per metre of sheet.
+    pub fn rounding(&self) -> f64 {
+        1e-9 * self.size.length()
+    }
+}
+
+impl SheetParams {
+    /// Checks all numbers; nothing for `sheet = none`.
+    ///
+    /// # Errors
+    /// [`SheetError::OutOfRange`] and [`SheetError::MarginTooLarge`] with the numbers.
+    pub(crate) fn stock(&self) -> Result<Option<Stock>, SheetError> {
+        for (name, value, least) in
+            [("margin", self.margin, 0.0), ("spacing", self.spacing, MIN_SPACING), ("kerf", self.kerf, 0.0)]
+        {
+            // Written so that NaN is out of range too.
+            if !(value.mm() >= least && value.mm().is_finite()) {
+                return Err(SheetError::OutOfRange { name, value: value.mm(), least });
+            }
+        }
+        let Some(size) = self.sheet.mm() else { return Ok(None) };
+        for (name, value) in [("sheet width", size.x), ("sheet height", size.y)] {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(SheetError::OutOfRange { name, value, least: f64::MIN_POSITIVE });
+            }
+        }
+        let stock = Stock { size, margin: self.margin.mm(), spacing: self.spacing.mm() };
+        if stock.usable().min_element() <= self.kerf.mm() {
+            let margin = stock.margin;
+            return Err(SheetError::MarginTooLarge { margin, kerf: self.kerf.mm(), width: size.x, height: size.y });
+        }
+        Ok(Some(stock))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[derive(clap::Parser)]
+    struct Line {
+        #[command(flatten)]
+        params: SheetParams,
+    }
+
+    #[test]
+    fn the_three_doors_have_the_same_defaults() {
+        let line = <Line as clap::Parser>::parse_from(["x"]).params;
+        let recipe: SheetParams = toml::from_str("").expect("all keys have defaults");
+        assert_eq!(line, SheetParams::default());
+        assert_eq!(recipe, SheetParams::default());
+    }
+
+    #[test]
+    fn the_recipe_and_the_flags_say_the_same() {
+        let text = "sheet = \"24x12in\"\nkerf = \"0.15mm\"\nmargin = 2\npreset = \"lightburn\"\nlabels = \"pieces\"\nscore = \"dashed\"\njoint = \"none\"";
+        let recipe: SheetParams = toml::from_str(text).expect("a recipe");
+        let flags = ["x", "--sheet", "24inx12in", "--kerf", "0.15", "--margin", "2mm", "--preset", "lightburn"];
+        let flags = flags.into_iter().chain(["--labels", "pieces", "--score", "dashed"]);
+        assert_eq!(<Line as clap::Parser>::parse_from(flags).params, recipe);
+        assert_eq!(recipe.sheet, SheetSize::of_mm(24.0 * 25.4, 12.0 * 25.4));
+    }
+
+    #[test]
+    fn sheet_sizes_are_read() {
+        let mm = |text: &str| text.parse::<SheetSize>().ok().and_then(SheetSize::mm).map(|s| (s.x, s.y));
+        assert_eq!(mm("600x400"), Some((600.0, 400.0)));
+        assert_eq!(mm("600mm x 40cm"), Some((600.0, 400.0)));
+        assert_eq!(mm("A4"), Some((210.0, 297.0)));
+        assert_eq!(mm("Letter"), Some((215.9, 279.4)));
+        assert_eq!("none".parse(), Ok(SheetSize::None));
+        for bad in ["", "600", "600x", "0x400", "-600x400", "B5", "600x400x2", "nanx1"] {
+            let error = bad.parse::<SheetSize>().expect_err(bad);
+            assert!(error.to_string().contains("600x400"), "{error}");
+        }
+    }
+
+    #[test]
+    fn numbers_out_of_range_are_named() {
+        let with = |change: fn(&mut SheetParams)| {
+            let mut params = SheetParams::default();
+            change(&mut params);
+            params.stock().map(|_| ()).expect_err("out of range").to_string()
+        };
+        assert!(with(|p| p.kerf = Length::from_mm(-0.1)).contains("kerf is -0.1 mm"));
+        assert!(with(|p| p.spacing = Length::from_mm(0.0)).contains("at least 0.01 mm"));
+        assert!(with(|p| p.margin = Length::from_mm(200.0)).contains("leaves no room on a 600 × 400 mm sheet"));
+        assert!(with(|p| p.margin = Length::from_mm(f64::NAN)).contains("margin is NaN mm"));
+        let none = SheetParams { sheet: SheetSize::None, ..SheetParams::default() };
+        assert_eq!(none.stock().expect("no sheet is fine"), None);
+    }
+}

@@ -1,1 +1,149 @@
 //! Mesh to pieces: seams, flattening, overlap, proof by refolding.
+//!
+//! [`unfold`] lays every face flat, keeps a forest of folds, moves branches until nothing overlaps, opens more folds where
+//! moving does not help, and lets [`prove`], which shares none of that code, measure the result against the mesh.
+
+mod convex;
+mod dual;
+mod error;
+mod forest;
+mod grid;
+mod layout;
+mod overlap;
+mod params;
+mod proof;
+mod random;
+mod repair;
+mod result;
+mod split;
+mod start;
+
+pub use error::UnfoldError;
+pub use params::{PiecesMode, PiecesModeError, Seams, Source, UnfoldParams};
+pub use proof::{EdgeFault, ProofError, prove};
+
+use crate::mesh::Mesh;
+use crate::net::Net;
+use crate::progress::Progress;
+use dual::Dual;
+use forest::Forest;
+use layout::Layout;
+use random::Random;
+use repair::Repair;
+use start::Rule;
+
+/// Spanning forests to choose the start from.
+const STARTS: usize = 30;
+
+/// Unfolds a mesh into flat pieces that do not overlap themselves.
+///
+/// The mesh is in millimetres and its faces are planar (to 1e-5 of their diameter; see [`UnfoldError::NotPlanar`]) simple
+/// polygons, convex or not; it may have rims (they are cuts), handles and several components. Faces stay whole.
+///
+/// Which edges fold: a forest over the faces, within what `seams` allows. Two faces of a piece whose common edge comes to lie
+/// on itself fold there too (around a flat vertex, for instance), so no slit of zero width is ever cut. With
+/// [`Seams::Free`] the forest is the best of several rules, then repaired; the piece count is as low as the search finds.
+/// With given seams or folds every ring of faces opens at the fold with the least fold angle × length, flat ones last.
+/// Where faces overlap and no other allowed edge helps, a further fold opens. So given seams always open; a given fold may.
+///
+/// Pieces come with the most faces first, of equal ones the one with the lowest face; the first face laid, in the middle of
+/// the piece, has its longest side along x, and the piece's box starts at (0, 0).
+///
+/// # Errors
+/// See [`UnfoldError`]. A net that does not pass [`prove`] is never returned.
+pub fn unfold(
+    mesh: &Mesh,
+    seams: &Seams,
+    params: &UnfoldParams,
+    source: &Source,
+    progress: &dyn Progress,
+) -> Result<Net, UnfoldError> {
+    let dual = Dual::new(mesh, seams)?;
+    let faces = dual.face_count();
+    if let PiecesMode::Count(asked) = params.pieces
+        && asked > faces
+    {
+        return Err(UnfoldError::TooManyPieces { asked, faces });
+    }
+    let whole = |forest| Layout::new(&dual, forest, usize::MAX).expect("no limit, no giving up");
+    let layout = match params.pieces {
+        PiecesMode::Faces => whole(Forest::scattered(&dual)),
+        PiecesMode::Strips => settled(whole(start::strips(&dual))),
+        _ => counted(fewest(&dual, mesh, seams, params, progress), params.pieces)?,
+    };
+    let mut net = result::net(mesh, &layout, source);
+    net.proof = prove(mesh, &net)?;
+    Ok(net)
+}
+
+/// The layout with the fewest pieces that the search finds.
+fn fewest<'a>(
+    dual: &'a Dual,
+    mesh: &Mesh,
+    seams: &Seams,
+    params: &UnfoldParams,
+    progress: &dyn Progress,
+) -> Layout<'a> {
+    let mut random = Random::new(params.seed);
+    let start = best_start(dual, mesh, seams, &mut random, progress);
+    let budget = u64::from(params.effort) * 100 * dual.face_count().max(100) as u64;
+    let mut layout = Repair::new(start, random.bits()).run(budget, progress);
+    if !layout.overlaps.is_empty() {
+        split::split_overlaps(&mut layout);
+        split::join_pieces(&mut layout, || !progress.is_cancelled());
+    }
+    settled(layout)
+}
+
+/// The start with the fewest overlaps; the first without any.
+fn best_start<'a>(
+    dual: &'a Dual,
+    mesh: &Mesh,
+    seams: &Seams,
+    random: &mut Random,
+    progress: &dyn Progress,
+) -> Layout<'a> {
+    let first = if *seams == Seams::Free { Rule::of_turn(0, random) } else { Rule::Sharpest };
+    let lay = |rule, limit, random: &mut Random| Layout::new(dual, start::forest(dual, mesh, rule, random), limit);
+    let mut best = lay(first, usize::MAX, random).expect("no limit, no giving up");
+    for turn in 1..STARTS {
+        if best.overlaps.is_empty() || progress.is_cancelled() {
+            break;
+        }
+        progress.report("choosing a start", turn, STARTS);
+        let rule = Rule::of_turn(turn, random);
+        if let Some(better) = lay(rule, best.overlaps.len() - 1, random) {
+            best = better;
+        }
+    }
+    best
+}
+
+/// Laid out afresh until that shows no overlap: what the moves have lost to rounding may hide one at the bound.
+fn settled(layout: Layout) -> Layout {
+    let mut layout = layout.fresh();
+    while !layout.overlaps.is_empty() {
+        split::split_overlaps(&mut layout);
+        layout = layout.fresh();
+    }
+    layout
+}
+
+/// Holds the layout to the number of pieces that was asked for.
+fn counted(mut layout: Layout, mode: PiecesMode) -> Result<Layout, UnfoldError> {
+    let components = layout.dual.component_count();
+    let asked = match mode {
+        PiecesMode::One => components,
+        PiecesMode::Count(asked) => asked,
+        _ => return Ok(layout),
+    };
+    let found = layout.forest.roots().len();
+    if found > asked {
+        return Err(UnfoldError::MorePieces { asked, found, components });
+    }
+    if found == asked {
+        return Ok(layout);
+    }
+    split::split_to_count(&mut layout, asked);
+    Ok(settled(layout))
+}

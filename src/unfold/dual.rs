@@ -1,0 +1,241 @@
+//! The faces of a mesh laid flat one by one, and how they meet, in flat arrays for the search.
+//!
+//! Faces are numbered densely from 0. Their sides are numbered through: the sides of face f are `first[f]..first[f + 1]`,
+//! and side s starts at the corner with the same number. Seen from outside, sides run counter-clockwise.
+
+use glam::{DVec2, DVec3};
+
+use super::convex::Parts;
+use super::{Seams, UnfoldError};
+use crate::geom::{Frame, Plane, RoundingBound, fit_plane};
+use crate::measure;
+use crate::mesh::{EdgeId, EdgeMap, FaceId, HalfEdgeId, HalfEdgeMap, Mesh};
+
+/// No face, no side.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// How far a corner may lie off its face's least-squares plane, relative to the face's diameter.
+///
+/// Flattening a side of length L whose ends lie d off on different sides shortens it by (2d)² / 2L. A limit of 1e-5 of the
+/// diameter D, and of 1.5e-5 of √(D·L) where sides are short, keeps mating sides equal to 1e-9 of the diameter, and still
+/// lets files with single-precision coordinates through.
+const PLANARITY: f64 = 1e-5;
+
+/// Folds flatter than this are flat, in radians: a micrometre on a metre. No tool bends that.
+pub(super) const FLAT: f64 = 1e-6;
+
+/// An edge between two faces that may stay together.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Hinge {
+    /// Its two sides.
+    pub sides: [u32; 2],
+    /// Its length.
+    pub length: f64,
+    /// How far the faces turn against each other, in radians, without sign.
+    pub fold: f64,
+}
+
+/// See the module documentation.
+#[derive(Debug)]
+pub(super) struct Dual {
+    pub faces: Vec<FaceId>,
+    pub first: Vec<u32>,
+    pub half_edges: Vec<HalfEdgeId>,
+    /// Side → its face.
+    pub owner: Vec<u32>,
+    /// Side → the same edge's side on the neighbour, or `NONE` at a rim.
+    pub across: Vec<u32>,
+    /// Side → its edge among the hinges, `NONE` when the edge must open.
+    pub hinge: Vec<u32>,
+    /// Corner → its place in the face's own frame.
+    pub local: Vec<DVec2>,
+    /// Side → its unit direction in the face's own frame.
+    pub direction: Vec<DVec2>,
+    /// Face → convex parts.
+    pub parts: Parts,
+    /// Face → an upper bound of its diameter.
+    pub diameter: Vec<f64>,
+    /// The edges that may stay together, ascending.
+    pub hinges: Vec<Hinge>,
+    /// How deep two faces may sink into each other and still count as touching; see [`super::overlap`].
+    pub bound: f64,
+}
+
+impl Dual {
+    /// Flattens every face and links the sides.
+    pub fn new(mesh: &Mesh, seams: &Seams) -> Result<Self, UnfoldError> {
+        let faces: Vec<FaceId> = mesh.faces().collect();
+        if faces.is_empty() {
+            return Err(UnfoldError::NoFaces);
+        }
+        let (low, high) = mesh.bounds().expect("a mesh with faces has vertices");
+        let rounding = RoundingBound::of_box(low, high).length();
+        let mut dual = Self::empty(faces, super::overlap::BOUND * rounding);
+        for f in dual.faces.clone() {
+            let flat = FlatPolygon::new(mesh, f, rounding)?;
+            dual.push_face(mesh, f, flat)?;
+        }
+        dual.link(mesh, &may_fold(mesh, seams)?)?;
+        Ok(dual)
+    }
+
+    fn empty(faces: Vec<FaceId>, bound: f64) -> Self {
+        Self {
+            faces,
+            first: vec![0],
+            half_edges: Vec::new(),
+            owner: Vec::new(),
+            across: Vec::new(),
+            hinge: Vec::new(),
+            local: Vec::new(),
+            direction: Vec::new(),
+            parts: Parts::default(),
+            diameter: Vec::new(),
+            hinges: Vec::new(),
+            bound,
+        }
+    }
+
+    fn push_face(&mut self, mesh: &Mesh, f: FaceId, flat: FlatPolygon) -> Result<(), UnfoldError> {
+        let face = (self.first.len() - 1) as u32;
+        self.half_edges.extend(mesh.face_half_edges(f));
+        self.owner.resize(self.half_edges.len(), face);
+        self.first.push(self.half_edges.len() as u32);
+        self.parts.push(&flat.corners, self.bound).map_err(|_| UnfoldError::FaceNotSimple { face: f.index() })?;
+        self.diameter.push(flat.diameter);
+        self.local.extend(flat.corners);
+        self.direction.extend(flat.directions);
+        Ok(())
+    }
+
+    fn link(&mut self, mesh: &Mesh, may_fold: &EdgeMap<bool>) -> Result<(), UnfoldError> {
+        let mut side_of = HalfEdgeMap::filled(mesh.half_edge_slots(), NONE);
+        for (s, &h) in self.half_edges.iter().enumerate() {
+            side_of[h] = s as u32;
+        }
+        self.across = self.half_edges.iter().map(|h| side_of[h.twin()]).collect();
+        self.hinge = vec![NONE; self.across.len()];
+        for e in mesh.edges() {
+            let sides = e.half_edges().map(|h| side_of[h]);
+            if sides.contains(&NONE) {
+                continue;
+            }
+            let [f, g] = sides.map(|s| self.owner[s as usize]);
+            if f == g {
+                return Err(UnfoldError::FaceMeetsItself { face: self.faces[f as usize].index(), edge: e.index() });
+            }
+            if may_fold[e] {
+                let fold = measure::fold_angle(mesh, e).map_or(0.0, f64::abs);
+                sides.into_iter().for_each(|s| self.hinge[s as usize] = self.hinges.len() as u32);
+                self.hinges.push(Hinge { sides, length: measure::edge_length(mesh, e), fold });
+            }
+        }
+        Ok(())
+    }
+
+    /// Number of faces.
+    pub fn face_count(&self) -> usize {
+        self.faces.len()
+    }
+
+    /// The sides of a face.
+    pub fn sides(&self, face: u32) -> std::ops::Range<u32> {
+        self.first[face as usize]..self.first[face as usize + 1]
+    }
+
+    /// The sides of a face, as a range of the corner arrays.
+    pub fn corners(&self, face: u32) -> std::ops::Range<usize> {
+        self.first[face as usize] as usize..self.first[face as usize + 1] as usize
+    }
+
+    /// The side after `s` around its face.
+    pub fn next(&self, s: u32) -> u32 {
+        let range = self.sides(self.owner[s as usize]);
+        if s + 1 == range.end { range.start } else { s + 1 }
+    }
+
+    /// The face on the other side of `s`; `NONE` at a rim.
+    pub fn neighbour(&self, s: u32) -> u32 {
+        match self.across[s as usize] {
+            NONE => NONE,
+            t => self.owner[t as usize],
+        }
+    }
+
+    /// Number of parts of the mesh that hang together through any edge.
+    pub fn component_count(&self) -> usize {
+        let mut sets = super::start::Sets::new(self.face_count());
+        let joined = (0..self.across.len() as u32)
+            .filter(|&s| self.across[s as usize] != NONE)
+            .filter(|&s| sets.join(self.owner[s as usize], self.neighbour(s)))
+            .count();
+        self.face_count() - joined
+    }
+}
+
+/// Which edges may stay together.
+fn may_fold(mesh: &Mesh, seams: &Seams) -> Result<EdgeMap<bool>, UnfoldError> {
+    let (listed, value): (&[EdgeId], bool) = match seams {
+        Seams::Free => (&[], false),
+        Seams::Open(edges) => (edges, false),
+        Seams::Folds(edges) => (edges, true),
+    };
+    let mut table = EdgeMap::filled(mesh.edge_slots(), !value);
+    for &e in listed {
+        if !mesh.has_edge(e) {
+            return Err(UnfoldError::UnknownEdge { edge: e.index(), count: mesh.edge_count() });
+        }
+        table[e] = value;
+    }
+    Ok(table)
+}
+
+/// One face in a frame of its own.
+struct FlatPolygon {
+    corners: Vec<DVec2>,
+    directions: Vec<DVec2>,
+    diameter: f64,
+}
+
+impl FlatPolygon {
+    fn new(mesh: &Mesh, f: FaceId, rounding: f64) -> Result<Self, UnfoldError> {
+        let face = f.index();
+        let points = mesh.face_positions(f);
+        let no_area = UnfoldError::FaceWithoutArea { face };
+        let plane = Plane::newell(&points).filter(|_| points.len() >= 3).ok_or(no_area.clone())?;
+        let diameter = 2.0 * points.iter().map(|p| p.distance(plane.point())).fold(0.0, f64::max);
+        let next = |i: usize| points[(i + 1) % points.len()];
+        let shortest = (0..points.len()).map(|i| points[i].distance(next(i))).fold(diameter, f64::min);
+        let limit = PLANARITY * diameter.min(1.5 * (diameter * shortest).sqrt()) + 16.0 * rounding;
+        let plane = flat_enough(plane, &points, face, limit)?;
+        let longest = (0..points.len()).map(|i| next(i) - points[i]).fold(DVec3::ZERO, longer);
+        // The longest side lies along x: a frame that does not depend on how the face is turned in space.
+        let frame = Frame::along(plane.point(), longest, plane.normal()).ok_or(no_area.clone())?;
+        let corners: Vec<DVec2> = points.iter().map(|&p| frame.flatten(p)).collect();
+        // Directions come from differences of given points, not of flat ones: short sides keep all their digits.
+        let direction = |i: usize| {
+            let d = next(i) - points[i];
+            DVec2::new(d.dot(frame.x), d.dot(frame.y)).try_normalize().ok_or(no_area.clone())
+        };
+        let directions = (0..points.len()).map(direction).collect::<Result<_, _>>()?;
+        Ok(Self { corners, directions, diameter })
+    }
+}
+
+fn longer(a: DVec3, b: DVec3) -> DVec3 {
+    if b.length_squared() > a.length_squared() { b } else { a }
+}
+
+/// The plane itself, or the least-squares plane where that lies nearer to the corners; an error when both are too far off.
+fn flat_enough(plane: Plane, points: &[DVec3], face: usize, limit: f64) -> Result<Plane, UnfoldError> {
+    let deviation = |plane: &Plane| points.iter().map(|&p| plane.signed_distance(p).abs()).fold(0.0, f64::max);
+    if points.len() == 3 || deviation(&plane) <= limit {
+        return Ok(plane);
+    }
+    let fitted = fit_plane(points).ok_or(UnfoldError::FaceWithoutArea { face })?;
+    let outward = if fitted.normal().dot(plane.normal()) < 0.0 { fitted.flipped() } else { fitted };
+    match deviation(&outward) {
+        deviation if deviation <= limit => Ok(outward),
+        deviation => Err(UnfoldError::NotPlanar { face, deviation, limit }),
+    }
+}

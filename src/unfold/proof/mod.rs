@@ -1,0 +1,173 @@
+//! The proof of a net: measured against the mesh by code that shares nothing with the unfolder but the types.
+//!
+//! Four questions, each answered by its own method: is everything there once (structure), is every face and every edge as
+//! large as on the mesh (congruence), do two faces of a piece share area (overlap), and do the pieces fold back up into the
+//! mesh from nothing but their own folds and angles (refold).
+
+mod congruence;
+mod overlap;
+mod refold;
+mod structure;
+
+use crate::mesh::Mesh;
+use crate::net::{Net, Proof};
+
+/// Sides of one edge may differ by this much of their length (plus [`LENGTH_OF_SIZE`] of the model's size).
+const LENGTH: f64 = 1e-9;
+/// Distances may differ by this much of the model's size: what flattening nearly planar faces may cost.
+const LENGTH_OF_SIZE: f64 = 1e-9;
+/// A refolded corner may miss its vertex by this much of the model's size when all faces are planar.
+const REFOLD: f64 = 1e-6;
+
+/// What is wrong with a net. Faces, vertices and edges are named by their numbers in the mesh.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ProofError {
+    /// The net was made of another mesh.
+    #[error("the net counts {net} {what}, the mesh has {mesh}; take the mesh that was unfolded")]
+    Counts {
+        /// What is counted.
+        what: &'static str,
+        /// In the net.
+        net: usize,
+        /// In the mesh.
+        mesh: usize,
+    },
+    /// A face that is in no piece or in several.
+    #[error("face {face} is in {times} pieces; every face of the mesh must be in exactly one")]
+    FaceTimes {
+        /// The face.
+        face: usize,
+        /// In how many pieces.
+        times: usize,
+    },
+    /// A face whose corners are not those of the mesh.
+    #[error("face {face} of the net has other corners than on the mesh")]
+    Corners {
+        /// The face.
+        face: usize,
+    },
+    /// An edge that is listed wrongly.
+    #[error("edge {edge}: {fault}")]
+    Edge {
+        /// The edge.
+        edge: usize,
+        /// What is wrong.
+        fault: EdgeFault,
+    },
+    /// A rim that the mesh does not have.
+    #[error("there is no rim from vertex {} to vertex {} on face {face}", edge[0], edge[1])]
+    Rim {
+        /// Its ends.
+        edge: [usize; 2],
+        /// Its face.
+        face: usize,
+    },
+    /// A face that was laid down mirrored or without area.
+    #[error("face {face} lies mirrored or without area; corners must run counter-clockwise")]
+    Mirrored {
+        /// The face.
+        face: usize,
+    },
+    /// A piece whose outline and holes are not the boundary of its faces.
+    #[error("the outline of piece {piece} is not the boundary of its faces near ({x}, {y})")]
+    Outline {
+        /// The piece, counted from 1 as in its name.
+        piece: usize,
+        /// Where.
+        x: f64,
+        /// Where.
+        y: f64,
+    },
+    /// A face that is not congruent to the face of the mesh.
+    #[error(
+        "face {face} is distorted: two corners are {by:.3e} mm nearer or farther than on the mesh ({limit:.3e} allowed)"
+    )]
+    Distorted {
+        /// The face.
+        face: usize,
+        /// By how much, in mm.
+        by: f64,
+        /// Allowed, in mm.
+        limit: f64,
+    },
+    /// Two sides of one edge with different lengths.
+    #[error("the sides of edge {edge} differ by {by:.3e} mm ({limit:.3e} allowed)")]
+    Partners {
+        /// The edge.
+        edge: usize,
+        /// By how much, in mm.
+        by: f64,
+        /// Allowed, in mm.
+        limit: f64,
+    },
+    /// Two faces of a piece share area.
+    #[error("faces {} and {} overlap in piece {piece} ({pairs} overlapping pairs in all)", faces[0], faces[1])]
+    Overlap {
+        /// The piece, counted from 1 as in its name.
+        piece: usize,
+        /// The first pair.
+        faces: [usize; 2],
+        /// Number of pairs.
+        pairs: usize,
+    },
+    /// A piece whose faces do not hang together by its folds.
+    #[error("face {face} does not hang together with the rest of piece {piece} by folds")]
+    Loose {
+        /// The piece, counted from 1 as in its name.
+        piece: usize,
+        /// The face.
+        face: usize,
+    },
+    /// The net does not fold back into the mesh.
+    #[error("folded back up, face {face} misses vertex {vertex} by {by:.3e} mm ({limit:.3e} allowed)")]
+    Refold {
+        /// The face.
+        face: usize,
+        /// The vertex.
+        vertex: usize,
+        /// By how much, in mm.
+        by: f64,
+        /// Allowed, in mm.
+        limit: f64,
+    },
+}
+
+/// What is wrong with an edge of a net.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum EdgeFault {
+    /// The mesh does not have it.
+    #[error("the mesh does not have it")]
+    Unknown,
+    /// Listed twice, or not at all.
+    #[error("it must be listed exactly once among folds, seams and rims")]
+    Times,
+    /// Its ends or faces are not those of the mesh.
+    #[error("its vertices or faces are not those of the mesh")]
+    Neighbours,
+    /// A fold or side names a piece that does not hold the face.
+    #[error("it names a piece that does not hold its face")]
+    Piece,
+    /// Its segment is not a side of the face it names.
+    #[error("its segment is not where the face's side lies")]
+    Segment,
+}
+
+/// Measures a net against the mesh that it was made of.
+///
+/// # Errors
+/// The first fault, in the order structure, congruence, overlap, refold; see [`ProofError`].
+pub fn prove(mesh: &Mesh, net: &Net) -> Result<Proof, ProofError> {
+    let size = size(mesh);
+    structure::check(mesh, net, size)?;
+    let congruence_mm = congruence::check(mesh, net, size)?;
+    overlap::check(net, size)?;
+    let refold_mm = refold::check(mesh, net, size)?;
+    Ok(Proof { congruence_mm, refold_mm, overlaps: 0 })
+}
+
+/// The model's size: its box's diagonal, with a share of the distance from the origin, where coordinates are coarser.
+fn size(mesh: &Mesh) -> f64 {
+    mesh.bounds().map_or(0.0, |(low, high)| (high - low).length() + low.abs().max(high.abs()).max_element() / 256.0)
+}

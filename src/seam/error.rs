@@ -1,5 +1,6 @@
 //! Why there is no such seam set.
 
+use super::NoHamiltonian;
 use crate::mesh::{EdgeId, VertexId};
 
 /// Why folds or seams of the wanted kind cannot be given.
@@ -44,6 +45,52 @@ pub enum SeamError {
         barrier: Vec<VertexId>,
         /// How many odd parts are left.
         odd_parts: usize,
+    },
+    /// More choices of folds than the caller wants to list.
+    #[error(
+        "the mesh has more than {limit} choices of folds, too many to list; take `matching` (the least) or `hamiltonian`, \
+         or choose on a coarser mesh"
+    )]
+    TooMany {
+        /// The most that would have been listed.
+        limit: usize,
+    },
+    /// A row that the table of matchings does not have.
+    #[error("there is no matching:{index}; up to symmetry the mesh has {count}, numbered from 0")]
+    NoSuchMatching {
+        /// The row asked for.
+        index: usize,
+        /// Number of rows.
+        count: usize,
+    },
+    /// The mesh has several components.
+    #[error(
+        "the mesh has {count} components (the second begins at vertex {vertex}), and no single seam runs through all; take \
+         them one by one"
+    )]
+    SeveralComponents {
+        /// How many there are.
+        count: usize,
+        /// The lowest vertex of the second.
+        vertex: VertexId,
+    },
+    /// No closed seam runs through every vertex once.
+    #[error(
+        "no two-piece seam exists: no closed seam runs through every vertex once ({proof}); take `matching` for more \
+         pieces"
+    )]
+    NoHamiltonian {
+        /// How that was shown.
+        proof: NoHamiltonian,
+    },
+    /// The search for a two-piece seam used up its work.
+    #[error(
+        "no two-piece seam was found with {conflicts} conflicts, nor was it shown that there is none; take `matching`, or \
+         choose the seam on a coarser mesh and cut its edges"
+    )]
+    SearchStopped {
+        /// How many conflicts were granted.
+        conflicts: u64,
     },
 }
 

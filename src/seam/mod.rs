@@ -10,13 +10,24 @@
 //! - [`seam_cycles`], [`piece_count`] and [`is_perfect_matching`] tell what a choice of folds means.
 
 mod blossom;
+mod enumerate;
 mod error;
 mod factor;
 mod graph;
+mod hamiltonian;
 mod least;
+mod sat;
+mod symmetry;
+mod two_piece;
 mod weight;
 
+#[cfg(test)]
+mod fixtures;
+
+pub use enumerate::{MATCHING_LIMIT, MatchingRow, Matchings, matching, table};
 pub use error::SeamError;
 pub use factor::{is_perfect_matching, piece_count, seam_cycles};
+pub use hamiltonian::hamiltonian_folds;
 pub use least::{least_matching, least_matching_by};
+pub use two_piece::{NoHamiltonian, TwoPieceSearch};
 pub use weight::{fold_sum, fold_weight};

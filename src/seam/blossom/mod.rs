@@ -24,6 +24,8 @@ mod steps;
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+pub(super) use tests::Random;
 
 use super::graph::Graph;
 use solver::Solver;

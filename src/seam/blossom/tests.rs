@@ -1,7 +1,7 @@
 use super::*;
 
 /// A small generator of pseudo-random numbers (SplitMix64).
-pub(crate) struct Random(pub u64);
+pub(in crate::seam) struct Random(pub u64);
 
 impl Random {
     pub fn next(&mut self) -> u64 {

@@ -1,5 +1,6 @@
 //! Seam sets of a mesh as graphs: matchings, 2-factors, Hamiltonian cycles.
 //!
+<<<<<<< HEAD
 //! Stands in for the module of the same name until that is merged; only the signatures count.
 
 use crate::mesh::{EdgeId, Mesh};
@@ -36,3 +37,36 @@ pub fn matching(_mesh: &Mesh, _k: usize) -> Result<Vec<EdgeId>, SeamError> {
 pub fn hamiltonian_folds(_mesh: &Mesh) -> Result<Vec<EdgeId>, SeamError> {
     Err(SeamError::StandIn)
 }
+=======
+//! In a closed 3-valent mesh the folds of a D-form meet every vertex exactly once: they are a *perfect matching*, and the
+//! seams, two at every vertex, are disjoint closed cycles (a *2-factor*; Petersen 1891: a cubic graph without a bridge has
+//! one). On a sphere the pieces number cycles + 1, and two pieces mean one Hamiltonian cycle of seams.
+//!
+//! - [`least_matching`] finds the folds that bend least, exactly and for large meshes.
+//! - [`Matchings`], [`table`] and [`matching`] list all of them for small meshes, up to symmetry.
+//! - [`TwoPieceSearch`] and [`hamiltonian_folds`] look for the seam of two pieces, or prove that there is none.
+//! - [`seam_cycles`], [`piece_count`] and [`is_perfect_matching`] tell what a choice of folds means.
+
+mod blossom;
+mod enumerate;
+mod error;
+mod factor;
+mod graph;
+mod hamiltonian;
+mod least;
+mod sat;
+mod symmetry;
+mod two_piece;
+mod weight;
+
+#[cfg(test)]
+mod fixtures;
+
+pub use enumerate::{MATCHING_LIMIT, MatchingRow, Matchings, matching, table};
+pub use error::SeamError;
+pub use factor::{is_perfect_matching, piece_count, seam_cycles};
+pub use hamiltonian::hamiltonian_folds;
+pub use least::{least_matching, least_matching_by};
+pub use two_piece::{NoHamiltonian, TwoPieceSearch};
+pub use weight::{fold_sum, fold_weight};
+>>>>>>> seam

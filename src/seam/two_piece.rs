@@ -1,0 +1,244 @@
+//! Seams of two pieces: Hamiltonian cycles of seam edges, found one after the other.
+
+use super::graph::Graph;
+use super::sat::{Answer, Sat};
+use super::{SeamError, least_matching};
+use crate::mesh::{EdgeId, EdgeMap, Mesh};
+use crate::progress::Progress;
+
+/// After so many conflicts the search asks whether it should go on.
+const CHUNK: u64 = 2_000;
+
+/// A search for folds whose seam is one cycle through all vertices of a closed 3-valent mesh. On a sphere such a seam
+/// leaves two pieces; on other surfaces one or two.
+///
+/// One variable for each edge (fold or seam), exactly one fold for each vertex, at least one fold for each face. A seam
+/// that closes too early is forbidden when it comes up: of the edges that leave its vertices, at least one must be seam.
+/// What the caller learns about a candidate (overlaps) is added with [`Self::forbid_folds_together`]. The search starts
+/// at the least matching and stays near what it tried last, so dull edges tend to be folds. The same calls always give the
+/// same answers.
+///
+/// ```no_run
+/// # use kerfold::{progress::Silent, seam::TwoPieceSearch};
+/// # fn overlapping(_: &[kerfold::mesh::EdgeId]) -> Option<Vec<kerfold::mesh::EdgeId>> { None }
+/// # fn run(mesh: &kerfold::mesh::Mesh) -> Result<(), kerfold::seam::SeamError> {
+/// let mut search = TwoPieceSearch::new(mesh)?;
+/// while let Some(folds) = search.next_candidate(&Silent) {
+///     // The folds between two faces that overlap cannot all be folds.
+///     let Some(path) = overlapping(&folds) else { break };
+///     search.forbid_folds_together(&path);
+/// }
+/// # Ok(())
+/// # }
+/// ```
+pub struct TwoPieceSearch {
+    graph: Graph,
+    /// The number of each edge in the graph.
+    number: EdgeMap<Option<u32>>,
+    sat: Sat,
+    /// The last candidate, unless something forbids it already.
+    last: Option<Vec<u32>>,
+    is_exhausted: bool,
+    proof: NoHamiltonian,
+}
+
+/// How it was shown that no seam runs through all vertices once.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum NoHamiltonian {
+    /// All choices of folds were listed.
+    Listed {
+        /// How many there are.
+        matchings: usize,
+        /// The fewest closed seams that any of them leaves.
+        fewest_cycles: usize,
+    },
+    /// The clauses contradict each other: one fold a vertex, one fold a face, no seam closed too early, and what the
+    /// caller forbade.
+    Contradiction {
+        /// How many closed seams had to be forbidden one by one.
+        cycles: usize,
+        /// How many sets of folds the caller forbade.
+        forbidden: usize,
+        /// How many conflicts the solver met.
+        conflicts: u64,
+    },
+}
+
+impl std::fmt::Display for NoHamiltonian {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Listed { matchings, fewest_cycles } => {
+                write!(f, "each of the {matchings} choices of folds leaves at least {fewest_cycles} closed seams")
+            }
+            Self::Contradiction { cycles, conflicts, .. } => {
+                write!(f, "after forbidding {cycles} closed seams nothing is left ({conflicts} conflicts)")
+            }
+        }
+    }
+}
+
+impl TwoPieceSearch {
+    /// Sets the search up at the least matching.
+    ///
+    /// # Errors
+    /// As [`least_matching`], and [`SeamError::SeveralComponents`].
+    pub fn new(mesh: &Mesh) -> Result<Self, SeamError> {
+        let graph = connected(mesh)?;
+        let least = least_matching(mesh)?;
+        let mut number = EdgeMap::filled(mesh.edge_slots(), None);
+        (0u32..).zip(&graph.edge_ids).for_each(|(i, &e)| number[e] = Some(i));
+        let mut sat = Sat::new(graph.edge_ids.len());
+        for v in 0..graph.vertex_count() {
+            let edges = graph.incident(v);
+            sat.add_clause(edges.iter().map(|&e| (e, true)));
+            for (i, &e) in edges.iter().enumerate() {
+                // A loop comes twice here, and can never be a fold.
+                edges[..i].iter().for_each(|&d| sat.add_clause([(d, false), (e, false)]));
+            }
+        }
+        let assumed: Vec<u32> = least.iter().filter_map(|&e| number[e]).collect();
+        sat.solve(&assumed, u64::MAX);
+        let proof = NoHamiltonian::Contradiction { cycles: 0, forbidden: 0, conflicts: 0 };
+        let mut search = Self { graph, number, sat, last: None, is_exhausted: false, proof };
+        search.forbid_seams_around_faces(mesh);
+        Ok(search)
+    }
+
+    /// A seam around a face that visits each of its vertices once is closed too early, unless these are all.
+    fn forbid_seams_around_faces(&mut self, mesh: &Mesh) {
+        for f in mesh.faces() {
+            let mut vertices: Vec<_> = mesh.face_vertices(f).collect();
+            let sides = vertices.len();
+            vertices.sort_unstable();
+            vertices.dedup();
+            if vertices.len() == sides && sides < mesh.vertex_count() {
+                let number = &self.number;
+                self.sat.add_clause(mesh.face_half_edges(f).filter_map(|h| number[h.edge()]).map(|e| (e, true)));
+            }
+        }
+    }
+
+    /// The next folds, ascending, whose seam is one cycle and that break none of the learnt rules; never the same twice.
+    /// `None` when there are no more ([`Self::is_exhausted`]) or when the user cancelled.
+    pub fn next_candidate(&mut self, progress: &dyn Progress) -> Option<Vec<EdgeId>> {
+        while !self.is_exhausted && !progress.is_cancelled() {
+            progress.report("looking for a seam of two pieces", self.sat.conflicts() as usize, 0);
+            if let Some(folds) = self.next_within(CHUNK) {
+                return Some(folds);
+            }
+        }
+        None
+    }
+
+    /// As [`Self::next_candidate`], but gives up after about that many more conflicts.
+    pub(super) fn next_within(&mut self, conflicts: u64) -> Option<Vec<EdgeId>> {
+        if let Some(last) = self.last.take() {
+            self.sat.add_clause(last.into_iter().map(|e| (e, false)));
+        }
+        let end = self.sat.conflicts().saturating_add(conflicts);
+        while !self.is_exhausted && self.sat.conflicts() < end {
+            match self.sat.solve(&[], end - self.sat.conflicts()) {
+                Answer::Stopped => return None,
+                Answer::No => self.is_exhausted = true,
+                Answer::Yes => {
+                    let component = self.seam_components();
+                    if component.iter().all(|&c| c == 0) {
+                        let folds: Vec<u32> =
+                            (0..self.graph.edge_ids.len() as u32).filter(|&e| self.sat.value(e)).collect();
+                        let ids = self.graph.ids(folds.iter().copied());
+                        self.last = Some(folds);
+                        return Some(ids);
+                    }
+                    self.forbid_short_seams(&component);
+                }
+            }
+        }
+        None
+    }
+
+    /// Which closed seam of the last answer each vertex is on.
+    fn seam_components(&self) -> Vec<u32> {
+        const UNSEEN: u32 = u32::MAX;
+        let mut component = vec![UNSEEN; self.graph.vertex_ids.len()];
+        let mut count = 0;
+        let mut stack = Vec::new();
+        for seed in 0..self.graph.vertex_count() {
+            if component[seed as usize] != UNSEEN {
+                continue;
+            }
+            component[seed as usize] = count;
+            stack.push(seed);
+            while let Some(v) = stack.pop() {
+                for &e in self.graph.incident(v) {
+                    let u = self.graph.other(e, v);
+                    if !self.sat.value(e) && component[u as usize] == UNSEEN {
+                        component[u as usize] = count;
+                        stack.push(u);
+                    }
+                }
+            }
+            count += 1;
+        }
+        component
+    }
+
+    /// Of the edges that leave the vertices of a closed seam, at least one must be seam.
+    fn forbid_short_seams(&mut self, component: &[u32]) {
+        let count = component.iter().max().map_or(0, |&c| c as usize + 1);
+        let mut leaving = vec![Vec::new(); count];
+        for (e, ends) in (0u32..).zip(&self.graph.ends) {
+            let [a, b] = ends.map(|v| component[v as usize] as usize);
+            if a != b {
+                leaving[a].push((e, false));
+                leaving[b].push((e, false));
+            }
+        }
+        // Of two seams both are left by the same edges.
+        leaving.truncate(if count == 2 { 1 } else { count });
+        if let NoHamiltonian::Contradiction { cycles, .. } = &mut self.proof {
+            *cycles += leaving.len();
+        }
+        leaving.into_iter().for_each(|clause| self.sat.add_clause(clause));
+    }
+
+    /// Learns that these edges cannot all be folds. An edge that the mesh does not have can never be a fold, so naming one
+    /// forbids nothing; an empty list forbids everything.
+    pub fn forbid_folds_together(&mut self, folds: &[EdgeId]) {
+        let Some(clause) = folds.iter().map(|&e| self.number.get(e).copied().flatten()).collect::<Option<Vec<u32>>>()
+        else {
+            return;
+        };
+        if let NoHamiltonian::Contradiction { forbidden, .. } = &mut self.proof {
+            *forbidden += 1;
+        }
+        // A candidate that this forbids need not be forbidden as a whole.
+        self.last = self.last.take().filter(|last| !clause.iter().all(|e| last.binary_search(e).is_ok()));
+        self.sat.add_clause(clause.into_iter().map(|e| (e, false)));
+    }
+
+    /// Whether it is proven that no further candidate exists.
+    pub fn is_exhausted(&self) -> bool {
+        self.is_exhausted
+    }
+
+    /// How much work there was so far; the proof once [`Self::is_exhausted`].
+    pub fn proof(&self) -> NoHamiltonian {
+        match self.proof {
+            NoHamiltonian::Contradiction { cycles, forbidden, .. } => {
+                NoHamiltonian::Contradiction { cycles, forbidden, conflicts: self.sat.conflicts() }
+            }
+            listed => listed,
+        }
+    }
+}
+
+/// The graph of a connected closed 3-valent mesh.
+pub(super) fn connected(mesh: &Mesh) -> Result<Graph, SeamError> {
+    let graph = Graph::cubic(mesh)?;
+    let components = mesh.components();
+    match components.as_slice() {
+        [_, second, ..] => Err(SeamError::SeveralComponents { count: components.len(), vertex: second.vertices[0] }),
+        _ => Ok(graph),
+    }
+}

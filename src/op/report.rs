@@ -24,6 +24,35 @@ pub struct CutReport {
     pub is_beyond_far_ends: bool,
 }
 
+impl CutReport {
+    /// What the user should know, in words; `element` is what was cut: vertex, edge, face or plane.
+    pub fn notes(&self, element: &str) -> Vec<String> {
+        let mut notes = Vec::new();
+        if self.is_beyond_far_ends {
+            notes.push("the offset is above 1: the planes lie beyond the far ends of the edges".to_owned());
+        }
+        if self.missed > 0 {
+            notes.push(format!("{} of {} cuts met nothing", self.missed, self.cuts));
+        }
+        if !self.overcut.is_empty() {
+            let shown: Vec<String> = self.overcut.iter().take(12).map(usize::to_string).collect();
+            let more = if self.overcut.len() > 12 { ", …" } else { "" };
+            notes.push(format!(
+                "{} cuts met each other ({element} {}{more}): the caps are not disjoint; a smaller offset keeps them apart",
+                self.overcut.len(),
+                shown.join(", ")
+            ));
+        }
+        if !self.not_three_valent.is_empty() {
+            notes.push(format!("{} vertices have other than three edges", self.not_three_valent.len()));
+        }
+        if self.components > 1 {
+            notes.push(format!("the model now has {} parts", self.components));
+        }
+        notes
+    }
+}
+
 /// The caps and strips of one round, by lineage.
 pub(super) struct RoundMarks {
     /// The caps of the round's cuts.

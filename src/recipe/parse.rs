@@ -6,7 +6,6 @@
 use std::ops::Range;
 
 use clap::{Args, Command};
-use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};

@@ -1,0 +1,124 @@
+//! Carries out a recipe: one mesh on its way from a solid or a file to sheets.
+
+use std::path::{Path, PathBuf};
+
+use super::{FabricateParams, Fabrication, Recipe, Step, StepError, StepFailure, fabricate};
+use crate::check::{CheckParams, Report, check};
+use crate::io::{ReadMesh, read_mesh};
+use crate::mesh::{Mesh, SplitVertex};
+use crate::op::{CutReport, OpContext, OpError, slice, truncate_edges, truncate_faces, truncate_vertices};
+use crate::picture::RenderParams;
+use crate::progress::Progress;
+use crate::select::Made;
+use crate::shape::solid;
+use crate::sheet::SheetParams;
+use crate::unfold::{Source, UnfoldParams};
+
+/// What a recipe has made so far.
+#[derive(Default)]
+pub struct Job {
+    mesh: Option<Mesh>,
+    made: Option<Made>,
+    /// What the user should know, in order.
+    pub notes: Vec<String>,
+    /// How the picture of the model looks.
+    pub render: RenderParams,
+    /// Limits for the report.
+    pub check: CheckParams,
+    /// Whether the recipe asked for a check, so that findings count.
+    pub is_check_asked: bool,
+    /// Pieces and sheets, once unfolded, with how the sheets are drawn.
+    pub fabrication: Option<(Fabrication, SheetParams)>,
+}
+
+impl Job {
+    /// Runs all steps. `folder` is where relative file names of the recipe start from.
+    ///
+    /// # Errors
+    /// [`StepError`]: the first step that fails, with its number.
+    pub fn run(recipe: &Recipe, folder: &Path, progress: &dyn Progress) -> Result<Self, StepError> {
+        let mut job = Self::default();
+        for (i, step) in recipe.steps.iter().enumerate() {
+            job.step(step, folder, progress).map_err(|cause| StepError { step: i + 1, verb: step.verb(), cause })?;
+        }
+        Ok(job)
+    }
+
+    /// The mesh as it is by now.
+    ///
+    /// # Errors
+    /// [`StepFailure::NoMesh`] before the first step.
+    pub fn mesh(&self) -> Result<&Mesh, StepFailure> {
+        self.mesh.as_ref().ok_or(StepFailure::NoMesh)
+    }
+
+    /// The report on the mesh as it is by now.
+    ///
+    /// # Errors
+    /// [`StepFailure::NoMesh`], or [`StepFailure::Check`] for a limit that is none.
+    pub fn report(&self) -> Result<Report, StepFailure> {
+        Ok(check(self.mesh()?, &self.check)?)
+    }
+
+    fn step(&mut self, step: &Step, folder: &Path, progress: &dyn Progress) -> Result<(), StepFailure> {
+        if progress.is_cancelled() {
+            return Err(OpError::Cancelled.into());
+        }
+        match step {
+            Step::Solid(params) => self.start(solid(params)?)?,
+            Step::Read(read) => {
+                let path: PathBuf = folder.join(&read.path);
+                let ReadMesh { mut mesh, notes, .. } = read_mesh(&path, &read.options)?;
+                self.notes.extend(notes.iter().map(ToString::to_string));
+                // From here on ids are those of the model.obj that will be written.
+                mesh.compact();
+                self.start(mesh)?;
+            }
+            Step::CutVertex(params) => self.cut("vertex", |mesh, context| truncate_vertices(mesh, params, context), progress)?,
+            Step::CutEdge(params) => self.cut("edge", |mesh, context| truncate_edges(mesh, params, context), progress)?,
+            Step::CutFace(params) => self.cut("face", |mesh, context| truncate_faces(mesh, params, context), progress)?,
+            Step::CutPlane(params) => self.cut("plane", |mesh, context| slice(mesh, params, context), progress)?,
+            Step::Check(params) => (self.check, self.is_check_asked) = (params.clone(), true),
+            Step::Render(params) => self.render = params.clone(),
+            Step::Unfold { unfold, fabricate, sheet } => self.unfold(unfold, fabricate, sheet, progress)?,
+        }
+        Ok(())
+    }
+
+    fn start(&mut self, mesh: Mesh) -> Result<(), StepFailure> {
+        if self.mesh.is_some() {
+            return Err(StepFailure::SecondMesh);
+        }
+        self.mesh = Some(mesh);
+        Ok(())
+    }
+
+    fn cut(
+        &mut self,
+        element: &'static str,
+        operate: impl FnOnce(&Mesh, &OpContext<'_>) -> Result<(Mesh, CutReport), OpError>,
+        progress: &dyn Progress,
+    ) -> Result<(), StepFailure> {
+        let context = OpContext { made: self.made.as_ref(), progress };
+        let (mesh, report) = operate(self.mesh()?, &context)?;
+        self.notes.extend(report.notes(element));
+        self.made = Some(report.made);
+        self.mesh = Some(mesh);
+        Ok(())
+    }
+
+    fn unfold(
+        &mut self,
+        unfold: &UnfoldParams,
+        choice: &FabricateParams,
+        sheet: &SheetParams,
+        progress: &dyn Progress,
+    ) -> Result<(), StepFailure> {
+        let splits: &[SplitVertex] = &[];
+        let source = Source { scale: 1.0, split_vertices: splits };
+        let fabrication = fabricate(self.mesh()?, self.made.as_ref(), (unfold, choice, sheet), &source, progress)?;
+        self.notes.extend(fabrication.notes());
+        self.fabrication = Some((fabrication, sheet.clone()));
+        Ok(())
+    }
+}

@@ -1,0 +1,103 @@
+//! What a job leaves in its folder, as names and bytes; nothing is written here.
+
+use super::fabricate::piece_list;
+use super::{Fabrication, Job, StepFailure};
+use crate::io::layout_json::write_layout_json;
+use crate::io::pieces_json::write_pieces_json;
+use crate::io::report_json::check_json;
+use crate::io::svg::write_svg;
+use crate::io::{MeshFormat, WriteOptions, mesh_bytes};
+use crate::picture::{PictureError, Polyline, StrokeLayer, Strokes, render_model, render_sheet};
+use crate::sheet::{Drawing, LayerKind, SheetParams};
+
+/// A file to be written: its name in the folder, and its bytes.
+pub type Output = (String, Vec<u8>);
+
+/// The files of a whole recipe: model, picture, report, and if it was unfolded pieces, layout, sheets and their pictures.
+///
+/// # Errors
+/// [`StepFailure`] when the model cannot be written, checked or drawn.
+pub fn job_outputs(job: &Job, command: &str) -> Result<Vec<Output>, StepFailure> {
+    let mesh = job.mesh()?;
+    let options = WriteOptions { command: Some(command.to_owned()), ..WriteOptions::default() };
+    let mut outputs = vec![
+        ("model.obj".to_owned(), mesh_bytes(MeshFormat::Obj, mesh, &options)?),
+        ("model.png".to_owned(), render_model(mesh, &job.render)?.to_png()),
+        ("report.json".to_owned(), check_json(&job.report()?, command).into_bytes()),
+    ];
+    if let Some((fabrication, sheet)) = &job.fabrication {
+        outputs.extend(fabrication_outputs(fabrication, sheet, command));
+        for drawing in &fabrication.sheets.drawings {
+            let picture = sheet_picture(drawing, job.render.width)?;
+            outputs.push((format!("{}.png", drawing.file_stem()), picture));
+        }
+    }
+    Ok(outputs)
+}
+
+/// Pieces, layout and sheets; the pieces only when no sheets were asked for.
+pub fn fabrication_outputs(fabrication: &Fabrication, sheet: &SheetParams, command: &str) -> Vec<Output> {
+    let mut outputs = vec![("pieces.json".to_owned(), write_pieces_json(&fabrication.net, command).into_bytes())];
+    if !fabrication.sheets.drawings.is_empty() {
+        let layout = write_layout_json(&fabrication.sheets.layout, command);
+        outputs.push(("layout.json".to_owned(), layout.into_bytes()));
+    }
+    for drawing in &fabrication.sheets.drawings {
+        let svg = write_svg(drawing, sheet.preset, command);
+        outputs.push((format!("{}.svg", drawing.file_stem()), svg.into_bytes()));
+    }
+    outputs
+}
+
+/// A PNG of a sheet, in the colours of the default preset.
+///
+/// # Errors
+/// [`PictureError`] for a size that cannot be drawn.
+pub fn sheet_picture(drawing: &Drawing, width: u32) -> Result<Vec<u8>, PictureError> {
+    let layers = drawing.layers.iter().map(|layer| StrokeLayer {
+        name: layer.kind.name().to_owned(),
+        colour: screen_colour(layer.kind),
+        width_mm: 0.1,
+        polylines: layer
+            .marks
+            .iter()
+            .flat_map(|mark| &mark.strokes)
+            .map(|stroke| Polyline { points: stroke.points.clone(), is_closed: stroke.closed })
+            .collect(),
+        bounds_parts: matches!(layer.kind, LayerKind::CutInner | LayerKind::CutOuter),
+    });
+    let strokes = Strokes { width_mm: drawing.width, height_mm: drawing.height, layers: layers.collect() };
+    Ok(render_sheet(&strokes, width)?.to_png())
+}
+
+fn screen_colour(kind: LayerKind) -> [u8; 3] {
+    match kind {
+        LayerKind::Engrave => [40, 40, 40],
+        LayerKind::Score => [40, 80, 220],
+        LayerKind::CutInner => [230, 90, 0],
+        LayerKind::CutOuter => [220, 0, 0],
+        LayerKind::Info => [150, 150, 150],
+    }
+}
+
+impl Fabrication {
+    /// What the user should know about pieces and sheets.
+    pub fn notes(&self) -> Vec<String> {
+        let report = &self.sheets.report;
+        let mut notes = vec![self.seams.to_owned()];
+        let mut note = |count: usize, text: String| {
+            if count > 0 {
+                notes.push(text);
+            }
+        };
+        note(self.divided, format!("{} folds were opened so that the pieces fit on the sheet", self.divided));
+        let unnamed = &report.unnamed_pieces;
+        note(unnamed.len(), format!("no room for the names of pieces {}", piece_list(unnamed)));
+        note(report.unnumbered_sides, format!("no room for {} seam numbers", report.unnumbered_sides));
+        note(report.flat_folds, format!("{} folds are flat and were not scored", report.flat_folds));
+        note(report.lost_holes, format!("{} holes are narrower than the kerf and were left out", report.lost_holes));
+        let closed = report.closed_notches;
+        note(closed, format!("{closed} notches are narrower than the kerf: flaps hang together there"));
+        notes
+    }
+}

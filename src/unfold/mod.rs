@@ -86,7 +86,7 @@ fn fewest<'a>(
 ) -> Layout<'a> {
     let mut random = Random::new(params.seed);
     let start = best_start(dual, mesh, seams, &mut random, progress);
-    let budget = u64::from(params.effort) * 100 * dual.face_count().max(100) as u64;
+    let budget = u64::from(params.effort) * 30 * dual.face_count().max(100) as u64;
     let mut layout = Repair::new(start, random.bits()).run(budget, progress);
     if !layout.overlaps.is_empty() {
         split::split_overlaps(&mut layout);
@@ -147,3 +147,6 @@ fn counted(mut layout: Layout, mode: PiecesMode) -> Result<Layout, UnfoldError> 
     split::split_to_count(&mut layout, asked);
     Ok(settled(layout))
 }
+
+#[cfg(test)]
+mod tests;

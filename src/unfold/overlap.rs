@@ -67,8 +67,8 @@ mod tests {
             (DVec2::new(1.0 - 1e-12, 0.3), 0.0, false),
             (DVec2::new(1.0 - 1e-10, 0.3), 0.0, true),
             (DVec2::new(1.0, 1.0), 0.5, false),
-            (DVec2::new(0.5, 1.0), 0.7853981633974483, false),
-            (DVec2::new(0.5, 1.0 - 1e-9), 0.7853981633974483, true),
+            (DVec2::new(0.5, 1.0), std::f64::consts::FRAC_PI_4, false),
+            (DVec2::new(0.5, 1.0 - 1e-9), std::f64::consts::FRAC_PI_4, true),
             (DVec2::new(0.0, 0.0), 0.0, true),
             (DVec2::new(0.4, 0.4), 3.0, true),
         ] {

@@ -63,16 +63,18 @@ impl<'a> Repair<'a> {
         }
     }
 
-    /// Moves branches until no overlap is left or `budget` faces have been laid. Returns the best layout on the way.
+    /// Moves branches until no overlap is left, `budget` faces have been laid, or a quarter of that brought nothing better.
+    /// Returns the best layout on the way.
     pub fn run(mut self, budget: u64, progress: &dyn Progress) -> Layout<'a> {
         let start = self.layout.overlaps.len();
-        let mut low = start;
+        let (mut low, mut low_work) = (start, 0);
         let mut best = self.layout.forest.parent_side.clone();
-        while !self.layout.overlaps.is_empty() && self.work < budget && !progress.is_cancelled() {
+        let is_worth = |work: u64, low_work: u64| work < budget && work - low_work <= budget / 4;
+        while !self.layout.overlaps.is_empty() && is_worth(self.work, low_work) && !progress.is_cancelled() {
             self.step();
             let overlaps = self.layout.overlaps.len();
             if overlaps < low {
-                low = overlaps;
+                (low, low_work) = (overlaps, self.work);
                 best.clone_from(&self.layout.forest.parent_side);
                 progress.report("removing overlaps", start - low, start);
             }

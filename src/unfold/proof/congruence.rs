@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{LENGTH, LENGTH_OF_SIZE, ProofError};
+use super::{LENGTH, LENGTH_OF_SIZE, ProofError, exceeds};
 use crate::mesh::{EdgeId, FaceId, Mesh};
 use crate::net::Net;
 
@@ -17,8 +17,7 @@ pub(super) fn check(mesh: &Mesh, net: &Net, size: f64) -> Result<f64, ProofError
     for flat in net.pieces.iter().flat_map(|piece| &piece.faces) {
         let points = mesh.face_positions(FaceId::new(flat.face));
         let by = distortion(&points, &flat.polygon);
-        // Not `by > limit`: a NaN must not pass.
-        if !(by <= limit) {
+        if exceeds(by, limit) {
             return Err(ProofError::Distorted { face: flat.face, by, limit });
         }
         worst = worst.max(by);
@@ -37,7 +36,7 @@ fn distortion(points: &[DVec3], flat: &[DVec2]) -> f64 {
 
 /// The larger of two numbers; NaN wins.
 fn larger(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
+    if a.total_cmp(&b).is_gt() { a } else { b }
 }
 
 /// Both sides of every seam, and every fold and rim, as long as the edge of the mesh.
@@ -53,7 +52,7 @@ fn check_partners(mesh: &Mesh, net: &Net, size: f64) -> Result<(), ProofError> {
         let on_mesh = true_length(edge);
         let limit = LENGTH * on_mesh + LENGTH_OF_SIZE * size;
         let by = lengths.into_iter().map(|l| (l - on_mesh).abs()).fold(0.0, larger);
-        if !(by <= limit) {
+        if exceeds(by, limit) {
             return Err(ProofError::Partners { edge, by, limit });
         }
     }

@@ -167,7 +167,15 @@ pub fn prove(mesh: &Mesh, net: &Net) -> Result<Proof, ProofError> {
     Ok(Proof { congruence_mm, refold_mm, overlaps: 0 })
 }
 
+/// Whether a measure is beyond its limit; NaN always is.
+fn exceeds(by: f64, limit: f64) -> bool {
+    by > limit || by.is_nan()
+}
+
 /// The model's size: its box's diagonal, with a share of the distance from the origin, where coordinates are coarser.
 fn size(mesh: &Mesh) -> f64 {
     mesh.bounds().map_or(0.0, |(low, high)| (high - low).length() + low.abs().max(high.abs()).max_element() / 256.0)
 }
+
+#[cfg(test)]
+mod tests;

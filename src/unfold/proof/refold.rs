@@ -7,7 +7,7 @@ use std::collections::{HashMap, VecDeque};
 
 use glam::{DQuat, DVec2, DVec3};
 
-use super::{ProofError, REFOLD};
+use super::{ProofError, REFOLD, exceeds};
 use crate::geom::{Plane, fit_plane};
 use crate::mesh::{FaceId, Mesh};
 use crate::net::{FlatFace, Fold, Net, Piece};
@@ -108,8 +108,7 @@ fn check_face(mesh: &Mesh, flat: &FlatFace, pose: &Pose, limit: f64) -> Result<f
     let points = mesh.face_positions(FaceId::new(flat.face));
     for ((&p, &point), &vertex) in flat.polygon.iter().zip(&points).zip(&flat.vertices) {
         let by = pose.place(p).distance(point);
-        // Not `by > limit`: a NaN must not pass.
-        if !(by <= limit) {
+        if exceeds(by, limit) {
             return Err(ProofError::Refold { face: flat.face, vertex, by, limit });
         }
         worst = f64::max(worst, by);

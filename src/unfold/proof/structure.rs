@@ -55,7 +55,8 @@ fn faces_once<'a>(mesh: &Mesh, net: &'a Net) -> Result<Faces<'a>, ProofError> {
         {
             return Err(ProofError::Corners { face });
         }
-        if !(doubled_area(&flat.polygon) > 0.0) {
+        let area = doubled_area(&flat.polygon);
+        if area <= 0.0 || area.is_nan() {
             return Err(ProofError::Mirrored { face });
         }
     }

@@ -1,2 +1,7 @@
-//! The kerfold command.
-fn main() {}
+//! The kerfold command; everything happens in the library's `cli` module.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    kerfold::cli::run()
+}

@@ -1,1 +1,90 @@
 //! The command line: arguments, calls, exit codes; one verb, one file.
+//!
+//! Results go to standard output, messages to standard error. Exit codes: 0 clean, 1 findings, 2 error. A broken pipe is a
+//! success: whoever reads has read enough.
+
+mod check;
+mod cut;
+mod error;
+mod info;
+mod input;
+mod manual;
+mod output;
+mod render;
+mod run;
+mod solid;
+mod terminal;
+mod unfold;
+
+use std::process::ExitCode;
+
+use clap::{CommandFactory, Parser, Subcommand};
+
+use output::Console;
+
+/// Carve planar 3-valence meshes, check them, and unfold them into sheets that a shop can cut.
+#[derive(Debug, Parser)]
+#[command(name = "kerfold", version, propagate_version = true, disable_help_subcommand = true, max_term_width = 110)]
+#[command(
+    after_help = "Exit codes: 0 clean, 1 findings, 2 error. `-` as a file is standard input or output (OBJ).\n\n\
+    Example: kerfold run fixtures/recipes/two-piece-d-form.toml -o out"
+)]
+struct Cli {
+    #[command(flatten)]
+    console: Console,
+    #[command(subcommand)]
+    verb: Verb,
+}
+
+#[derive(Debug, Subcommand)]
+enum Verb {
+    Solid(solid::SolidArgs),
+    Info(info::InfoArgs),
+    Check(check::CheckArgs),
+    Cut(cut::CutArgs),
+    Unfold(unfold::UnfoldArgs),
+    Run(run::RunArgs),
+    Render(render::RenderArgs),
+    Completions(manual::CompletionsArgs),
+    Man(manual::ManArgs),
+}
+
+/// How a verb ended when it did not fail.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Outcome {
+    Clean,
+    Findings,
+}
+
+/// The whole command line definition, for completions and manual pages.
+fn command() -> clap::Command {
+    Cli::command()
+}
+
+/// Reads the arguments of the process, does what they say, and returns the exit code.
+pub fn run() -> ExitCode {
+    let cli = Cli::parse();
+    let console = cli.console;
+    terminal::watch_for_ctrl_c();
+    let result = match cli.verb {
+        Verb::Solid(args) => solid::run(&args, &console),
+        Verb::Info(args) => info::run(&args, &console),
+        Verb::Check(args) => check::run(&args, &console),
+        Verb::Cut(args) => cut::run(&args, &console),
+        Verb::Unfold(args) => unfold::run(&args, &console),
+        Verb::Run(args) => run::run(&args, &console),
+        Verb::Render(args) => render::run(&args, &console),
+        Verb::Completions(args) => manual::completions(&args),
+        Verb::Man(args) => manual::man(&args, &console),
+    };
+    terminal::clear_progress();
+    match result {
+        Ok(Outcome::Clean) => ExitCode::SUCCESS,
+        Ok(Outcome::Findings) => ExitCode::from(1),
+        Err(error) if error.is_broken_pipe() => ExitCode::SUCCESS,
+        Err(error) => {
+            output::complain(&error);
+            ExitCode::from(2)
+        }
+    }
+}

@@ -149,7 +149,8 @@ struct PieceTree {
 
 impl PieceTree {
     fn new(net: &Net, piece: &Piece) -> Self {
-        let place: std::collections::HashMap<usize, usize> = piece.faces.iter().enumerate().map(|(i, f)| (f.face, i)).collect();
+        let place: std::collections::HashMap<usize, usize> =
+            piece.faces.iter().enumerate().map(|(i, f)| (f.face, i)).collect();
         let mut neighbours: Vec<Vec<(usize, usize)>> = vec![Vec::new(); piece.faces.len()];
         for fold in net.folds.iter().filter(|f| f.piece == piece.id) {
             let [a, b] = fold.faces.map(|f| place[&f]);

@@ -74,9 +74,15 @@ impl Job {
                 mesh.compact();
                 self.start(mesh)?;
             }
-            Step::CutVertex(params) => self.cut("vertex", |mesh, context| truncate_vertices(mesh, params, context), progress)?,
-            Step::CutEdge(params) => self.cut("edge", |mesh, context| truncate_edges(mesh, params, context), progress)?,
-            Step::CutFace(params) => self.cut("face", |mesh, context| truncate_faces(mesh, params, context), progress)?,
+            Step::CutVertex(params) => {
+                self.cut("vertex", |mesh, context| truncate_vertices(mesh, params, context), progress)?
+            }
+            Step::CutEdge(params) => {
+                self.cut("edge", |mesh, context| truncate_edges(mesh, params, context), progress)?
+            }
+            Step::CutFace(params) => {
+                self.cut("face", |mesh, context| truncate_faces(mesh, params, context), progress)?
+            }
             Step::CutPlane(params) => self.cut("plane", |mesh, context| slice(mesh, params, context), progress)?,
             Step::Check(params) => (self.check, self.is_check_asked) = (params.clone(), true),
             Step::Render(params) => self.render = params.clone(),

@@ -119,7 +119,9 @@ impl Source<'_> {
     fn step_of(&self, verb: &Entry<'_>, entries: &[Entry<'_>], span: Range<usize>) -> Result<Step, RecipeError> {
         let kind = match (verb.key, verb.value.get_ref()) {
             ("cut", DeValue::String(kind)) => kind.to_string(),
-            ("cut", _) => return Err(self.bad(verb.value.span(), "cut takes \"vertex\", \"edge\", \"face\" or \"plane\"")),
+            ("cut", _) => {
+                return Err(self.bad(verb.value.span(), "cut takes \"vertex\", \"edge\", \"face\" or \"plane\""));
+            }
             _ => String::new(),
         };
         let fields = StepFields { source: self, verb, entries, span };
@@ -153,7 +155,8 @@ impl StepFields<'_> {
     }
 
     fn unfold(&self) -> Result<Step, RecipeError> {
-        let known = [field_names::<UnfoldParams>(), field_names::<FabricateParams>(), field_names::<SheetParams>()].concat();
+        let known =
+            [field_names::<UnfoldParams>(), field_names::<FabricateParams>(), field_names::<SheetParams>()].concat();
         self.check_keys(&known)?;
         Ok(Step::Unfold { unfold: self.read()?, fabricate: self.read()?, sheet: self.read()? })
     }

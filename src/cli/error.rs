@@ -1,0 +1,53 @@
+//! Everything that ends a verb with exit code 2.
+
+use std::io;
+use std::path::PathBuf;
+
+use crate::check::CheckError;
+use crate::io::IoError;
+use crate::op::OpError;
+use crate::picture::PictureError;
+use crate::recipe::{RecipeError, StepError, StepFailure};
+use crate::shape::ShapeError;
+
+/// What went wrong, for the user.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum CliError {
+    #[error(transparent)]
+    Io(#[from] IoError),
+    #[error(transparent)]
+    Shape(#[from] ShapeError),
+    #[error(transparent)]
+    Op(#[from] OpError),
+    #[error(transparent)]
+    Check(#[from] CheckError),
+    #[error(transparent)]
+    Picture(#[from] PictureError),
+    #[error(transparent)]
+    Step(#[from] StepFailure),
+    #[error("{}: {error}", path.display())]
+    Recipe { path: PathBuf, error: RecipeError },
+    #[error("{}: {error}", path.display())]
+    RecipeStep { path: PathBuf, error: StepError },
+    #[error("{}: cannot be read: {error}", path.display())]
+    Unreadable { path: PathBuf, error: io::Error },
+    #[error("{}: a recipe is text in UTF-8, but byte {at} is not", path.display())]
+    NotText { path: PathBuf, at: usize },
+    #[error("{}: pictures are written as PNG; name the file something.png", path.display())]
+    NotPng { path: PathBuf },
+    #[error("{}: reports are written as JSON or CSV; name the file something.json or something.csv", path.display())]
+    UnknownReport { path: PathBuf },
+    #[error("writing to standard output: {0}")]
+    Stdout(io::Error),
+}
+
+impl CliError {
+    /// Whether the reader of our output has gone: then all is well.
+    pub(super) fn is_broken_pipe(&self) -> bool {
+        match self {
+            Self::Stdout(error) => error.kind() == io::ErrorKind::BrokenPipe,
+            Self::Io(error) => error.is_broken_pipe(),
+            _ => false,
+        }
+    }
+}

@@ -1,0 +1,65 @@
+//! `kerfold run`
+
+use std::path::{Path, PathBuf};
+
+use serde_json::json;
+
+use super::error::CliError;
+use super::output::{command_line, model_json, model_text};
+use super::terminal::Terminal;
+use super::unfold::{summary_json, summary_text};
+use super::{Console, Outcome};
+use crate::recipe::{Job, Recipe, job_outputs};
+
+/// Run a recipe: model, picture, report, pieces and sheets into a folder
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Example: kerfold run fixtures/recipes/two-piece-d-form.toml -o out")]
+pub(super) struct RunArgs {
+    /// The recipe, a TOML file
+    #[arg(value_name = "RECIPE")]
+    recipe: PathBuf,
+    /// The folder for everything that the recipe makes; made if it is missing
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+}
+
+pub(super) fn run(args: &RunArgs, console: &Console) -> Result<Outcome, CliError> {
+    let recipe = read_recipe(&args.recipe)?;
+    let folder = args.recipe.parent().unwrap_or(Path::new(""));
+    let job = Job::run(&recipe, folder, &Terminal::new(console.quiet))
+        .map_err(|error| CliError::RecipeStep { path: args.recipe.clone(), error })?;
+    let command = command_line();
+    let outputs = job_outputs(&job, &command)?;
+    let written = Console::write_folder(&args.output, outputs)?;
+    let report = job.report()?;
+    let has_findings = report.has_findings();
+    if console.json {
+        let summary = json!({
+            "command": command, "name": recipe.name, "written": written, "notes": job.notes, "model": model_json(job.mesh()?),
+            "verdict": report.verdict().name(), "fabrication": job.fabrication.as_ref().map(|(f, _)| summary_json(f)),
+        });
+        console.result(&format!("{summary:#}\n"))?;
+    } else {
+        console.notes(&job.notes);
+        let mut text = recipe.name.map_or_else(String::new, |name| name + "\n");
+        text += &format!(
+            "{}\ncheck: {} ({})\n",
+            model_text(job.mesh()?),
+            report.verdict().name(),
+            job.check.profile.name()
+        );
+        text += &job.fabrication.as_ref().map_or_else(String::new, |(f, _)| summary_text(f));
+        for path in &written {
+            text += &format!("wrote {}\n", path.display());
+        }
+        console.result(&text)?;
+    }
+    Ok(if has_findings && job.is_check_asked { Outcome::Findings } else { Outcome::Clean })
+}
+
+fn read_recipe(path: &Path) -> Result<Recipe, CliError> {
+    let bytes = std::fs::read(path).map_err(|error| CliError::Unreadable { path: path.to_owned(), error })?;
+    let text = String::from_utf8(bytes)
+        .map_err(|error| CliError::NotText { path: path.to_owned(), at: error.utf8_error().valid_up_to() })?;
+    Recipe::parse(&text).map_err(|error| CliError::Recipe { path: path.to_owned(), error })
+}

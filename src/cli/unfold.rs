@@ -1,0 +1,85 @@
+//! `kerfold unfold`
+
+use std::path::PathBuf;
+
+use serde_json::json;
+
+use super::error::CliError;
+use super::input::Input;
+use super::output::{command_line, model_text, short};
+use super::terminal::Terminal;
+use super::{Console, Outcome};
+use crate::recipe::{FabricateParams, Fabrication, fabricate, fabrication_outputs};
+use crate::sheet::SheetParams;
+use crate::unfold::{Source, UnfoldParams};
+
+/// Unfold a mesh into flat pieces that never overlap, and lay them out on sheets
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Example: kerfold unfold model.obj --sheet 600x400 --kerf 0.15mm -o out")]
+pub(super) struct UnfoldArgs {
+    #[command(flatten)]
+    input: Input,
+    #[command(flatten)]
+    unfold: UnfoldParams,
+    #[command(flatten)]
+    choice: FabricateParams,
+    #[command(flatten)]
+    sheet: SheetParams,
+    /// The folder for pieces.json, layout.json and the sheets; made if it is missing
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+}
+
+pub(super) fn run(args: &UnfoldArgs, console: &Console) -> Result<Outcome, CliError> {
+    let read = args.input.read()?;
+    let progress = Terminal::new(console.quiet);
+    let source = Source { scale: read.scale, split_vertices: &read.splits };
+    let fabrication = fabricate(&read.mesh, None, (&args.unfold, &args.choice, &args.sheet), &source, &progress)?;
+    let command = command_line();
+    let written = Console::write_folder(&args.output, fabrication_outputs(&fabrication, &args.sheet, &command))?;
+    let notes: Vec<String> = read.notes.iter().map(ToString::to_string).chain(fabrication.notes()).collect();
+    if console.json {
+        let summary = json!({ "command": command, "written": written, "notes": notes, "fabrication": summary_json(&fabrication) });
+        console.result(&format!("{summary:#}\n"))?;
+    } else {
+        console.notes(&notes);
+        console.result(&format!("{}\n{}", model_text(&read.mesh), summary_text(&fabrication)))?;
+    }
+    Ok(Outcome::Clean)
+}
+
+/// Pieces, sheets and proof in a few lines.
+pub(super) fn summary_text(fabrication: &Fabrication) -> String {
+    let (net, layout) = (&fabrication.net, &fabrication.sheets.layout);
+    let mut text = format!(
+        "{} pieces, {} folds, {} seams, {} rim edges\n",
+        net.pieces.len(),
+        net.folds.len(),
+        net.seams.len(),
+        net.rims.len()
+    );
+    text += &format!(
+        "proof: faces true to {:.1e} mm, folds up to {:.1e} mm, {} overlaps\n",
+        net.proof.congruence_mm, net.proof.refold_mm, net.proof.overlaps
+    );
+    if !layout.sheets.is_empty() {
+        text += &format!(
+            "{} sheets, {:.0} % used, {} mm to cut, {} mm to score\n",
+            layout.sheets.len(),
+            100.0 * layout.density,
+            short(layout.cut_length),
+            short(layout.score_length)
+        );
+    }
+    text
+}
+
+pub(super) fn summary_json(fabrication: &Fabrication) -> serde_json::Value {
+    let (net, layout) = (&fabrication.net, &fabrication.sheets.layout);
+    json!({
+        "pieces": net.pieces.len(), "folds": net.folds.len(), "seams": net.seams.len(), "rims": net.rims.len(),
+        "proof": { "congruence_mm": net.proof.congruence_mm, "refold_mm": net.proof.refold_mm, "overlaps": net.proof.overlaps },
+        "sheets": layout.sheets.len(), "density": layout.density,
+        "cut_length": layout.cut_length, "score_length": layout.score_length,
+    })
+}

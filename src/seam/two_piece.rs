@@ -15,6 +15,8 @@ const CHUNK: u64 = 2_000;
 const NEAR: usize = 2;
 /// How far at most.
 const FAR: usize = 64;
+/// How many answers of the solver with several seams are joined by exchanges, for each candidate.
+const JOINS: usize = 20;
 /// How many choices are tried before the neighbourhood grows.
 const TRIES: usize = 100;
 
@@ -43,6 +45,7 @@ const TRIES: usize = 100;
 /// ```
 pub struct TwoPieceSearch {
     graph: Graph,
+    weights: Vec<i64>,
     /// The number of each edge in the graph.
     number: EdgeMap<Option<u32>>,
     sat: Sat,
@@ -112,7 +115,7 @@ impl TwoPieceSearch {
             }
         }
         let proof = NoHamiltonian::Contradiction { cycles: 0, forbidden: 0, conflicts: 0 };
-        let mut search = Self { graph, number, sat, last: None, is_exhausted: false, proof };
+        let mut search = Self { graph, weights, number, sat, last: None, is_exhausted: false, proof };
         search.approach(start);
         search.forbid_seams_around_faces(mesh);
         Ok(search)
@@ -214,6 +217,7 @@ impl TwoPieceSearch {
             self.sat.add_clause(last.into_iter().map(|e| (e, false)));
         }
         let end = self.sat.conflicts().saturating_add(conflicts);
+        let mut joins = 0;
         while !self.is_exhausted && self.sat.conflicts() < end {
             match self.sat.solve(&[], end - self.sat.conflicts()) {
                 Answer::Stopped => return None,
@@ -222,16 +226,38 @@ impl TwoPieceSearch {
                     let is_fold = self.answer();
                     let (component, count) = self.seam_components(&is_fold);
                     if count == 1 {
-                        let folds: Vec<u32> = (0..is_fold.len() as u32).filter(|&e| is_fold[e as usize]).collect();
-                        let ids = self.graph.ids(folds.iter().copied());
-                        self.last = Some(folds);
-                        return Some(ids);
+                        return Some(self.found(is_fold));
                     }
                     self.forbid_short_seams(&component, count);
+                    if joins < JOINS {
+                        joins += 1;
+                        if let Some(joined) = self.joined(&is_fold) {
+                            return Some(self.found(joined));
+                        }
+                    }
                 }
             }
         }
         None
+    }
+
+    /// Joins the closed seams of an answer by exchanges. The rules of the caller are not known there, so the solver has to
+    /// agree; it also begins there the next time.
+    fn joined(&mut self, is_fold: &[bool]) -> Option<Vec<bool>> {
+        let edges = 0..is_fold.len() as u32;
+        let mut factor = Factor::new(&self.graph, &self.weights, edges.filter(|&e| is_fold[e as usize]));
+        if !factor.join() {
+            return None;
+        }
+        let folds = factor.folds();
+        (self.sat.solve(&folds, CHUNK) == Answer::Yes).then(|| self.answer())
+    }
+
+    fn found(&mut self, is_fold: Vec<bool>) -> Vec<EdgeId> {
+        let folds: Vec<u32> = (0..is_fold.len() as u32).filter(|&e| is_fold[e as usize]).collect();
+        let ids = self.graph.ids(folds.iter().copied());
+        self.last = Some(folds);
+        ids
     }
 
     /// Which closed seam each vertex is on, and how many there are.

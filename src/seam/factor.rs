@@ -85,3 +85,46 @@ fn seam_cycle(
         h = if a == h.twin() { b } else { a };
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixtures;
+    use super::*;
+
+    fn upright(mesh: &Mesh) -> Vec<EdgeId> {
+        let is_upright = |&e: &EdgeId| {
+            let [a, b] = mesh.edge_positions(e);
+            a.z != b.z
+        };
+        mesh.edges().filter(is_upright).collect()
+    }
+
+    #[test]
+    fn a_prism_folded_upright_has_two_seams_and_three_pieces() {
+        let prism = fixtures::prism(5, 1.0);
+        let folds = upright(&prism);
+        assert!(is_perfect_matching(&prism, &folds));
+        let cycles = seam_cycles(&prism, &folds);
+        assert_eq!(cycles.iter().map(Vec::len).collect::<Vec<_>>(), [5, 5]);
+        for cycle in &cycles {
+            assert!(cycle.windows(2).all(|w| prism.target(w[0]) == prism.origin(w[1])));
+            assert_eq!(prism.target(cycle[4]), prism.origin(cycle[0]));
+        }
+        assert_eq!(piece_count(&prism, &folds), 3);
+        assert_eq!(piece_count(&prism, &[]), 7);
+        assert_eq!(piece_count(&prism, &prism.edges().collect::<Vec<_>>()), 1);
+    }
+
+    #[test]
+    fn what_is_no_perfect_matching() {
+        let prism = fixtures::prism(5, 1.0);
+        let folds = upright(&prism);
+        assert!(!is_perfect_matching(&prism, &folds[1..]));
+        let doubled: Vec<EdgeId> = folds[1..].iter().copied().chain([folds[1]]).collect();
+        assert!(!is_perfect_matching(&prism, &doubled));
+        let missing: Vec<EdgeId> = folds[1..].iter().copied().chain([EdgeId::new(500)]).collect();
+        assert!(!is_perfect_matching(&prism, &missing));
+        // With one fold less its two ends have three seams, and both seams run through them: none is listed.
+        assert!(seam_cycles(&prism, &folds[1..]).is_empty());
+    }
+}

@@ -2,6 +2,7 @@
 
 use super::SeamError;
 use super::enumerate::Matchings;
+use super::exchange::Factor;
 use super::graph::Graph;
 use super::two_piece::{NoHamiltonian, TwoPieceSearch, connected};
 use super::weight::{fold_weight, quantised};
@@ -13,18 +14,14 @@ const LISTED_VERTICES: usize = 64;
 const LISTED_MATCHINGS: usize = 20_000;
 /// Conflicts that the search for a first seam may meet.
 const CONFLICTS: u64 = 1_000_000;
-/// Folds exchanged at once, at most, when a seam is improved.
-const EXCHANGED: usize = 7;
-/// Steps along seams that the improvement may make.
-const STEPS: usize = 100_000_000;
 
 /// The folds of a two-piece seam of a closed 3-valent mesh, ascending: one closed seam that runs through every vertex once
 /// (a Hamiltonian cycle). On a sphere the pieces are two; on other surfaces one or two.
 ///
 /// Among these seams, one with a small sum of |fold angle| × length over the folds: the least of all when the mesh has at
-/// most 64 vertices and 20 000 matchings (the lexicographically least of several); else the first that the search meets,
-/// improved by exchanging up to 7 folds at once for as long as that helps (at most 10⁸ steps of checking). No clock takes
-/// part: the same mesh gives the same folds.
+/// most 64 vertices and 20 000 matchings (the lexicographically least of several); else the first that
+/// [`TwoPieceSearch`] meets, improved by exchanges of up to 6 folds (and up to 4 more where that splits the seam) for as
+/// long as that helps, within a fixed amount of work. No clock takes part: the same mesh gives the same folds.
 ///
 /// # Errors
 /// As [`super::least_matching`]; [`SeamError::SeveralComponents`]; [`SeamError::NoHamiltonian`] with a proof;
@@ -39,9 +36,9 @@ pub fn hamiltonian_folds(mesh: &Mesh) -> Result<Vec<EdgeId>, SeamError> {
     let mut search = TwoPieceSearch::new(mesh)?;
     match search.next_within(CONFLICTS) {
         Some(folds) => {
-            let mut tour = Tour::new(&graph, &weights, mesh, &folds);
-            tour.improve();
-            Ok(graph.ids((0..graph.edge_ids.len() as u32).filter(|&e| tour.is_fold[e as usize])))
+            let mut factor = Factor::new(&graph, &weights, search.numbers(&folds));
+            factor.save();
+            Ok(graph.ids(factor.folds()))
         }
         None if search.is_exhausted() => Err(SeamError::NoHamiltonian { proof: search.proof() }),
         None => Err(SeamError::SearchStopped { conflicts: CONFLICTS }),
@@ -74,124 +71,6 @@ fn listed(mesh: &Mesh, graph: &Graph, weights: &[i64]) -> Option<Result<Vec<Edge
         None if matchings == 0 => super::least_matching(mesh),
         None => Err(SeamError::NoHamiltonian { proof: NoHamiltonian::Listed { matchings, fewest_cycles } }),
     })
-}
-
-/// A Hamiltonian cycle of seams that is being improved.
-struct Tour<'a> {
-    graph: &'a Graph,
-    weights: &'a [i64],
-    is_fold: Vec<bool>,
-    steps: usize,
-    /// The alternating path being tried: its edges, fold, seam, fold, …, and which vertices it meets.
-    path: Vec<u32>,
-    met: Vec<bool>,
-}
-
-impl<'a> Tour<'a> {
-    fn new(graph: &'a Graph, weights: &'a [i64], mesh: &Mesh, folds: &[EdgeId]) -> Self {
-        let mut chosen = EdgeMap::filled(mesh.edge_slots(), false);
-        folds.iter().for_each(|&e| chosen[e] = true);
-        let is_fold = graph.edge_ids.iter().map(|&e| chosen[e]).collect();
-        Self { graph, weights, is_fold, steps: 0, path: Vec::new(), met: vec![false; graph.vertex_ids.len()] }
-    }
-
-    /// Exchanges folds and seams along closed paths that alternate between them, as long as the sum of the folds shrinks
-    /// and the seam stays one cycle.
-    fn improve(&mut self) {
-        loop {
-            let mut improved = false;
-            for e in 0..self.graph.ends.len() as u32 {
-                while self.is_fold[e as usize] && self.try_from(e) {
-                    improved = true;
-                }
-            }
-            if !improved || self.steps > STEPS {
-                return;
-            }
-        }
-    }
-
-    /// Tries the closed paths that begin with a fold. It is enough to look at paths whose beginnings all gain: every cycle
-    /// that gains has such a beginning.
-    fn try_from(&mut self, e: u32) -> bool {
-        let [start, end] = self.graph.ends[e as usize];
-        [(start, end), (end, start)].into_iter().any(|(start, end)| {
-            self.path.clear();
-            self.path.push(e);
-            self.met[start as usize] = true;
-            self.met[end as usize] = true;
-            let done = self.extend(start, end, self.weights[e as usize]);
-            self.met[start as usize] = false;
-            self.met[end as usize] = false;
-            done
-        })
-    }
-
-    /// Goes on from vertex `v`, where the last fold of the path ended; `gain` is what the path has saved so far.
-    fn extend(&mut self, start: u32, v: u32, gain: i64) -> bool {
-        let graph = self.graph;
-        for &seam in graph.incident(v) {
-            let (u, gain) = (graph.other(seam, v), gain - self.weights[seam as usize]);
-            if self.is_fold[seam as usize] || gain <= 0 {
-                continue;
-            }
-            self.path.push(seam);
-            if u == start {
-                if self.exchange() {
-                    return true;
-                }
-            } else if !self.met[u as usize] && self.path.len() < 2 * EXCHANGED {
-                let fold = graph.incident(u).iter().copied().find(|&f| self.is_fold[f as usize]);
-                let fold = fold.expect("every vertex has its fold");
-                let w = graph.other(fold, u);
-                if !self.met[w as usize] {
-                    self.path.push(fold);
-                    (self.met[u as usize], self.met[w as usize]) = (true, true);
-                    let done = self.extend(start, w, gain + self.weights[fold as usize]);
-                    (self.met[u as usize], self.met[w as usize]) = (false, false);
-                    if done {
-                        return true;
-                    }
-                    self.path.pop();
-                }
-            }
-            self.path.pop();
-        }
-        false
-    }
-
-    /// Exchanges folds and seams along the path if the seam stays one cycle.
-    fn exchange(&mut self) -> bool {
-        if self.steps > STEPS {
-            return false;
-        }
-        self.flip_path();
-        let keeps = self.is_one_cycle();
-        if !keeps {
-            self.flip_path();
-        }
-        keeps
-    }
-
-    fn flip_path(&mut self) {
-        for &e in &self.path {
-            self.is_fold[e as usize] ^= true;
-        }
-    }
-
-    fn is_one_cycle(&mut self) -> bool {
-        let graph = self.graph;
-        let (mut v, mut from, mut length) = (0, u32::MAX, 0);
-        loop {
-            let onward = |&&e: &&u32| !self.is_fold[e as usize] && e != from;
-            let Some(&e) = graph.incident(v).iter().find(onward) else { return false };
-            (v, from, length) = (graph.other(e, v), e, length + 1);
-            self.steps += 1;
-            if v == 0 {
-                return length == graph.vertex_ids.len();
-            }
-        }
-    }
 }
 
 #[cfg(test)]
@@ -283,7 +162,7 @@ mod tests {
         assert_eq!(hamiltonian_folds(&mesh), Ok(folds.clone()));
         let least = fold_sum(&mesh, &least_matching(&mesh).expect("a matching"));
         let sum = fold_sum(&mesh, &folds);
-        assert!(least <= sum && sum < 1.5 * least, "{sum} against the bound {least}");
+        assert!(least <= sum && sum < 1.25 * least, "{sum} against the bound {least}");
     }
 
     #[test]
@@ -306,18 +185,21 @@ mod tests {
         for seed in 0..5 {
             let mesh = fixtures::random_convex(1000, seed);
             let start = std::time::Instant::now();
-            let first = TwoPieceSearch::new(&mesh).expect("a search").next_candidate(&Silent).expect("two pieces");
-            let (time, sum) = (start.elapsed(), fold_sum(&mesh, &first));
-            assert_two_pieces(&mesh, &first);
-            let folds = hamiltonian_folds(&mesh).expect("two pieces");
-            let least = fold_sum(&mesh, &least_matching(&mesh).expect("a matching"));
-            eprintln!("{time:?} {:?} {} {}", start.elapsed(), sum / least, fold_sum(&mesh, &folds) / least);
-            assert!(time.as_secs() < 1);
+            let mut search = TwoPieceSearch::new(&mesh).expect("a search");
+            let mut folds = search.next_candidate(&Silent).expect("two pieces");
+            assert!(start.elapsed().as_secs_f64() < 1.0, "{:?}", start.elapsed());
+            // As an unfolder does: hundreds of short fold paths forbidden.
+            for _ in 0..5 {
+                for path in folds.chunks(7).step_by(6) {
+                    search.forbid_folds_together(path);
+                }
+                folds = search.next_candidate(&Silent).expect("two pieces");
+                assert_two_pieces(&mesh, &folds);
+            }
+            assert!(start.elapsed().as_secs_f64() < 3.0, "{:?}", start.elapsed());
         }
-        let tutte = fixtures::tutte();
         let start = std::time::Instant::now();
-        assert!(TwoPieceSearch::new(&tutte).expect("a search").next_candidate(&Silent).is_none());
-        eprintln!("{:?}", start.elapsed());
-        assert!(start.elapsed().as_secs() < 1);
+        assert!(TwoPieceSearch::new(&fixtures::tutte()).expect("a search").next_candidate(&Silent).is_none());
+        assert!(start.elapsed().as_secs_f64() < 1.0, "{:?}", start.elapsed());
     }
 }

@@ -35,13 +35,86 @@ pub fn least_matching_by(mesh: &Mesh, weight: impl Fn(EdgeId) -> f64) -> Result<
 fn least(graph: &Graph, weight: impl Fn(EdgeId) -> f64) -> Result<Vec<EdgeId>, SeamError> {
     let weights: Vec<f64> = graph.edge_ids.iter().map(|&e| weight(e)).collect();
     let weights = quantised(&weights, graph.vertex_ids.len());
-    match least_perfect_matching(graph, &weights) {
-        Ok(folds) => Ok(graph.ids(folds)),
-        Err(barrier) => {
-            let odd_parts = barrier.odd_parts;
-            let mut barrier: Vec<_> = barrier.vertices.iter().map(|&v| graph.vertex_ids[v as usize]).collect();
-            barrier.sort_unstable();
-            Err(SeamError::NoMatching { barrier, odd_parts })
+    least_folds(graph, &weights).map(|folds| graph.ids(folds))
+}
+
+/// The folds of the least perfect matching as edge numbers.
+pub(super) fn least_folds(graph: &Graph, weights: &[i64]) -> Result<Vec<u32>, SeamError> {
+    least_perfect_matching(graph, weights).map_err(|barrier| {
+        let odd_parts = barrier.odd_parts;
+        let barrier = barrier.vertices.iter().map(|&v| graph.vertex_ids[v as usize]).collect();
+        SeamError::NoMatching { barrier, odd_parts }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::super::{fixtures, is_perfect_matching};
+    use super::*;
+    use crate::mesh::FaceKind;
+
+    #[test]
+    fn dull_edges_become_folds() {
+        // A low prism with many sides: the upright edges bend least and are shortest.
+        let prism = fixtures::prism(12, 0.1);
+        let folds = least_matching(&prism).expect("folds");
+        let upright = |&e: &EdgeId| {
+            let [a, b] = prism.edge_positions(e);
+            (a - b).truncate() == glam::DVec2::ZERO
+        };
+        assert_eq!(folds.len(), 12);
+        assert!(folds.iter().all(upright));
+    }
+
+    #[test]
+    fn the_same_folds_at_any_scale_and_place() {
+        let mesh = fixtures::random_convex(200, 11);
+        let folds = least_matching(&mesh).expect("folds");
+        assert!(is_perfect_matching(&mesh, &folds));
+        for (scale, shift) in [(1e-3, 0.0), (1e5, 0.0), (1.0, 1e4)] {
+            let mut moved = mesh.clone();
+            for v in mesh.vertices() {
+                moved.set_position(v, mesh.position(v) * scale + DVec3::splat(shift), true);
+            }
+            assert_eq!(least_matching(&moved), Ok(folds.clone()), "{scale} {shift}");
         }
+    }
+
+    #[test]
+    fn given_weights_and_other_valences() {
+        // An octahedron: valence 4, six vertices.
+        let points = [DVec3::X, DVec3::Y, DVec3::Z, -DVec3::X, -DVec3::Y, -DVec3::Z];
+        let faces = [[0, 1, 2], [1, 3, 2], [3, 4, 2], [4, 0, 2], [1, 0, 5], [3, 1, 5], [4, 3, 5], [0, 4, 5]];
+        let mesh = Mesh::from_faces(points, faces).expect("an octahedron");
+        let error = SeamError::Valence { vertex: crate::mesh::VertexId::new(0), valence: 4, count: 6 };
+        assert_eq!(least_matching(&mesh), Err(error));
+        let folds = least_matching_by(&mesh, |e| e.index() as f64).expect("folds");
+        assert!(is_perfect_matching(&mesh, &folds));
+        let dearest = least_matching_by(&mesh, |e| -(e.index() as f64)).expect("folds");
+        let sum = |folds: &[EdgeId]| folds.iter().map(|e| e.index()).sum::<usize>();
+        assert!(sum(&folds) < sum(&dearest));
+    }
+
+    #[test]
+    fn what_cannot_be_is_said_with_ids() {
+        assert_eq!(least_matching(&Mesh::new()), Err(SeamError::Empty));
+        let mut open = fixtures::cube();
+        let face = open.faces().next().expect("a face");
+        open.set_kind(face, FaceKind::Hole);
+        assert!(matches!(least_matching(&open), Err(SeamError::Open { holes: 1, .. })));
+        // Three odd parts that hang on one vertex.
+        let mut ends = Vec::new();
+        for part in 0..3u32 {
+            let at = |i: u32| 1 + 5 * part + i;
+            ends.extend([[0, at(0)], [at(0), at(1)], [at(0), at(2)], [at(1), at(3)], [at(2), at(4)], [at(1), at(4)]]);
+            ends.extend([[at(2), at(3)], [at(3), at(4)]]);
+        }
+        let graph = Graph::of_ends(16, ends);
+        let error = least_folds(&graph, &[1; 24]).expect_err("no perfect matching");
+        let barrier = vec![crate::mesh::VertexId::new(0)];
+        assert_eq!(error, SeamError::NoMatching { barrier, odd_parts: 3 });
+        assert!(error.to_string().contains("1 vertices [0]"), "{error}");
     }
 }

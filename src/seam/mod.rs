@@ -12,12 +12,14 @@
 mod blossom;
 mod enumerate;
 mod error;
+mod exchange;
 mod factor;
 mod graph;
 mod hamiltonian;
 mod least;
 mod sat;
 mod symmetry;
+mod tour;
 mod two_piece;
 mod weight;
 

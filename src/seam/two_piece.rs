@@ -1,13 +1,24 @@
 //! Seams of two pieces: Hamiltonian cycles of seam edges, found one after the other.
 
+use super::SeamError;
+use super::exchange::Factor;
 use super::graph::Graph;
+use super::least::least_folds;
 use super::sat::{Answer, Sat};
-use super::{SeamError, least_matching};
+use super::weight::{fold_weight, quantised};
 use crate::mesh::{EdgeId, EdgeMap, Mesh};
 use crate::progress::Progress;
 
 /// After so many conflicts the search asks whether it should go on.
 const CHUNK: u64 = 2_000;
+/// How far around a closed seam folds are chosen anew at first, in edges.
+const NEAR: usize = 2;
+/// How far at most.
+const FAR: usize = 64;
+/// How many answers of the solver with several seams are joined by exchanges, for each candidate.
+const JOINS: usize = 20;
+/// How many choices are tried before the neighbourhood grows.
+const TRIES: usize = 100;
 
 /// A search for folds whose seam is one cycle through all vertices of a closed 3-valent mesh. On a sphere such a seam
 /// leaves two pieces; on other surfaces one or two.
@@ -15,7 +26,8 @@ const CHUNK: u64 = 2_000;
 /// One variable for each edge (fold or seam), exactly one fold for each vertex, at least one fold for each face. A seam
 /// that closes too early is forbidden when it comes up: of the edges that leave its vertices, at least one must be seam.
 /// What the caller learns about a candidate (overlaps) is added with [`Self::forbid_folds_together`]. The search starts
-/// at the least matching and stays near what it tried last, so dull edges tend to be folds. The same calls always give the
+/// at the least matching, its seams joined as cheaply as exchanges of up to 6 folds can, and stays near what it tried last,
+/// so dull edges tend to be folds. The same calls always give the
 /// same answers.
 ///
 /// ```no_run
@@ -33,6 +45,7 @@ const CHUNK: u64 = 2_000;
 /// ```
 pub struct TwoPieceSearch {
     graph: Graph,
+    weights: Vec<i64>,
     /// The number of each edge in the graph.
     number: EdgeMap<Option<u32>>,
     sat: Sat,
@@ -82,10 +95,14 @@ impl TwoPieceSearch {
     /// Sets the search up at the least matching.
     ///
     /// # Errors
-    /// As [`least_matching`], and [`SeamError::SeveralComponents`].
+    /// As [`super::least_matching`], and [`SeamError::SeveralComponents`].
     pub fn new(mesh: &Mesh) -> Result<Self, SeamError> {
         let graph = connected(mesh)?;
-        let least = least_matching(mesh)?;
+        let weights: Vec<f64> = graph.edge_ids.iter().map(|&e| fold_weight(mesh, e)).collect();
+        let weights = quantised(&weights, graph.vertex_ids.len());
+        let mut factor = Factor::new(&graph, &weights, least_folds(&graph, &weights)?);
+        factor.join();
+        let start = factor.is_fold;
         let mut number = EdgeMap::filled(mesh.edge_slots(), None);
         (0u32..).zip(&graph.edge_ids).for_each(|(i, &e)| number[e] = Some(i));
         let mut sat = Sat::new(graph.edge_ids.len());
@@ -97,12 +114,75 @@ impl TwoPieceSearch {
                 edges[..i].iter().for_each(|&d| sat.add_clause([(d, false), (e, false)]));
             }
         }
-        let assumed: Vec<u32> = least.iter().filter_map(|&e| number[e]).collect();
-        sat.solve(&assumed, u64::MAX);
         let proof = NoHamiltonian::Contradiction { cycles: 0, forbidden: 0, conflicts: 0 };
-        let mut search = Self { graph, number, sat, last: None, is_exhausted: false, proof };
+        let mut search = Self { graph, weights, number, sat, last: None, is_exhausted: false, proof };
+        search.approach(start);
         search.forbid_seams_around_faces(mesh);
         Ok(search)
+    }
+
+    /// Sets the solver on its way: what it tries first is a choice of folds near the given one with as few closed seams as
+    /// can be had cheaply. Seam after seam is joined with others by choosing folds anew around it, in a growing
+    /// neighbourhood, while all other folds stay.
+    fn approach(&mut self, mut is_fold: Vec<bool>) {
+        let mut radius = NEAR;
+        while radius <= FAR {
+            let (component, count) = self.seam_components(&is_fold);
+            if count == 1 {
+                break;
+            }
+            let near = self.neighbourhood(&component, count, radius);
+            let stays =
+                |&e: &u32| is_fold[e as usize] && self.graph.ends[e as usize].iter().all(|&v| !near[v as usize]);
+            let assumed: Vec<u32> = (0..is_fold.len() as u32).filter(stays).collect();
+            match self.fewer_seams(&assumed, count) {
+                Some(joined) => (is_fold, radius) = (joined, NEAR),
+                None => radius *= 2,
+            }
+        }
+        let folds: Vec<u32> = (0..is_fold.len() as u32).filter(|&e| is_fold[e as usize]).collect();
+        self.sat.solve(&folds, CHUNK);
+    }
+
+    /// Folds with the assumed ones among them that leave fewer than `count` closed seams.
+    fn fewer_seams(&mut self, assumed: &[u32], count: usize) -> Option<Vec<bool>> {
+        for _ in 0..TRIES {
+            if self.sat.solve(assumed, CHUNK / 4) != Answer::Yes {
+                return None;
+            }
+            let is_fold = self.answer();
+            let (component, fewer) = self.seam_components(&is_fold);
+            if fewer < count {
+                return Some(is_fold);
+            }
+            self.forbid_short_seams(&component, fewer);
+        }
+        None
+    }
+
+    /// The vertices within a number of edges from the shortest closed seam.
+    fn neighbourhood(&self, component: &[u32], count: usize, radius: usize) -> Vec<bool> {
+        let mut sizes = vec![0usize; count];
+        component.iter().for_each(|&c| sizes[c as usize] += 1);
+        let shortest = (0..count).min_by_key(|&c| sizes[c]).map_or(0, |c| c as u32);
+        let mut near: Vec<bool> = component.iter().map(|&c| c == shortest).collect();
+        let mut front: Vec<u32> = (0..self.graph.vertex_count()).filter(|&v| near[v as usize]).collect();
+        for _ in 0..radius {
+            for v in std::mem::take(&mut front) {
+                for &e in self.graph.incident(v) {
+                    let u = self.graph.other(e, v);
+                    if !std::mem::replace(&mut near[u as usize], true) {
+                        front.push(u);
+                    }
+                }
+            }
+        }
+        near
+    }
+
+    /// The solver's answer: which edges are folds.
+    fn answer(&self) -> Vec<bool> {
+        (0..self.graph.edge_ids.len() as u32).map(|e| self.sat.value(e)).collect()
     }
 
     /// A seam around a face that visits each of its vertices once is closed too early, unless these are all.
@@ -137,28 +217,51 @@ impl TwoPieceSearch {
             self.sat.add_clause(last.into_iter().map(|e| (e, false)));
         }
         let end = self.sat.conflicts().saturating_add(conflicts);
+        let mut joins = 0;
         while !self.is_exhausted && self.sat.conflicts() < end {
             match self.sat.solve(&[], end - self.sat.conflicts()) {
                 Answer::Stopped => return None,
                 Answer::No => self.is_exhausted = true,
                 Answer::Yes => {
-                    let component = self.seam_components();
-                    if component.iter().all(|&c| c == 0) {
-                        let folds: Vec<u32> =
-                            (0..self.graph.edge_ids.len() as u32).filter(|&e| self.sat.value(e)).collect();
-                        let ids = self.graph.ids(folds.iter().copied());
-                        self.last = Some(folds);
-                        return Some(ids);
+                    let is_fold = self.answer();
+                    let (component, count) = self.seam_components(&is_fold);
+                    if count == 1 {
+                        return Some(self.found(is_fold));
                     }
-                    self.forbid_short_seams(&component);
+                    self.forbid_short_seams(&component, count);
+                    if joins < JOINS {
+                        joins += 1;
+                        if let Some(joined) = self.joined(&is_fold) {
+                            return Some(self.found(joined));
+                        }
+                    }
                 }
             }
         }
         None
     }
 
-    /// Which closed seam of the last answer each vertex is on.
-    fn seam_components(&self) -> Vec<u32> {
+    /// Joins the closed seams of an answer by exchanges. The rules of the caller are not known there, so the solver has to
+    /// agree; it also begins there the next time.
+    fn joined(&mut self, is_fold: &[bool]) -> Option<Vec<bool>> {
+        let edges = 0..is_fold.len() as u32;
+        let mut factor = Factor::new(&self.graph, &self.weights, edges.filter(|&e| is_fold[e as usize]));
+        if !factor.join() {
+            return None;
+        }
+        let folds = factor.folds();
+        (self.sat.solve(&folds, CHUNK) == Answer::Yes).then(|| self.answer())
+    }
+
+    fn found(&mut self, is_fold: Vec<bool>) -> Vec<EdgeId> {
+        let folds: Vec<u32> = (0..is_fold.len() as u32).filter(|&e| is_fold[e as usize]).collect();
+        let ids = self.graph.ids(folds.iter().copied());
+        self.last = Some(folds);
+        ids
+    }
+
+    /// Which closed seam each vertex is on, and how many there are.
+    fn seam_components(&self, is_fold: &[bool]) -> (Vec<u32>, usize) {
         const UNSEEN: u32 = u32::MAX;
         let mut component = vec![UNSEEN; self.graph.vertex_ids.len()];
         let mut count = 0;
@@ -172,7 +275,7 @@ impl TwoPieceSearch {
             while let Some(v) = stack.pop() {
                 for &e in self.graph.incident(v) {
                     let u = self.graph.other(e, v);
-                    if !self.sat.value(e) && component[u as usize] == UNSEEN {
+                    if !is_fold[e as usize] && component[u as usize] == UNSEEN {
                         component[u as usize] = count;
                         stack.push(u);
                     }
@@ -180,12 +283,11 @@ impl TwoPieceSearch {
             }
             count += 1;
         }
-        component
+        (component, count as usize)
     }
 
     /// Of the edges that leave the vertices of a closed seam, at least one must be seam.
-    fn forbid_short_seams(&mut self, component: &[u32]) {
-        let count = component.iter().max().map_or(0, |&c| c as usize + 1);
+    fn forbid_short_seams(&mut self, component: &[u32], count: usize) {
         let mut leaving = vec![Vec::new(); count];
         for (e, ends) in (0u32..).zip(&self.graph.ends) {
             let [a, b] = ends.map(|v| component[v as usize] as usize);
@@ -220,6 +322,11 @@ impl TwoPieceSearch {
     /// Whether it is proven that no further candidate exists.
     pub fn is_exhausted(&self) -> bool {
         self.is_exhausted
+    }
+
+    /// The numbers of some edges in the graph.
+    pub(super) fn numbers(&self, edges: &[EdgeId]) -> Vec<u32> {
+        edges.iter().filter_map(|&e| self.number[e]).collect()
     }
 
     /// How much work there was so far; the proof once [`Self::is_exhausted`].

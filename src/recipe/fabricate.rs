@@ -5,13 +5,14 @@ use std::collections::BTreeSet;
 use serde::Deserialize;
 
 use super::StepFailure;
+use super::divide::{Room, folds_to_open};
 use crate::measure::{edge_length, fold_angle};
-use crate::mesh::{EdgeId, Mesh};
-use crate::net::{Net, Piece, PieceId};
+use crate::mesh::{EdgeId, EdgeMap, FaceMap, Mesh};
+use crate::net::{Net, PieceId};
 use crate::progress::Progress;
-use crate::seam::least_matching;
+use crate::seam::least_matching_by;
 use crate::select::{Context, Made, Selection};
-use crate::sheet::{SheetError, SheetParams, SheetSet, TooLarge, lay_out};
+use crate::sheet::{SheetError, SheetParams, SheetSet, lay_out};
 use crate::unfold::{PiecesMode, Seams, Source, UnfoldParams, unfold};
 
 /// Which edges open. Without either, marked seams of the file are used; without marks the unfolder chooses.
@@ -63,15 +64,16 @@ pub fn fabricate(
         let net = unfold(mesh, &seams, &params, source, progress)?;
         match lay_out(&net, sheet) {
             Ok(sheets) => return Ok(Fabrication { net, sheets, seams: words, divided }),
-            Err(SheetError::PiecesTooLarge { pieces, .. }) if pieces.iter().all(|p| p.faces > 1) => {
-                let before = divided;
+            Err(SheetError::PiecesTooLarge { pieces, width, height, margin }) if pieces.iter().all(|p| p.faces > 1) => {
                 let mut open: BTreeSet<usize> = net.seams.iter().map(|s| s.id.0).collect();
+                let before = open.len();
                 for too_large in &pieces {
-                    divided += usize::from(best_division(&net, too_large).is_some_and(|e| open.insert(e)));
+                    open.extend(room(sheet).into_iter().flat_map(|room| folds_to_open(&net, too_large.piece, room)));
                 }
-                if divided == before {
-                    return Err(lay_out(&net, sheet).map(|_| StepFailure::NoMesh).unwrap_or_else(Into::into));
+                if open.len() == before {
+                    return Err(SheetError::PiecesTooLarge { pieces, width, height, margin }.into());
                 }
+                divided += open.len() - before;
                 seams = Seams::Open(open.into_iter().map(EdgeId::new).collect());
                 // The number of pieces now follows from the sheet.
                 params.pieces = PiecesMode::Auto;
@@ -98,6 +100,13 @@ fn choose_seams(
     if marked != Seams::Free {
         return Ok((marked, "the seams that the file marks open"));
     }
+    // Cutting a matching over and over leaves strips; where they reach every face, they are the pieces.
+    if params.pieces == PiecesMode::Auto
+        && let Some(made) = made
+        && strips_reach_every_face(mesh, &made.strip)
+    {
+        return Ok((Seams::Folds(made.strip.clone()), "the strips that the last cut made fold, all other edges open"));
+    }
     if params.pieces == PiecesMode::Auto
         && let Some(folds) = d_form_folds(mesh)
     {
@@ -106,13 +115,22 @@ fn choose_seams(
     Ok((Seams::Free, "the unfolder chose the seams"))
 }
 
-/// The folds of a D-form: a closed 3-valent mesh whose least perfect matching of edges is clearly duller than the rest.
+fn strips_reach_every_face(mesh: &Mesh, strip: &[EdgeId]) -> bool {
+    let mut is_reached = FaceMap::filled(mesh.face_slots(), false);
+    for f in strip.iter().flat_map(|&e| mesh.edge_faces(e)) {
+        is_reached[f] = true;
+    }
+    mesh.is_closed() && mesh.faces().all(|f| is_reached[f])
+}
+
+/// The folds of a D-form: a closed 3-valent mesh whose dullest perfect matching of edges is clearly duller than the rest.
 fn d_form_folds(mesh: &Mesh) -> Option<Vec<EdgeId>> {
     if !mesh.is_closed() || mesh.vertices().any(|v| mesh.valence(v) != 3) {
         return None;
     }
-    let folds = least_matching(mesh).ok()?;
-    let mut is_fold = crate::mesh::EdgeMap::filled(mesh.edge_slots(), false);
+    // By angle alone: with the length as a factor, short sharp edges would be lighter than the long dull folds of a strip.
+    let folds = least_matching_by(mesh, |e| fold_angle(mesh, e).unwrap_or(0.0).abs()).ok()?;
+    let mut is_fold = EdgeMap::filled(mesh.edge_slots(), false);
     for &e in &folds {
         is_fold[e] = true;
     }
@@ -127,62 +145,10 @@ fn d_form_folds(mesh: &Mesh) -> Option<Vec<EdgeId>> {
     (mean(false) > D_FORM_CONTRAST * mean(true)).then_some(folds)
 }
 
-/// The fold of a piece whose opening divides its area most evenly.
-fn best_division(net: &Net, too_large: &TooLarge) -> Option<usize> {
-    let piece = net.pieces.iter().find(|p| p.id == too_large.piece)?;
-    let tree = PieceTree::new(net, piece);
-    let whole: f64 = tree.areas.iter().sum();
-    let below = tree.areas_below();
-    (1..piece.faces.len())
-        .filter_map(|i| Some((tree.parent_edge[i]?, (whole / 2.0 - below[i]).abs())))
-        .min_by(|a, b| a.1.total_cmp(&b.1))
-        .map(|(edge, _)| edge)
-}
-
-/// The faces of a piece as a tree of folds, in the order in which they were reached from the first.
-struct PieceTree {
-    order: Vec<usize>,
-    parent: Vec<usize>,
-    parent_edge: Vec<Option<usize>>,
-    areas: Vec<f64>,
-}
-
-impl PieceTree {
-    fn new(net: &Net, piece: &Piece) -> Self {
-        let place: std::collections::HashMap<usize, usize> =
-            piece.faces.iter().enumerate().map(|(i, f)| (f.face, i)).collect();
-        let mut neighbours: Vec<Vec<(usize, usize)>> = vec![Vec::new(); piece.faces.len()];
-        for fold in net.folds.iter().filter(|f| f.piece == piece.id) {
-            let [a, b] = fold.faces.map(|f| place[&f]);
-            neighbours[a].push((b, fold.id.0));
-            neighbours[b].push((a, fold.id.0));
-        }
-        let n = piece.faces.len();
-        let areas = piece.faces.iter().map(|f| crate::geom::polygon::signed_area(&f.polygon)).collect();
-        let mut tree = Self { order: vec![0], parent: vec![0; n], parent_edge: vec![None; n], areas };
-        let mut seen = vec![false; n];
-        seen[0] = true;
-        let mut next = 0;
-        while let Some(&f) = tree.order.get(next) {
-            next += 1;
-            for &(g, edge) in &neighbours[f] {
-                if !std::mem::replace(&mut seen[g], true) {
-                    (tree.parent[g], tree.parent_edge[g]) = (f, Some(edge));
-                    tree.order.push(g);
-                }
-            }
-        }
-        tree
-    }
-
-    /// For each face the area of what hangs on it.
-    fn areas_below(&self) -> Vec<f64> {
-        let mut below = self.areas.clone();
-        for &f in self.order.iter().skip(1).rev() {
-            below[self.parent[f]] += below[f];
-        }
-        below
-    }
+/// The room inside the margin of a sheet, kerf included; `None` without sheets.
+fn room(sheet: &SheetParams) -> Option<Room> {
+    let inside = sheet.sheet.mm()? - 2.0 * sheet.margin.mm() - sheet.kerf.mm();
+    Some(Room { longer: inside.max_element(), shorter: inside.min_element() })
 }
 
 /// The name under which a piece is shown.

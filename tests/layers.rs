@@ -1,0 +1,340 @@
+//! The house rules that a compiler does not check, read off the source text: layers, doors, one writer of links, no
+//! printing and no panics by habit. `docs/architecture.md` says why; this file says what.
+//!
+//! Comments, strings, `#[cfg(test)]` items and files named `tests.rs` are left out. A rule without a test is a wish, and a
+//! test that cannot fail is one too: at the end every rule is fed a planted violation.
+
+use std::fmt;
+
+use source::{Source, read, root, sources};
+
+#[path = "layers/source.rs"]
+mod source;
+
+// ---- the tables ------------------------------------------------------------------------------------------------------
+
+/// A module with its layer and the modules it may use.
+struct Room {
+    layer: u8,
+    module: &'static str,
+    may_use: &'static [&'static str],
+}
+
+const fn room(layer: u8, module: &'static str, may_use: &'static [&'static str]) -> Room {
+    Room { layer, module, may_use }
+}
+
+/// Layers. The rule: a module uses only modules that stand above it in this table, and of those only the ones in its row.
+/// So all arrows point downwards in the house, from layer 5 to layer 0.
+const ROOMS: &[Room] = &[
+    room(0, "geom", &[]),
+    room(0, "units", &[]),
+    room(0, "progress", &[]),
+    room(1, "mesh", &["geom"]),
+    room(1, "net", &["geom", "units"]),
+    room(2, "measure", &["geom", "mesh"]),
+    room(2, "shape", &["geom", "mesh", "units"]),
+    room(2, "seam", &["geom", "mesh", "measure", "progress"]),
+    room(2, "select", &["geom", "units", "mesh", "measure", "seam"]),
+    room(3, "check", &["geom", "units", "mesh", "measure"]),
+    room(3, "op", &["geom", "units", "mesh", "measure", "shape", "select", "progress"]),
+    room(3, "unfold", &["geom", "units", "mesh", "measure", "seam", "select", "net", "progress"]),
+    room(3, "panel", &["geom", "units", "mesh", "measure", "net", "progress"]),
+    room(3, "sheet", &["geom", "units", "net", "progress"]),
+    room(
+        4,
+        "io",
+        &["geom", "units", "progress", "mesh", "net", "measure", "seam", "select", "check", "unfold", "panel", "sheet"],
+    ),
+    room(4, "picture", &["geom", "units", "mesh", "measure", "net", "sheet"]),
+    room(
+        4,
+        "recipe",
+        &[
+            "geom", "units", "progress", "mesh", "net", "measure", "shape", "seam", "select", "check", "op", "unfold",
+            "panel", "sheet", "io", "picture",
+        ],
+    ),
+    room(
+        5,
+        "cli",
+        &[
+            "geom", "units", "progress", "mesh", "net", "measure", "shape", "seam", "select", "check", "op", "unfold",
+            "panel", "sheet", "io", "picture", "recipe",
+        ],
+    ),
+];
+
+/// Doors. The rule: an outside crate enters the house only through the files whose path begins with one of these.
+/// `src/` means everywhere. A new dependency needs a row here, and a reason in `docs/architecture.md`.
+const DOORS: &[(&str, &[&str])] = &[
+    ("glam", &["src/"]),
+    ("serde", &["src/"]),
+    ("thiserror", &["src/"]),
+    ("clap", &["src/"]),
+    ("nalgebra", &["src/geom/"]),
+    ("robust", &["src/geom/predicate.rs", "src/geom/hull"]),
+    ("spade", &["src/geom/triangulate.rs", "src/op/bridge.rs"]),
+    ("batsat", &["src/seam/sat.rs"]),
+    ("i_overlay", &["src/sheet/kerf.rs"]),
+    ("tobj", &["src/io/obj", "src/io/read/obj"]),
+    ("svg", &["src/io/svg"]),
+    ("tiny_skia", &["src/picture/"]),
+    ("serde_json", &["src/io/", "src/cli/"]),
+    ("toml", &["src/recipe/"]),
+    ("clap_complete", &["src/cli/"]),
+    ("clap_mangen", &["src/cli/"]),
+    ("ctrlc", &["src/cli/"]),
+];
+
+/// What parameter structs anywhere may take from clap. The rule: whatever builds or runs a command line stays in `src/cli`.
+const CLAP_EVERYWHERE: &[&str] = &["Args", "ValueEnum", "value_parser", "builder"];
+/// The recipe reader asks the parameter structs for their field names, so that recipe and command line cannot part.
+const CLAP_COMMANDS: &[&str] = &["src/cli/", "src/main.rs", "src/recipe/parse.rs"];
+
+/// The rule: half-edge links are written in one file, so that every mesh stays manifold by construction.
+const WRITER_OF_LINKS: &str = "src/mesh/store/links.rs";
+const LINKS: &[&str] = &["next", "prev", "origin"];
+
+/// The rule: the library neither prints nor exits nor panics by habit. A macro or call, and the only places that may have it.
+const FORBIDDEN: &[(&str, &[&str], &str)] = &[
+    ("println!", PRINTERS, "return data and let src/cli print it"),
+    ("print!", PRINTERS, "return data and let src/cli print it"),
+    ("eprintln!", PRINTERS, "return an error or report through `Progress`"),
+    ("eprint!", PRINTERS, "return an error or report through `Progress`"),
+    ("dbg!", &[], "remove it"),
+    (".unwrap()", &[], "return an error, or `expect(\"the invariant\")` where only our own bug could fail"),
+    ("todo!", &[], "write the code, or return an error that says what is missing"),
+    ("unimplemented!", &[], "write the code, or return an error that says what is missing"),
+    ("process::exit", PRINTERS, "return an error; the exit code is decided in src/cli"),
+];
+const PRINTERS: &[&str] = &["src/cli/", "src/main.rs"];
+
+// ---- the tests -------------------------------------------------------------------------------------------------------
+
+#[test]
+fn the_table_of_layers_points_downwards() {
+    for (i, room) in ROOMS.iter().enumerate() {
+        for used in room.may_use {
+            let j = ROOMS.iter().position(|r| r.module == *used).unwrap_or_else(|| panic!("{used} is no module"));
+            assert!(j < i && ROOMS[j].layer <= room.layer, "{} may not use {used}, which stands below it", room.module);
+        }
+    }
+}
+
+#[test]
+fn every_module_has_a_row() {
+    for line in read(&root().join("src/lib.rs")).lines() {
+        let module = line.trim().strip_prefix("pub mod ").and_then(|rest| rest.strip_suffix(';'));
+        if let Some(module) = module {
+            assert!(
+                find_room(module).is_some(),
+                "add `{module}` to ROOMS in tests/layers.rs and to docs/architecture.md"
+            );
+        }
+    }
+}
+
+#[test]
+fn every_dependency_has_a_door() {
+    for name in dependencies(&read(&root().join("Cargo.toml"))) {
+        let known = DOORS.iter().any(|(door, _)| *door == name);
+        assert!(known, "add `{name}` to DOORS in tests/layers.rs and its reason to docs/architecture.md");
+    }
+}
+
+#[test]
+fn modules_use_only_what_lies_below_them() {
+    hold(layer_faults);
+}
+
+#[test]
+fn outside_crates_come_in_by_their_doors() {
+    hold(door_faults);
+}
+
+#[test]
+fn links_are_written_in_one_file() {
+    let store = read(&root().join("src/mesh/store.rs"));
+    let fields = store.split("struct HalfEdge {").nth(1).and_then(|rest| rest.split('}').next());
+    let fields = fields.expect("src/mesh/store.rs defines HalfEdge");
+    assert!(!fields.contains("pub"), "the fields of HalfEdge stay private, else every module could write links");
+    hold(link_faults);
+}
+
+#[test]
+fn the_library_does_not_print_exit_or_unwrap() {
+    hold(habit_faults);
+}
+
+#[test]
+fn planted_violations_are_found() {
+    let layer = |path: &str, text: &str| faults_of(layer_faults, path, text);
+    assert_eq!(layer("src/geom/plane.rs", "\nuse crate::mesh::Mesh;"), ["src/geom/plane.rs:2"]);
+    assert_eq!(layer("src/sheet/place.rs", "use crate::{geom::Plane, net::{Net, Piece},\n mesh::Mesh};").len(), 1);
+    assert_eq!(layer("src/sheet/place.rs", "fn f() -> usize { crate::op::slice() }").len(), 1);
+    assert_eq!(layer("src/seam/graph.rs", "use super::super::select::Selection;").len(), 1);
+    assert_eq!(layer("src/io/obj.rs", "use crate::nowhere::X;").len(), 1);
+    assert_eq!(layer("src/net/mod.rs", "fn f() -> impl Iterator + use<'_> { g(); crate::io::h() }").len(), 1);
+    assert_eq!(layer("src/op/slice.rs", "use crate::{geom, mesh::Mesh}; use super::cutter::Cutter;").len(), 0);
+    let in_test =
+        "fn f() { \"crate::cli::x\"; } // crate::cli\n#[cfg(test)]\nmod tests { use crate::cli::run; fn g() {} }";
+    assert_eq!(layer("src/geom/plane.rs", in_test).len(), 0);
+    let after_test = "#[cfg(test)]\nmod tests { fn g() {} }\nuse crate::cli::run;";
+    assert_eq!(layer("src/geom/plane.rs", after_test), ["src/geom/plane.rs:3"]);
+
+    let door = |path: &str, text: &str| faults_of(door_faults, path, text);
+    assert_eq!(door("src/mesh/walk.rs", "use nalgebra::Matrix3;").len(), 1);
+    assert_eq!(door("src/op/slice.rs", "let x = robust::orient3d(a, b, c, d);").len(), 1);
+    assert_eq!(door("src/op/slice.rs", "#[derive(Debug, clap::Args)] struct P;").len(), 0);
+    assert_eq!(door("src/op/slice.rs", "#[derive(clap::Parser)] struct P;").len(), 1);
+    assert_eq!(door("src/op/slice.rs", "use clap::{Args, Subcommand};").len(), 1);
+    assert_eq!(door("src/cli/mod.rs", "use clap::{Args, Subcommand};").len(), 0);
+    assert_eq!(door("src/io/mod.rs", "mod svg; pub use svg::write_svg; use super::svg::X;").len(), 0);
+    assert_eq!(door("src/sheet/draw.rs", "use svg::Document;").len(), 1);
+
+    let link = |path: &str, text: &str| faults_of(link_faults, path, text);
+    assert_eq!(link("src/mesh/walk.rs", "self.half_edges[3]\n.next = h;"), ["src/mesh/walk.rs:2"]);
+    assert_eq!(link("src/mesh/build.rs", "let h = HalfEdge { next, prev, origin, face };").len(), 1);
+    assert_eq!(link("src/mesh/walk.rs", "if a.next == b { let c = a.prev; }").len(), 0);
+    assert_eq!(link(WRITER_OF_LINKS, "a.next = b;").len(), 0);
+
+    let habit = |path: &str, text: &str| faults_of(habit_faults, path, text);
+    assert_eq!(habit("src/op/slice.rs", "x.unwrap(); todo!(); println!(\"x\"); std::process::exit(1);").len(), 4);
+    assert_eq!(habit("src/op/slice.rs", "x.unwrap_or(1); // x.unwrap()\nlet s = r#\"println!(\" todo!\"#;").len(), 0);
+    assert_eq!(habit("src/cli/mod.rs", "println!(\"x\");").len(), 0);
+    assert_eq!(habit("src/cli/mod.rs", "x.unwrap();").len(), 1);
+}
+
+// ---- the rules -------------------------------------------------------------------------------------------------------
+
+/// A broken rule, with its place and what to do.
+struct Fault {
+    path: String,
+    line: usize,
+    advice: String,
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}: {}", self.path, self.line, self.advice)
+    }
+}
+
+fn layer_faults(source: &Source) -> Vec<Fault> {
+    let Some(module) = source.module() else { return Vec::new() };
+    let mut faults = Vec::new();
+    for path in source.paths() {
+        let Some(used) = source.inner_module(&path) else { continue };
+        if used == module {
+            continue;
+        }
+        let advice = match (find_room(module), find_room(&used)) {
+            (None, _) => format!("add `{module}` to ROOMS in tests/layers.rs and to docs/architecture.md"),
+            (_, None) => format!("`{used}` is no module of the table; use it by its own module, or add a row to ROOMS"),
+            (Some(room), Some(_)) if room.may_use.contains(&used.as_str()) => continue,
+            (Some(room), Some(other)) => format!(
+                "`{module}` (layer {}) may not use `{used}` (layer {}); it may use {}: move the shared part down, or hand \
+                 the value in from above",
+                room.layer,
+                other.layer,
+                list(room.may_use)
+            ),
+        };
+        faults.push(source.fault(path.line, advice));
+    }
+    faults
+}
+
+fn door_faults(source: &Source) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    for path in source.paths() {
+        let Some((name, places)) = DOORS.iter().find(|(name, _)| *name == path.segments[0]) else { continue };
+        // `mod svg;` makes `svg::` a module of this file, not the crate.
+        if source.declares(name) {
+            continue;
+        }
+        if !is_in(&source.path, places) {
+            faults.push(source.fault(path.line, format!("`{name}` comes in only through {}: call that", list(places))));
+        } else if *name == "clap" && !is_in(&source.path, CLAP_COMMANDS) {
+            let item = path.segments.get(1).map_or("", String::as_str);
+            if !CLAP_EVERYWHERE.contains(&item) {
+                let advice = format!("`clap::{item}` belongs in src/cli; here only {} are used", list(CLAP_EVERYWHERE));
+                faults.push(source.fault(path.line, advice));
+            }
+        }
+    }
+    faults
+}
+
+/// Only `src/mesh` is looked at: the fields are private to the store, so elsewhere the compiler holds the rule.
+fn link_faults(source: &Source) -> Vec<Fault> {
+    if source.path == WRITER_OF_LINKS || !source.path.starts_with("src/mesh/") {
+        return Vec::new();
+    }
+    let is_definition = |i: usize| i > 0 && source.tokens[i - 1].text == "struct";
+    let mut faults = Vec::new();
+    for i in 0..source.tokens.len() {
+        let assigned = LINKS.iter().find(|link| {
+            source.reads(i, &[".", link, "="]) && !source.reads(i + 3, &["="]) && !source.reads(i + 3, &[">"])
+        });
+        if let Some(link) = assigned {
+            let advice =
+                format!("`.{link}` is assigned only in {WRITER_OF_LINKS}: compose the operators there instead");
+            faults.push(source.fault(source.tokens[i].line, advice));
+        }
+        if source.reads(i, &["HalfEdge", "{"]) && !is_definition(i) {
+            let advice = format!("half-edges are made only in {WRITER_OF_LINKS}: compose the operators there instead");
+            faults.push(source.fault(source.tokens[i].line, advice));
+        }
+    }
+    faults
+}
+
+fn habit_faults(source: &Source) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    for (habit, places, advice) in FORBIDDEN {
+        let wanted = Source::new("", habit).tokens;
+        let wanted: Vec<&str> = wanted.iter().map(|t| t.text.as_str()).collect();
+        if is_in(&source.path, places) {
+            continue;
+        }
+        for i in (0..source.tokens.len()).filter(|&i| source.reads(i, &wanted)) {
+            faults.push(source.fault(source.tokens[i].line, format!("no `{habit}` here: {advice}")));
+        }
+    }
+    faults
+}
+
+fn find_room(module: &str) -> Option<&'static Room> {
+    ROOMS.iter().find(|room| room.module == module)
+}
+
+fn is_in(path: &str, places: &[&str]) -> bool {
+    places.iter().any(|place| path.starts_with(place))
+}
+
+fn list(names: &[&str]) -> String {
+    if names.is_empty() { "nothing".to_owned() } else { names.join(", ") }
+}
+
+/// The names of the normal dependencies, as code writes them.
+fn dependencies(manifest: &str) -> Vec<String> {
+    let section = manifest.lines().skip_while(|line| line.trim() != "[dependencies]").skip(1);
+    let names = section.take_while(|line| !line.starts_with('[')).filter_map(|line| line.split_once('='));
+    names.map(|(name, _)| name.trim().trim_end_matches(".workspace").replace('-', "_")).collect()
+}
+
+/// Asserts that a rule finds no fault in the whole of `src`.
+#[track_caller]
+fn hold(rule: fn(&Source) -> Vec<Fault>) {
+    let sources = sources();
+    assert!(sources.len() > 20, "the source was not found");
+    let faults: Vec<String> = sources.iter().flat_map(rule).map(|fault| fault.to_string()).collect();
+    assert!(faults.is_empty(), "{} faults:\n{}", faults.len(), faults.join("\n"));
+}
+
+/// The places of the faults that a rule finds in a text.
+fn faults_of(rule: fn(&Source) -> Vec<Fault>, path: &str, text: &str) -> Vec<String> {
+    rule(&Source::new(path, text)).into_iter().map(|fault| format!("{}:{}", fault.path, fault.line)).collect()
+}

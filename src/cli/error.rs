@@ -26,7 +26,7 @@ pub(super) enum CliError {
     #[error(transparent)]
     Step(#[from] StepFailure),
     #[error("{}: {error}", path.display())]
-    Recipe { path: PathBuf, error: RecipeError },
+    Recipe { path: PathBuf, error: Box<RecipeError> },
     #[error("{}: {error}", path.display())]
     RecipeStep { path: PathBuf, error: StepError },
     #[error("{}: cannot be read: {error}", path.display())]

@@ -61,5 +61,5 @@ fn read_recipe(path: &Path) -> Result<Recipe, CliError> {
     let bytes = std::fs::read(path).map_err(|error| CliError::Unreadable { path: path.to_owned(), error })?;
     let text = String::from_utf8(bytes)
         .map_err(|error| CliError::NotText { path: path.to_owned(), at: error.utf8_error().valid_up_to() })?;
-    Recipe::parse(&text).map_err(|error| CliError::Recipe { path: path.to_owned(), error })
+    Recipe::parse(&text).map_err(|error| CliError::Recipe { path: path.to_owned(), error: Box::new(error) })
 }

@@ -1,6 +1,7 @@
 //! Divides a piece that no sheet can hold: halves it by area along folds, again and again, until every part fits.
 
-use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+use std::collections::{HashMap, HashSet};
 
 use glam::DVec2;
 
@@ -65,14 +66,14 @@ impl<'a> FoldGraph<'a> {
     /// Divides a connected part where a tree of its folds has nearly equal areas on both sides.
     fn halve(&self, part: &[usize]) -> (Vec<usize>, Vec<usize>) {
         let mut parent: HashMap<usize, usize> = HashMap::from([(part[0], part[0])]);
-        let members: std::collections::HashSet<usize> = part.iter().copied().collect();
+        let members: HashSet<usize> = part.iter().copied().collect();
         let mut order = vec![part[0]];
         let mut next = 0;
         while let Some(&f) = order.get(next) {
             next += 1;
             for &(g, _) in self.neighbours[f].iter().filter(|(g, _)| members.contains(g)) {
-                if !parent.contains_key(&g) {
-                    parent.insert(g, f);
+                if let Entry::Vacant(place) = parent.entry(g) {
+                    place.insert(f);
                     order.push(g);
                 }
             }
@@ -86,7 +87,7 @@ impl<'a> FoldGraph<'a> {
         let unevenness = |f: usize| (whole / 2.0 - below[&f]).abs();
         let top =
             order.iter().copied().skip(1).min_by(|&a, &b| unevenness(a).total_cmp(&unevenness(b))).expect("two faces");
-        let mut half = std::collections::HashSet::from([top]);
+        let mut half = HashSet::from([top]);
         for &f in order.iter().skip(1) {
             if half.contains(&parent[&f]) {
                 half.insert(f);
@@ -96,7 +97,7 @@ impl<'a> FoldGraph<'a> {
     }
 
     fn folds_between(&self, half: &[usize], rest: &[usize]) -> Vec<usize> {
-        let rest: std::collections::HashSet<usize> = rest.iter().copied().collect();
+        let rest: HashSet<usize> = rest.iter().copied().collect();
         let crossing = half.iter().flat_map(|&f| &self.neighbours[f]).filter(|(g, _)| rest.contains(g));
         crossing.map(|&(_, edge)| edge).collect()
     }

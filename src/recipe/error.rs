@@ -90,7 +90,7 @@ pub struct StepError {
     /// What it does.
     pub verb: &'static str,
     /// Why it failed.
-    pub cause: StepFailure,
+    pub cause: Box<StepFailure>,
 }
 
 /// What stopped a step.

@@ -10,6 +10,9 @@ mod job;
 mod outputs;
 mod parse;
 
+#[cfg(test)]
+mod tests;
+
 use std::path::PathBuf;
 
 use serde::Deserialize;

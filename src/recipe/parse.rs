@@ -197,7 +197,9 @@ impl StepFields<'_> {
         }
         let deserializer = toml::Deserializer::parse(&document).map_err(|e| self.source.syntax(&e))?;
         T::deserialize(deserializer).map_err(|e| {
-            let place = e.span().and_then(|s| places.iter().find(|(range, _)| range.contains(&s.start)));
+            // What is wrong with the step as a whole, such as a missing field, spans all of its text or none of it.
+            let in_value = e.span().filter(|s| !s.is_empty() && s.len() < document.trim_end().len());
+            let place = in_value.and_then(|s| places.iter().find(|(range, _)| range.contains(&s.start)));
             let offset = place.map_or(self.span.start, |p| p.1);
             self.source.bad(offset..offset, e.message())
         })

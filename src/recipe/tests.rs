@@ -1,0 +1,135 @@
+//! Recipes as text, and what becomes of them.
+
+use std::path::Path;
+
+use super::*;
+use crate::mesh::assert_sound;
+use crate::progress::Silent;
+
+fn message(text: &str) -> String {
+    Recipe::parse(text).expect_err("a broken recipe").to_string()
+}
+
+fn run(text: &str) -> Result<Job, StepError> {
+    Job::run(&Recipe::parse(text).expect("a recipe"), Path::new(""), &Silent)
+}
+
+#[test]
+fn a_recipe_is_a_chain_of_the_verbs_parameters() {
+    let recipe = Recipe::parse(
+        r#"
+name = "All kinds of steps"
+[[step]]
+solid = "soccer-ball"
+edge = "20mm"
+[[step]]
+cut = "plane"
+normal = [0, 0, 1]
+point = "0,0,1cm"
+keep = "reverse"
+[[step]]
+cut = "vertex"
+select = "valence=3"
+scope = "local"
+[[step]]
+cut = "face"
+select = "made"
+offset = 0.5
+[[step]]
+check = "plywood"
+require = ["planar", "closed"]
+[[step]]
+unfold = 1
+sheet = "A3"
+kerf = 0.2
+[[step]]
+render = "iso"
+width = 400
+"#,
+    )
+    .expect("a recipe");
+    let verbs: Vec<&str> = recipe.steps.iter().map(Step::verb).collect();
+    assert_eq!(verbs, ["solid", "cut plane", "cut vertex", "cut face", "check", "unfold", "render"]);
+    assert_eq!(recipe.name.as_deref(), Some("All kinds of steps"));
+    let Step::Unfold { sheet, .. } = &recipe.steps[5] else { panic!("an unfold step") };
+    assert_eq!(sheet.kerf.mm(), 0.2);
+}
+
+#[test]
+fn mistakes_are_named_with_line_column_and_the_nearest_name() {
+    for (text, expected) in [
+        (
+            "[[step]]\nsolid = \"cube\"\nszie = \"3mm\"",
+            "line 3, column 1: `szie` is not known in a step with `solid`; did you mean `size`?",
+        ),
+        ("nmae = \"x\"", "line 1, column 1: `nmae` is not known in a recipe; did you mean `name`?"),
+        ("[[step]]\nsolidd = \"cube\"", "line 2, column 1: `solidd` is not known as a step; did you mean `solid`?"),
+        ("[[step]]\ncut = \"egde\"", "line 2, column 7: `egde` is not known as something to cut; did you mean `edge`?"),
+        (
+            "[[step]]\nsolid = \"cube\"\ncut = \"edge\"",
+            "line 3, column 1: this step says both `solid` and `cut`; make two steps of it",
+        ),
+        (
+            "name = \"nothing\"",
+            "the recipe has no [[step]]; the first one names a solid or reads a file, e.g. solid = \"dodecahedron\"",
+        ),
+        ("[[step]]\nsolid = \"kube\"", "line 2, column 9: "),
+        (
+            "[[step]]\nsolid = \"cube\"\n[[step]]\ncut = \"edge\"\noffset = 0.2",
+            "line 3, column 1: missing field `select`",
+        ),
+        (
+            "[[step]]\nsolid = \"cube\"\n[[step]]\nunfold = \"auto\"\nkerf = \"3 apples\"",
+            "line 5, column 8: `3 apples` is not a length",
+        ),
+        ("[[step]]\nsolid = \"cube\"\n[[step]]\ncut = \"edge\"\nselect = \"valense=3\"", "line 5, column 10: "),
+        ("[[step]\nsolid = 1", "line 1, column "),
+        ("step = 3", "line 1, column 8: steps are written [[step]], with two brackets"),
+    ] {
+        let message = message(text);
+        assert!(message.starts_with(expected), "{message}\ninstead of\n{expected}");
+    }
+    assert!(message("[[step]]\nsolid = \"kube\"").contains("cube"));
+}
+
+#[test]
+fn a_step_that_fails_is_named_by_its_number() {
+    let failure = |text: &str| match run(text) {
+        Ok(_) => panic!("the recipe should fail"),
+        Err(error) => error.to_string(),
+    };
+    assert!(
+        failure("[[step]]\ncut = \"edge\"\nselect = \"all\"").starts_with("step 1 (cut edge): there is no mesh yet")
+    );
+    let twice = "[[step]]\nsolid = \"cube\"\n[[step]]\nsolid = \"cube\"";
+    assert!(failure(twice).starts_with("step 2 (solid): there is a mesh already"));
+    let empty = "[[step]]\nsolid = \"cube\"\n[[step]]\ncut = \"vertex\"\nselect = \"valence=9\"";
+    assert!(failure(empty).starts_with("step 2 (cut vertex): "));
+    assert!(failure("[[step]]\nread = \"missing.obj\"").contains("missing.obj"));
+}
+
+#[test]
+fn made_and_strip_mean_what_the_last_step_made() {
+    let job = run("[[step]]\nsolid = \"cube\"\n[[step]]\ncut = \"edge\"\nselect = \"0\"\noffset = 0.2\n\
+                   [[step]]\ncut = \"edge\"\nselect = \"strip\"\noffset = 0.2")
+    .expect("two rounds");
+    let mesh = job.mesh().expect("a mesh");
+    assert_sound(mesh);
+    assert_eq!((mesh.vertex_count(), mesh.face_count()), (8 + 2 + 4, 6 + 1 + 2));
+}
+
+#[test]
+fn a_piece_too_large_for_the_sheet_is_divided_until_it_fits() {
+    let recipe = |sheet: &str| {
+        format!("[[step]]\nsolid = \"cube\"\nsize = 100\n[[step]]\nunfold = \"one\"\nsheet = \"{sheet}\"")
+    };
+    let whole = run(&recipe("600x400")).expect("room for all");
+    let (whole, _) = whole.fabrication.as_ref().expect("pieces");
+    assert_eq!((whole.net.pieces.len(), whole.divided), (1, 0));
+    let divided = run(&recipe("250x250")).expect("room for parts");
+    let (divided, _) = divided.fabrication.as_ref().expect("pieces");
+    assert!(divided.net.pieces.len() > 1 && divided.divided > 0);
+    assert_eq!(divided.net.proof.overlaps, 0);
+    let error = run(&recipe("100x100")).map(|_| ()).expect_err("a single face is too large").to_string();
+    assert!(error.contains("single face") && error.contains("100 × 100"), "{error}");
+}

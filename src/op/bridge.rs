@@ -116,6 +116,20 @@ impl CapWalks {
         &self.corners[site.0][site.1]
     }
 
+    /// Whether the way from one site to the other begins in material: in the angle of the site's own walk, and in an angle of
+    /// every other walk that comes to the same point.
+    fn holds(&self, at_point: &[Site], from: Site, to: Site) -> bool {
+        let there = self.point(to);
+        let opens = |(w, i): Site| {
+            let corners = &self.walks[w].corners;
+            let n = corners.len();
+            is_in_angle(corners[i], corners[(i + 1) % n], corners[(i + n - 1) % n], there)
+        };
+        let others = at_point.iter().filter(|s| s.0 != from.0);
+        let opens_any = |w: usize| at_point.iter().any(|&s| s.0 == w && opens(s));
+        opens(from) && others.into_iter().all(|s| opens_any(s.0))
+    }
+
     /// A new corner at a site, and at every other site that is the same vertex.
     fn add_corner(&mut self, site: Site, h: HalfEdgeId) {
         let v = self.walks[site.0].vertices[site.1];
@@ -155,8 +169,17 @@ impl CapWalks {
             .undirected_edges()
             .filter(|e| !e.is_constraint_edge())
             .map(|e| e.vertices().map(|v| &sites_of[v.index()]));
-        let mut bridges: Vec<Bridge> =
-            seen.filter(|[a, b]| share_no_walk(a, b)).flat_map(|[a, b]| pairs(a, b, true)).collect();
+        // What touches is joined as it is; what only lies at one point is not.
+        let of_vertex =
+            |sites: &[Site], s: Site| sites.iter().copied().filter(move |&t| self.is_one_vertex(s, t)).collect();
+        let joins_walks = |a: &[Site], b: &[Site], bridge: &Bridge| {
+            let (from, to): (Vec<Site>, Vec<Site>) = (of_vertex(a, bridge.from), of_vertex(b, bridge.to));
+            share_no_walk(&from, &to) && self.holds(a, bridge.from, bridge.to) && self.holds(b, bridge.to, bridge.from)
+        };
+        let between = |[a, b]: [&Vec<Site>; 2]| {
+            pairs(a, b, true).into_iter().filter(|bridge| joins_walks(a, b, bridge)).collect::<Vec<_>>()
+        };
+        let mut bridges: Vec<Bridge> = seen.flat_map(between).collect();
         for sites in &sites_of {
             let touches = pairs(sites, sites, false)
                 .into_iter()

@@ -51,6 +51,9 @@ pub enum OpError {
     /// A face has no area, or no edge leaves it.
     #[error("no slicing plane at face {0}: it has no area or no edge leaves it; leave it out of the selection")]
     NoPlaneAtFace(FaceId),
+    /// A step has one mesh as its result, but both parts of a slice were asked for.
+    #[error("keeping both parts gives two models, but only one can go on from here; keep `reverse` or `normal`")]
+    TwoParts,
     /// The cuts take everything away.
     #[error("nothing is left: the {cut} of {cuts} cuts removes the rest of the model; use a smaller offset or fewer elements", cut = ordinal(*cut))]
     NothingLeft {

@@ -4,6 +4,7 @@ mod bridge;
 mod cutter;
 mod divide;
 mod error;
+mod flat;
 mod report;
 mod section;
 mod slice;
@@ -13,11 +14,14 @@ mod truncate_face;
 mod truncate_vertex;
 
 #[cfg(test)]
+mod patterns;
+#[cfg(test)]
 mod tests;
 
+pub use cutter::Capping;
 pub use error::OpError;
 pub use report::CutReport;
-pub use slice::{Direction, Keep, Point, SliceParams, slice};
+pub use slice::{Direction, Keep, Point, SliceParams, slice, slice_both};
 pub use truncate::{OpContext, Scope};
 pub use truncate_edge::{TruncateEdge, truncate_edges};
 pub use truncate_face::{TruncateFace, truncate_faces};

@@ -48,7 +48,7 @@ fn counts(mesh: &Mesh) -> (usize, usize, usize) {
 }
 
 fn cut(mesh: &Mesh, normal: DVec3, point: DVec3, keep: Keep) -> Result<Mesh, OpError> {
-    let params = SliceParams { normal: Direction(normal), point: Point(point), keep };
+    let params = SliceParams { keep, ..SliceParams::new(normal, point) };
     slice(mesh, &params, &OpContext::default()).map(|(mesh, _)| mesh)
 }
 

@@ -63,11 +63,13 @@ pub enum OpError {
         cuts: usize,
     },
     /// The walks of a section cross each other, so there is no cap for them.
-    #[error("the section crosses itself, so it cannot be capped; the model intersects itself there: repair it first")]
+    #[error(
+        "the section crosses itself, so it cannot be capped; the model intersects itself there: repair it first, or cut without caps"
+    )]
     TangledSection,
     /// Holes of a section could not be joined by bridges.
     #[error(
-        "{holes} holes of a section could not be joined to their cap; the model intersects itself there: repair it first"
+        "{holes} holes of a section could not be joined to their cap; the model touches or intersects itself there: repair it first, or cut without caps"
     )]
     HolesNotJoined {
         /// How many.

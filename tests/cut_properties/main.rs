@@ -260,15 +260,34 @@ fn check_axial(voxels: &Voxels, plane: Given, halves: &Halves, title: &str) {
 
 #[test]
 fn cubes_in_any_arrangement() {
-    for seed in std::env::var("DBG").map_or(seeds(4000), |s| s.parse().map(|s| s..s + 1).unwrap()) {
+    let mut refused = 0;
+    for seed in seeds(4000) {
         let mut random = Random::new(seed);
         let voxels = Voxels::random(&mut random);
         let touch = if random.below(2) == 0 { Touch::Apart } else { Touch::Through };
         let merge = [0, 50, 100][random.below(3)];
         let Some(mesh) = voxels.mesh(touch, merge, &mut random) else { continue };
-        if let Some(plane) = aimed_plane(&mesh, &mut random) {
-            check_voxels(&voxels, &mesh, plane, &format!("cubes {seed}"));
+        let Some(plane) = aimed_plane(&mesh, &mut random) else { continue };
+        // Cubes that touch along edges without being joined make holes that touch their outer walk at every corner.
+        if touch == Touch::Apart && matches!(cut_in_two(&mesh, plane), Err(OpError::HolesNotJoined { .. })) {
+            refused += 1;
+            continue;
         }
+        check_voxels(&voxels, &mesh, plane, &format!("cubes {seed}"));
+    }
+    assert!(refused <= seeds(4000).end / 2000, "{refused} refused");
+}
+
+/// A plate with many holes: one bridge more than holes where the search finds one chain, never a stack overflow.
+#[test]
+fn a_plate_with_many_holes() {
+    for (holes, most) in [(3_i32, 8 * 8), (30, 30 * 30 + 200)] {
+        let voxels = Voxels::new(IVec3::new(2 * holes + 1, 2 * holes + 1, 1), |c| c.x % 2 == 0 || c.y % 2 == 0);
+        let mesh = voxels.mesh(Touch::Apart, 0, &mut Random::new(1)).expect("a plate");
+        let plane = Given { normal: DVec3::Z, point: DVec3::splat(0.5) };
+        let halves = check_all(&mesh, plane, "plate");
+        let Some((_, report)) = &halves[0] else { panic!("a half") };
+        assert!(report.made.faces.len() <= most, "{} caps", report.made.faces.len());
     }
 }
 

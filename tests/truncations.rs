@@ -249,6 +249,7 @@ fn check(name: &str, mesh: &Mesh, kind: Kind, t: f64) -> String {
 }
 
 #[test]
+#[allow(clippy::print_stdout)] // The table, for those who run it with --nocapture.
 fn cutting_everything_off_is_the_intersection_of_half_spaces() {
     let mut table = Vec::new();
     for (name, mesh) in solids() {

@@ -57,6 +57,10 @@ pub(super) struct Cut {
     pub is_miss: bool,
     /// The earlier cuts of the round, by number, of which this one removed something that they had made.
     pub met: Vec<usize>,
+    /// The earlier cuts of the round, by number, of which a vertex is a corner of this one's caps, too.
+    pub touched: Vec<usize>,
+    /// Whether a vertex from before the round is a corner of the caps.
+    pub ends_at_vertex: bool,
 }
 
 /// Where a face comes from: a face of the mesh before the command, or the cap of the n-th cut.
@@ -64,6 +68,7 @@ pub(super) struct Cut {
 pub(super) struct Lineage(u32);
 
 /// The workspace of a chain of cuts.
+#[derive(Clone)]
 pub(super) struct Cutter {
     pub(super) mesh: Mesh,
     pub(super) bound: f64,
@@ -156,6 +161,7 @@ impl Cutter {
         self.decide_flat_faces(plane, matches!(reach, Reach::Global));
         let mut cut = self.describe_removed();
         cut.caps = self.close(plane)?;
+        self.describe_touches(&mut cut);
         self.undo_needless_divisions();
         Ok(cut)
     }
@@ -295,6 +301,18 @@ impl Cutter {
         met.dedup();
         let removed = seen.into_iter().filter(|v| self.born[v.index()] == 0).collect();
         Cut { removed, met: met.into_iter().map(|k| k as usize).collect(), ..Cut::default() }
+    }
+
+    fn describe_touches(&self, cut: &mut Cut) {
+        for v in cut.caps.iter().flat_map(|&f| self.mesh.face_vertices(f)) {
+            match self.born[v.index()] {
+                0 => cut.ends_at_vertex = true,
+                born if born != self.cut => cut.touched.push(born as usize - 1),
+                _ => {}
+            }
+        }
+        cut.touched.sort_unstable();
+        cut.touched.dedup();
     }
 
     /// Takes back divisions of faces of which neither side was removed: parts that a local cut did not reach.

@@ -62,6 +62,23 @@ pub enum OpError {
         /// How many there were to be.
         cuts: usize,
     },
+    /// Cuts that were to be disjoint meet others however small they are.
+    #[error(
+        "the cuts of elements {} cannot be kept apart: they share vertices, or their planes run through other parts of the model; choose elements that do not touch each other, or a local scope, or do not ask for disjoint cuts",
+        first_few(elements)
+    )]
+    NotDisjoint {
+        /// The elements, by their number in the mesh of their round.
+        elements: Vec<usize>,
+    },
+    /// Faces cannot be moved by less than rounding.
+    #[error("the depth is {depth} mm, but it must be above {least:.3e} mm, the rounding at this size and place")]
+    DepthTooSmall {
+        /// What was given, in mm.
+        depth: f64,
+        /// What it must exceed, in mm.
+        least: f64,
+    },
     /// The walks of a section cross each other, so there is no cap for them.
     #[error(
         "the section crosses itself, so it cannot be capped; the model intersects itself there: repair it first, or cut without caps"
@@ -78,6 +95,12 @@ pub enum OpError {
     /// The user asked to stop.
     #[error("stopped before the end; nothing was written")]
     Cancelled,
+}
+
+fn first_few(elements: &[usize]) -> String {
+    let shown: Vec<String> = elements.iter().take(8).map(usize::to_string).collect();
+    let more = elements.len().saturating_sub(shown.len());
+    if more == 0 { shown.join(", ") } else { format!("{} and {more} more", shown.join(", ")) }
 }
 
 fn ordinal(n: usize) -> String {

@@ -3,10 +3,11 @@
 use glam::DVec3;
 use proptest::prelude::*;
 
-use super::OpError;
-use super::cutter::{Capping, Cutter, Reach, SlicingPlane};
+use super::cutter::{Cutter, Reach, SlicingPlane};
+use super::*;
 use crate::geom::{Plane, Side};
 use crate::mesh::{Corner, FaceKind, Mesh, VertexId, assert_sound};
+use crate::select::Selection;
 
 const CAPPINGS: [Capping; 3] = [Capping::Auto, Capping::Always, Capping::Never];
 
@@ -107,7 +108,7 @@ fn cut_by_pattern(mesh: Mesh, pattern: &[u8], capping: Capping, seed: Option<usi
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(3000))]
+    #![proptest_config(ProptestConfig::with_cases(1500))]
 
     #[test]
     fn every_pattern_leads_to_a_sound_mesh(
@@ -129,6 +130,36 @@ proptest! {
             mesh.set_position(v, DVec3::from_array(p.map(f64::from)), is_given);
         }
         cut_by_pattern(mesh, &pattern, CAPPINGS[capping], seed);
+    }
+
+    #[test]
+    fn operators_on_odd_meshes_refuse_or_stay_sound(
+        which in 0_usize..5, choices in prop::collection::vec(any::<u16>().prop_map(usize::from), 8),
+        operator in 0_usize..5, offset in 0.05_f64..1.9, local in any::<bool>(), repeat in 1_u32..3, disjoint in any::<bool>(),
+    ) {
+        let mesh = mesh_of(which, &choices);
+        let scope = if local { Scope::Local } else { Scope::Global };
+        let disjoint = if disjoint { Disjoint::Yes } else { Disjoint::No };
+        let (select, context) = (Selection::all(), OpContext::default());
+        let result = match operator {
+            0 => {
+                let params = TruncateVertex { scope, repeat, disjoint, ..TruncateVertex::new(select, offset) };
+                truncate_vertices(&mesh, &params, &context).map(|r| r.0)
+            }
+            1 => {
+                let params = TruncateEdge { scope, repeat, disjoint, bend: offset - 1.0, ..TruncateEdge::new(select, offset) };
+                truncate_edges(&mesh, &params, &context).map(|r| r.0)
+            }
+            2 => {
+                let params = TruncateFace { scope, repeat, disjoint, ..TruncateFace::new(select, offset) };
+                truncate_faces(&mesh, &params, &context).map(|r| r.0)
+            }
+            3 => resolve(&mesh, &ResolveParams::default(), &context).map(|r| r.0),
+            _ => slice(&mesh, &SliceParams::new(DVec3::new(0.1, 0.2, 1.0), DVec3::splat(offset - 0.7)), &context).map(|r| r.0),
+        };
+        if let Ok(mesh) = result {
+            assert_sound(&mesh);
+        }
     }
 }
 

@@ -100,7 +100,7 @@ pub fn slice(mesh: &Mesh, params: &SliceParams, _context: &OpContext<'_>) -> Res
 /// `None` stands for a part that is empty. [`SliceParams::keep`] is not asked.
 ///
 /// # Errors
-/// As [`slice`], but an empty part is none.
+/// As [`slice()`], but an empty part is none.
 pub fn slice_both(
     mesh: &Mesh,
     params: &SliceParams,

@@ -15,6 +15,7 @@ use super::OpError;
 use super::cutter::Cutter;
 use super::section::SectionWalk;
 use crate::geom::Frame;
+use crate::geom::polygon::signed_area;
 use crate::geom::predicate::orient2d;
 use crate::mesh::{Corner, FaceId, HalfEdgeId, VertexId};
 
@@ -80,6 +81,13 @@ impl Cutter {
         }
         faces.retain(|&f| self.mesh.has_face(f));
         faces.sort_unstable();
+        let is_turned_over = |&f: &FaceId| {
+            let corners: Vec<DVec2> = self.mesh.face_positions(f).into_iter().map(|p| frame.flatten(p)).collect();
+            signed_area(&corners) <= 0.0
+        };
+        if !cap.doubled.is_empty() && faces.iter().any(is_turned_over) {
+            return Err(OpError::HolesNotJoined { holes: cap.walks.len() - 1 });
+        }
         Ok(faces)
     }
 

@@ -6,18 +6,29 @@
 //! they never cross. Chains ("ears") are searched depth first, the longest wins, until every hole is joined; each ear after
 //! the first costs one bridge more.
 
+use std::collections::{HashMap, HashSet};
+
 use glam::DVec2;
-use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
+use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation, mitigate_underflow};
 
 use super::OpError;
 use super::cutter::Cutter;
 use super::section::SectionWalk;
 use crate::geom::Frame;
+use crate::geom::polygon::signed_area;
 use crate::geom::predicate::orient2d;
-use crate::mesh::{Corner, FaceId, HalfEdgeId};
+use crate::mesh::{Corner, FaceId, HalfEdgeId, VertexId};
 
 /// How many steps the search for the longest ear may take before the best one found is used.
 const SEARCH_STEPS: usize = 20_000;
+
+/// An ear has at most this many bridges, so that the search does not go arbitrarily deep.
+const LONGEST_EAR: usize = 400;
+
+/// How many times the usual steps the search goes on while it has found nothing at all.
+const PATIENCE: usize = 50;
+
+type Triangles = ConstrainedDelaunayTriangulation<Point2<f64>>;
 
 /// A corner of the section: which walk, and which corner of it.
 type Site = (usize, usize);
@@ -34,7 +45,9 @@ struct Bridge {
 /// The walks of one cap, the outer one first, with the corners of the mesh that belong to each site by now.
 struct CapWalks {
     walks: Vec<SectionWalk>,
-    corners: Vec<Vec<Vec<HalfEdgeId>>>,
+    corners: HashMap<VertexId, Vec<HalfEdgeId>>,
+    /// Vertices at whose point another vertex of the cap lies.
+    doubled: HashSet<VertexId>,
 }
 
 impl Cutter {
@@ -48,29 +61,54 @@ impl Cutter {
         let mut faces = vec![outer.face];
         let mut cap = CapWalks::new(std::iter::once(outer).chain(holes).collect());
         let candidates = cap.candidates()?;
+        // Where walks lie on top of each other without being joined, the flat picture does not tell which bridge passes on
+        // which side of which; such bridges are a last resort.
+        let is_clear = |s: Site| !cap.doubled.contains(&cap.vertex(s));
+        let clear: Vec<Bridge> =
+            candidates.iter().copied().filter(|b| !b.needs_edge || (is_clear(b.from) && is_clear(b.to))).collect();
         let mut is_joined = vec![false; cap.walks.len()];
         is_joined[0] = true;
         while is_joined.contains(&false) {
             let holes = is_joined.iter().filter(|joined| !**joined).count();
-            let ear = longest_ear(&cap, &candidates, &is_joined).ok_or(OpError::HolesNotJoined { holes })?;
-            for bridge in ear {
-                if bridge.needs_edge {
-                    self.lay_bridge(frame, &mut cap, &mut faces, bridge);
+            let ear = longest_ear(&cap, &clear, &is_joined).or_else(|| longest_ear(&cap, &candidates, &is_joined));
+            for bridge in ear.ok_or(OpError::HolesNotJoined { holes })? {
+                let closes = is_joined[bridge.from.0] && is_joined[bridge.to.0];
+                if bridge.needs_edge && !self.lay_bridge(frame, &mut cap, &mut faces, bridge, closes) {
+                    return Err(OpError::HolesNotJoined { holes });
                 }
                 (is_joined[bridge.from.0], is_joined[bridge.to.0]) = (true, true);
             }
         }
         faces.retain(|&f| self.mesh.has_face(f));
         faces.sort_unstable();
+        let is_turned_over = |&f: &FaceId| {
+            let corners: Vec<DVec2> = self.mesh.face_positions(f).into_iter().map(|p| frame.flatten(p)).collect();
+            signed_area(&corners) <= 0.0
+        };
+        if !cap.doubled.is_empty() && faces.iter().any(is_turned_over) {
+            return Err(OpError::HolesNotJoined { holes: cap.walks.len() - 1 });
+        }
         Ok(faces)
     }
 
-    fn lay_bridge(&mut self, frame: &Frame, cap: &mut CapWalks, faces: &mut Vec<FaceId>, bridge: Bridge) {
+    /// Lays one bridge. `closes` tells that both its walks hang together already: then it must divide their face. Returns
+    /// `false`, with nothing done, if it would not.
+    fn lay_bridge(
+        &mut self,
+        frame: &Frame,
+        cap: &mut CapWalks,
+        faces: &mut Vec<FaceId>,
+        bridge: Bridge,
+        closes: bool,
+    ) -> bool {
         let (p, q) = (cap.point(bridge.from), cap.point(bridge.to));
         let from = self.corner_towards(frame, cap.corners_at(bridge.from), p, q);
         let to = self.corner_towards(frame, cap.corners_at(bridge.to), q, p);
         let lineage = self.lineage_of(self.mesh.face(from));
         let is_one_face = self.mesh.face(from) == self.mesh.face(to);
+        if closes && !is_one_face {
+            return false;
+        }
         let e = self.mesh.insert_edge(Corner::At(from), Corner::At(to)).expect("half-edges are corners");
         let h = e.half_edge();
         if is_one_face {
@@ -80,6 +118,7 @@ impl Cutter {
         }
         cap.add_corner(bridge.from, h);
         cap.add_corner(bridge.to, h.twin());
+        true
     }
 
     /// Of the corners at a site the one whose angle holds the direction to the other site.
@@ -95,13 +134,17 @@ impl Cutter {
 
 impl CapWalks {
     fn new(walks: Vec<SectionWalk>) -> Self {
-        let half_edges_at = |v| {
-            let of_walk =
-                |w: &SectionWalk| w.vertices.iter().zip(&w.half_edges).find(|(u, _)| **u == v).map(|(_, &h)| h);
-            walks.iter().filter_map(of_walk).collect::<Vec<_>>()
-        };
-        let corners = walks.iter().map(|w| w.vertices.iter().map(|&v| half_edges_at(v)).collect()).collect();
-        Self { walks, corners }
+        let mut corners: HashMap<VertexId, Vec<HalfEdgeId>> = HashMap::new();
+        for walk in &walks {
+            for (&v, &h) in walk.vertices.iter().zip(&walk.half_edges) {
+                corners.entry(v).or_default().push(h);
+            }
+        }
+        Self { walks, corners, doubled: HashSet::new() }
+    }
+
+    fn vertex(&self, site: Site) -> VertexId {
+        self.walks[site.0].vertices[site.1]
     }
 
     fn point(&self, site: Site) -> DVec2 {
@@ -109,32 +152,64 @@ impl CapWalks {
     }
 
     fn is_one_vertex(&self, a: Site, b: Site) -> bool {
-        self.walks[a.0].vertices[a.1] == self.walks[b.0].vertices[b.1]
+        self.vertex(a) == self.vertex(b)
     }
 
     fn corners_at(&self, site: Site) -> &[HalfEdgeId] {
-        &self.corners[site.0][site.1]
+        &self.corners[&self.vertex(site)]
     }
 
-    /// A new corner at a site, and at every other site that is the same vertex.
     fn add_corner(&mut self, site: Site, h: HalfEdgeId) {
-        let v = self.walks[site.0].vertices[site.1];
-        for (walk, corners) in self.walks.iter().zip(&mut self.corners) {
-            for (_, at) in walk.vertices.iter().zip(corners).filter(|(u, _)| **u == v) {
-                at.push(h);
-            }
-        }
+        let v = self.vertex(site);
+        self.corners.entry(v).or_default().push(h);
+    }
+
+    /// Whether the way from one site to the other begins in material: in the angle of the site's own walk, and in an angle of
+    /// every other walk that comes to the same point.
+    fn holds(&self, at_point: &[Site], from: Site, to: Site) -> bool {
+        let there = self.point(to);
+        let opens = |(w, i): Site| {
+            let corners = &self.walks[w].corners;
+            let n = corners.len();
+            is_in_angle(corners[i], corners[(i + 1) % n], corners[(i + n - 1) % n], there)
+        };
+        let others = at_point.iter().filter(|s| s.0 != from.0);
+        let opens_any = |w: usize| at_point.iter().any(|&s| s.0 == w && opens(s));
+        opens(from) && others.into_iter().all(|s| opens_any(s.0))
     }
 
     /// All touches, and all pairs of corners of different walks that a constrained Delaunay triangulation joins, in a
     /// stable order.
-    fn candidates(&self) -> Result<Vec<Bridge>, OpError> {
-        let mut cdt = ConstrainedDelaunayTriangulation::<Point2<f64>>::new();
+    fn candidates(&mut self) -> Result<Vec<Bridge>, OpError> {
+        let (cdt, sites_of) = self.triangulate()?;
+        let is_doubled = |sites: &&Vec<Site>| sites.iter().any(|&s| !self.is_one_vertex(s, sites[0]));
+        self.doubled = sites_of.iter().filter(is_doubled).flatten().map(|&s| self.vertex(s)).collect();
+        let seen = cdt
+            .undirected_edges()
+            .filter(|e| !e.is_constraint_edge())
+            .map(|e| e.vertices().map(|v| &sites_of[v.index()]));
+        let between =
+            |[a, b]: [&Vec<Site>; 2]| pairs(a, b, true).into_iter().filter(|p| self.joins(a, b, p)).collect::<Vec<_>>();
+        let mut bridges: Vec<Bridge> = seen.flat_map(between).collect();
+        for sites in &sites_of {
+            let touches = pairs(sites, sites, false)
+                .into_iter()
+                .filter(|t| t.from.0 < t.to.0 && self.is_one_vertex(t.from, t.to));
+            bridges.extend(touches);
+        }
+        bridges.sort_unstable();
+        Ok(bridges)
+    }
+
+    /// The triangulation with the sides of all walks as constraints, and the sites at each of its points.
+    fn triangulate(&self) -> Result<(Triangles, Vec<Vec<Site>>), OpError> {
+        let mut cdt = Triangles::new();
         let mut sites_of: Vec<Vec<Site>> = Vec::new();
         for (w, walk) in self.walks.iter().enumerate() {
             let mut of_walk = Vec::with_capacity(walk.corners.len());
             for (i, p) in walk.corners.iter().enumerate() {
-                let handle = cdt.insert(Point2::new(p.x, p.y)).map_err(|_| OpError::TangledSection)?;
+                let point = mitigate_underflow(Point2::new(p.x, p.y));
+                let handle = cdt.insert(point).map_err(|_| OpError::TangledSection)?;
                 if handle.index() == sites_of.len() {
                     sites_of.push(Vec::new());
                 }
@@ -151,20 +226,18 @@ impl CapWalks {
                 }
             }
         }
-        let seen = cdt
-            .undirected_edges()
-            .filter(|e| !e.is_constraint_edge())
-            .map(|e| e.vertices().map(|v| &sites_of[v.index()]));
-        let mut bridges: Vec<Bridge> =
-            seen.filter(|[a, b]| share_no_walk(a, b)).flat_map(|[a, b]| pairs(a, b, true)).collect();
-        for sites in &sites_of {
-            let touches = pairs(sites, sites, false)
-                .into_iter()
-                .filter(|t| t.from.0 < t.to.0 && self.is_one_vertex(t.from, t.to));
-            bridges.extend(touches);
-        }
-        bridges.sort_unstable();
-        Ok(bridges)
+        Ok((cdt, sites_of))
+    }
+
+    /// Whether a bridge joins walks that do not hang together at its ends, through material. What touches at a vertex is
+    /// joined as it is; what only lies at one point is not.
+    fn joins(&self, a: &[Site], b: &[Site], bridge: &Bridge) -> bool {
+        let of_vertex = |sites: &[Site], s: Site| -> Vec<Site> {
+            sites.iter().copied().filter(|&t| self.is_one_vertex(s, t)).collect()
+        };
+        share_no_walk(&of_vertex(a, bridge.from), &of_vertex(b, bridge.to))
+            && self.holds(a, bridge.from, bridge.to)
+            && self.holds(b, bridge.to, bridge.from)
     }
 }
 
@@ -191,8 +264,7 @@ fn longest_ear(cap: &CapWalks, candidates: &[Bridge], is_joined: &[bool]) -> Opt
         by_walk[bridge.to.0].push(Bridge { from: bridge.to, to: bridge.from, ..bridge });
     }
     let wanted = is_joined.iter().filter(|joined| !**joined).count();
-    let mut search =
-        EarSearch { cap, by_walk, is_joined, is_used: is_joined.to_vec(), best: None, steps: SEARCH_STEPS, wanted };
+    let mut search = EarSearch { cap, by_walk, is_joined, is_used: is_joined.to_vec(), best: None, steps: 0, wanted };
     for w in (0..cap.walks.len()).filter(|&w| is_joined[w]) {
         for i in 0..search.by_walk[w].len() {
             let first = search.by_walk[w][i];
@@ -216,14 +288,17 @@ struct EarSearch<'a> {
 
 impl EarSearch<'_> {
     fn is_done(&self) -> bool {
-        self.best.as_ref().is_some_and(|best| best.len() == self.wanted + 1 || self.steps == 0)
+        match &self.best {
+            Some(best) => best.len() == self.wanted + 1 || self.steps >= SEARCH_STEPS,
+            None => self.steps >= PATIENCE * SEARCH_STEPS,
+        }
     }
 
     fn extend(&mut self, ear: &mut Vec<Bridge>) {
         if self.is_done() {
             return;
         }
-        self.steps = self.steps.saturating_sub(1);
+        self.steps += 1;
         let (start, at) = (ear[0].from, ear[ear.len() - 1].to);
         self.is_used[at.0] = true;
         for i in 0..self.by_walk[at.0].len() {
@@ -237,7 +312,7 @@ impl EarSearch<'_> {
                 {
                     self.best = Some(ear.iter().copied().chain([bridge]).collect());
                 }
-            } else if !self.is_used[bridge.to.0] {
+            } else if !self.is_used[bridge.to.0] && ear.len() < LONGEST_EAR {
                 ear.push(bridge);
                 self.extend(ear);
                 ear.pop();

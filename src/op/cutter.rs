@@ -8,9 +8,10 @@
 //! cleared, so that a local cut costs time in proportion to what it removes.
 
 use glam::DVec3;
+use serde::Deserialize;
 
 use super::OpError;
-use crate::geom::predicate::{rounded_side, side_of_plane};
+use crate::geom::predicate::side_of_plane;
 use crate::geom::{Plane, RoundingBound, Side, meet_three};
 use crate::mesh::{EdgeId, FaceId, FaceKind, HalfEdgeId, Mesh, VertexId};
 
@@ -32,6 +33,19 @@ pub(super) enum Reach<'a> {
     Local(&'a [VertexId]),
 }
 
+/// Which walks of a section are closed by caps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash, clap::ValueEnum, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Capping {
+    /// Parts that were closed get caps, parts that were open stay open along the cut.
+    #[default]
+    Auto,
+    /// Every loop of the section gets a cap, but for those that run into an old rim.
+    Always,
+    /// No caps: the cut leaves rims.
+    Never,
+}
+
 /// What one cut did.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Cut {
@@ -43,6 +57,10 @@ pub(super) struct Cut {
     pub is_miss: bool,
     /// The earlier cuts of the round, by number, of which this one removed something that they had made.
     pub met: Vec<usize>,
+    /// The earlier cuts of the round, by number, of which a vertex is a corner of this one's caps, too.
+    pub touched: Vec<usize>,
+    /// Whether a vertex from before the round is a corner of the caps.
+    pub ends_at_vertex: bool,
 }
 
 /// Where a face comes from: a face of the mesh before the command, or the cap of the n-th cut.
@@ -50,20 +68,29 @@ pub(super) struct Cut {
 pub(super) struct Lineage(u32);
 
 /// The workspace of a chain of cuts.
+#[derive(Clone)]
 pub(super) struct Cutter {
     pub(super) mesh: Mesh,
     pub(super) bound: f64,
-    cut: u32,
+    pub(super) capping: Capping,
+    pub(super) cut: u32,
     faces_before: u32,
     sides: Vec<(u32, Side)>,
     born: Vec<u32>,
     lineage: Vec<Lineage>,
-    doomed: Vec<u32>,
+    pub(super) doomed: Vec<u32>,
+    pub(super) decided: Vec<u32>,
     is_open: Option<Vec<bool>>,
-    region: Vec<FaceId>,
+    pub(super) region: Vec<FaceId>,
     reached: Vec<VertexId>,
     pub(super) chords: Vec<EdgeId>,
     splits: Vec<VertexId>,
+    /// For tests: sides that override what the numbers say.
+    #[cfg(test)]
+    pub(super) pattern: Vec<Side>,
+    /// For tests: how many vertices were classified.
+    #[cfg(test)]
+    pub(super) classified: usize,
 }
 
 impl Cutter {
@@ -73,17 +100,23 @@ impl Cutter {
         let is_open = (!mesh.is_closed()).then(|| open_vertices(&mesh));
         Self {
             bound: RoundingBound::of_box(low, high).length(),
+            capping: Capping::Auto,
             cut: 0,
             faces_before: faces as u32,
             sides: vec![(0, Side::On); mesh.vertex_slots()],
             born: vec![0; mesh.vertex_slots()],
             lineage: (0..faces as u32).map(Lineage).collect(),
             doomed: vec![0; faces],
+            decided: vec![0; faces],
             is_open,
             region: Vec::new(),
             reached: Vec::new(),
             chords: Vec::new(),
             splits: Vec::new(),
+            #[cfg(test)]
+            pattern: Vec::new(),
+            #[cfg(test)]
+            classified: 0,
             mesh,
         }
     }
@@ -96,6 +129,7 @@ impl Cutter {
         self.born.fill(0);
         self.sides.fill((0, Side::On));
         self.doomed.fill(0);
+        self.decided.fill(0);
     }
 
     /// The lineage of a face of the mesh before the round.
@@ -124,9 +158,10 @@ impl Cutter {
         if self.region.is_empty() {
             return Ok(Cut { is_miss: true, ..Cut::default() });
         }
-        self.decide_flat_faces(plane);
+        self.decide_flat_faces(plane, matches!(reach, Reach::Global));
         let mut cut = self.describe_removed();
         cut.caps = self.close(plane)?;
+        self.describe_touches(&mut cut);
         self.undo_needless_divisions();
         Ok(cut)
     }
@@ -144,32 +179,31 @@ impl Cutter {
         side
     }
 
-    fn classify(&self, plane: &SlicingPlane, v: VertexId) -> Side {
-        let x = self.mesh.position(v);
-        match plane.given {
-            Some((normal, point)) if self.mesh.is_given(v) => match side_of_plane(normal, point, x) {
-                Side::On => Side::On,
-                _ if self.is_indistinct(plane, v, rounded_side(normal, point, x)) => Side::On,
-                side => side,
-            },
-            _ => {
-                let distance = plane.plane.signed_distance(x);
-                if distance.abs() <= self.bound { Side::On } else { Side::of(distance) }
-            }
-        }
+    #[cfg(test)]
+    fn classify(&mut self, plane: &SlicingPlane, v: VertexId) -> Side {
+        self.classified += 1;
+        self.pattern.get(v.index()).copied().unwrap_or_else(|| self.classify_by_numbers(plane, v))
     }
 
-    /// Whether a vertex, though not on the plane, is so near to it that the points where its edges cross the plane cannot be
-    /// told from it: cutting there would make edges of length zero, or swap points that lie an ulp apart.
-    fn is_indistinct(&self, plane: &SlicingPlane, v: VertexId, rounded: Option<Side>) -> bool {
-        let Some(side) = rounded else { return true };
+    #[cfg(not(test))]
+    fn classify(&self, plane: &SlicingPlane, v: VertexId) -> Side {
+        self.classify_by_numbers(plane, v)
+    }
+
+    fn classify_by_numbers(&self, plane: &SlicingPlane, v: VertexId) -> Side {
         let x = self.mesh.position(v);
-        let is_far = plane.plane.signed_distance(x).abs() > self.bound;
-        let crosses = |h: HalfEdgeId| {
-            let there = plane.plane.signed_distance(self.mesh.position(self.mesh.target(h)));
-            Side::of(there) != side && self.point_on_edge(plane, h) == x
-        };
-        !is_far && self.mesh.outgoing(v).any(crosses)
+        let distance = plane.plane.signed_distance(x);
+        match plane.given {
+            Some((normal, point)) if self.mesh.is_given(v) => {
+                if distance.abs() <= indistinct(x, point) {
+                    Side::On
+                } else {
+                    side_of_plane(normal, point, x)
+                }
+            }
+            _ if distance.abs() <= self.bound => Side::On,
+            _ => Side::of(distance),
+        }
     }
 
     /// The side found for `v` in this cut; only for vertices that were asked before.
@@ -217,7 +251,7 @@ impl Cutter {
         }
     }
 
-    fn doom(&mut self, f: FaceId) {
+    pub(super) fn doom(&mut self, f: FaceId) {
         self.doomed[f.index()] = self.cut;
         self.region.push(f);
     }
@@ -251,56 +285,6 @@ impl Cutter {
         }
     }
 
-    // ---- faces that lie in the plane -------------------------------------------------------------------------------
-
-    /// Faces with every corner on the plane, next to the region: those that look against the plane's normal bound what is
-    /// removed and go; those that look along it stay, if anything behind the plane holds them.
-    fn decide_flat_faces(&mut self, plane: &SlicingPlane) {
-        let mut next = 0;
-        while next < self.region.len() {
-            let f = self.region[next];
-            next += 1;
-            let walk: Vec<HalfEdgeId> = self.mesh.face_half_edges(f).collect();
-            for h in walk {
-                let g = self.mesh.face(h.twin());
-                if self.doomed[g.index()] != self.cut && self.is_flat(plane, g) {
-                    self.decide_patch(plane, g);
-                }
-            }
-        }
-    }
-
-    fn is_flat(&mut self, plane: &SlicingPlane, f: FaceId) -> bool {
-        if self.mesh.is_hole(f) {
-            return false;
-        }
-        let corners: Vec<VertexId> = self.mesh.face_vertices(f).collect();
-        corners.into_iter().all(|v| self.side(plane, v) == Side::On)
-    }
-
-    fn decide_patch(&mut self, plane: &SlicingPlane, seed: FaceId) {
-        let mut patch = vec![seed];
-        let mut is_held = false;
-        let mut next = 0;
-        while let Some(&f) = patch.get(next) {
-            next += 1;
-            let walk: Vec<HalfEdgeId> = self.mesh.face_half_edges(f).collect();
-            for h in walk {
-                let g = self.mesh.face(h.twin());
-                if self.doomed[g.index()] == self.cut || patch.contains(&g) {
-                    continue;
-                }
-                if self.is_flat(plane, g) { patch.push(g) } else { is_held = true }
-            }
-        }
-        for f in patch {
-            let looks_along = self.mesh.plane(f).is_some_and(|p| p.normal().dot(plane.plane.normal()) > 0.0);
-            if !(is_held && looks_along) {
-                self.doom(f);
-            }
-        }
-    }
-
     // ---- what was done ---------------------------------------------------------------------------------------------
 
     fn describe_removed(&mut self) -> Cut {
@@ -317,6 +301,18 @@ impl Cutter {
         met.dedup();
         let removed = seen.into_iter().filter(|v| self.born[v.index()] == 0).collect();
         Cut { removed, met: met.into_iter().map(|k| k as usize).collect(), ..Cut::default() }
+    }
+
+    fn describe_touches(&self, cut: &mut Cut) {
+        for v in cut.caps.iter().flat_map(|&f| self.mesh.face_vertices(f)) {
+            match self.born[v.index()] {
+                0 => cut.ends_at_vertex = true,
+                born if born != self.cut => cut.touched.push(born as usize - 1),
+                _ => {}
+            }
+        }
+        cut.touched.sort_unstable();
+        cut.touched.dedup();
     }
 
     /// Takes back divisions of faces of which neither side was removed: parts that a local cut did not reach.
@@ -407,8 +403,10 @@ impl Cutter {
     pub(super) fn register_face(&mut self, f: FaceId, lineage: Lineage) {
         grow(&mut self.lineage, f.index(), lineage);
         grow(&mut self.doomed, f.index(), 0);
+        grow(&mut self.decided, f.index(), 0);
         self.lineage[f.index()] = lineage;
         self.doomed[f.index()] = 0;
+        self.decided[f.index()] = 0;
     }
 
     /// The faces to be replaced, and whether their walks must stay open because their component is.
@@ -430,6 +428,12 @@ impl Cutter {
             self.mesh.set_plane(f, *plane);
         }
     }
+}
+
+/// How near a given vertex may be to a given plane before the points where its edges cross the plane can no longer be told
+/// from it: cutting there would make edges of no length, or swap points that lie an ulp apart.
+fn indistinct(x: DVec3, point: DVec3) -> f64 {
+    64.0 * f64::EPSILON * x.abs().max(point.abs()).max_element()
 }
 
 fn grow<T: Clone>(table: &mut Vec<T>, index: usize, value: T) {

@@ -84,20 +84,22 @@ impl Cutter {
     }
 
     fn split_crossing_edges(&mut self, plane: &SlicingPlane, f: FaceId) {
-        let crossing: Vec<HalfEdgeId> = self
-            .mesh
-            .face_half_edges(f)
-            .filter(|&h| {
-                let ends = [self.mesh.origin(h), self.mesh.target(h)].map(|v| self.known_side(v));
-                matches!(ends, [Side::Normal, Side::Reverse] | [Side::Reverse, Side::Normal])
-            })
-            .collect();
+        let crossing: Vec<HalfEdgeId> = self.mesh.face_half_edges(f).filter(|&h| self.crosses(h)).collect();
         self.ensure_plane(f);
         for h in crossing {
+            // An edge with this face on both sides comes twice; the first time divided it.
+            if !self.crosses(h) {
+                continue;
+            }
             let other = self.mesh.face(h.twin());
             self.ensure_plane(other);
             self.split_at_plane(plane, h);
         }
+    }
+
+    fn crosses(&self, h: HalfEdgeId) -> bool {
+        let ends = [self.mesh.origin(h), self.mesh.target(h)].map(|v| self.known_side(v));
+        matches!(ends, [Side::Normal, Side::Reverse] | [Side::Reverse, Side::Normal])
     }
 
     /// Lets a face carry its plane from the first cut on, so that it cannot drift. Faces that are not planar carry none.

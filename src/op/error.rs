@@ -51,6 +51,9 @@ pub enum OpError {
     /// A face has no area, or no edge leaves it.
     #[error("no slicing plane at face {0}: it has no area or no edge leaves it; leave it out of the selection")]
     NoPlaneAtFace(FaceId),
+    /// A step has one mesh as its result, but both parts of a slice were asked for.
+    #[error("keeping both parts gives two models, but only one can go on from here; keep `reverse` or `normal`")]
+    TwoParts,
     /// The cuts take everything away.
     #[error("nothing is left: the {cut} of {cuts} cuts removes the rest of the model; use a smaller offset or fewer elements", cut = ordinal(*cut))]
     NothingLeft {
@@ -59,12 +62,31 @@ pub enum OpError {
         /// How many there were to be.
         cuts: usize,
     },
+    /// Cuts that were to be disjoint meet others however small they are.
+    #[error(
+        "the cuts of elements {} cannot be kept apart: they share vertices, or their planes run through other parts of the model; choose elements that do not touch each other, or a local scope, or do not ask for disjoint cuts",
+        first_few(elements)
+    )]
+    NotDisjoint {
+        /// The elements, by their number in the mesh of their round.
+        elements: Vec<usize>,
+    },
+    /// Faces cannot be moved by less than rounding.
+    #[error("the depth is {depth} mm, but it must be above {least:.3e} mm, the rounding at this size and place")]
+    DepthTooSmall {
+        /// What was given, in mm.
+        depth: f64,
+        /// What it must exceed, in mm.
+        least: f64,
+    },
     /// The walks of a section cross each other, so there is no cap for them.
-    #[error("the section crosses itself, so it cannot be capped; the model intersects itself there: repair it first")]
+    #[error(
+        "the section crosses itself, so it cannot be capped; the model intersects itself there: repair it first, or cut without caps"
+    )]
     TangledSection,
     /// Holes of a section could not be joined by bridges.
     #[error(
-        "{holes} holes of a section could not be joined to their cap; the model intersects itself there: repair it first"
+        "{holes} holes of a section could not be joined to their cap; the model touches or intersects itself there: repair it first, or cut without caps"
     )]
     HolesNotJoined {
         /// How many.
@@ -73,6 +95,12 @@ pub enum OpError {
     /// The user asked to stop.
     #[error("stopped before the end; nothing was written")]
     Cancelled,
+}
+
+fn first_few(elements: &[usize]) -> String {
+    let shown: Vec<String> = elements.iter().take(8).map(usize::to_string).collect();
+    let more = elements.len().saturating_sub(shown.len());
+    if more == 0 { shown.join(", ") } else { format!("{} and {more} more", shown.join(", ")) }
 }
 
 fn ordinal(n: usize) -> String {

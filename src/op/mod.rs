@@ -4,7 +4,9 @@ mod bridge;
 mod cutter;
 mod divide;
 mod error;
+mod flat;
 mod report;
+mod resolve;
 mod section;
 mod slice;
 mod truncate;
@@ -13,12 +15,16 @@ mod truncate_face;
 mod truncate_vertex;
 
 #[cfg(test)]
+mod patterns;
+#[cfg(test)]
 mod tests;
 
+pub use cutter::Capping;
 pub use error::OpError;
 pub use report::CutReport;
-pub use slice::{Direction, Keep, Point, SliceParams, slice};
-pub use truncate::{OpContext, Scope};
+pub use resolve::{ResolveParams, ResolveReport, resolve};
+pub use slice::{Direction, Keep, Point, SliceParams, slice, slice_both};
+pub use truncate::{Disjoint, OpContext, Scope};
 pub use truncate_edge::{TruncateEdge, truncate_edges};
 pub use truncate_face::{TruncateFace, truncate_faces};
 pub use truncate_vertex::{TruncateVertex, truncate_vertices};

@@ -14,6 +14,9 @@ pub struct CutReport {
     /// The elements whose cut was not disjoint from the others, by their number in the mesh of their round: it removed a
     /// vertex that was not its own, or something that another cut had made.
     pub overcut: Vec<usize>,
+    /// The elements whose offset was made smaller so that the cuts are disjoint, by their number in the mesh of their round,
+    /// and the offset that was used.
+    pub shrunk: Vec<(usize, f64)>,
     /// What was made, for the selections `made` and `strip` of the next step.
     pub made: Made,
     /// Vertices of the result where other than three edges meet.
@@ -54,6 +57,7 @@ impl CutReport {
 }
 
 /// The caps and strips of one round, by lineage.
+#[derive(Default)]
 pub(super) struct RoundMarks {
     /// The caps of the round's cuts.
     pub caps: Vec<Lineage>,

@@ -7,7 +7,7 @@
 use glam::DVec2;
 
 use super::OpError;
-use super::cutter::{Cutter, SlicingPlane};
+use super::cutter::{Capping, Cutter, SlicingPlane};
 use crate::geom::polygon::{Location, locate, signed_area};
 use crate::geom::{Frame, Plane};
 use crate::mesh::{FaceId, FaceKind, HalfEdgeId, Mesh, VertexId};
@@ -26,6 +26,7 @@ impl Cutter {
     /// Replaces the region in front of the plane by caps and returns them.
     pub(super) fn close(&mut self, plane: &SlicingPlane) -> Result<Vec<FaceId>, OpError> {
         let region = self.take_region();
+        let old_rims = self.rims_of(&region);
         let frame = Frame::on_plane(&plane.plane);
         let mut touches_itself = false;
         let starts = self.mesh.replace_region(&region, |mesh, passes| {
@@ -34,15 +35,31 @@ impl Cutter {
         });
         let mut caps = Vec::with_capacity(1);
         for start in starts {
-            let is_open = self.register_walk(start);
+            let was_open = self.register_walk(start);
             let f = self.mesh.face(start);
-            let kind = if is_open { FaceKind::Hole } else { FaceKind::Solid };
+            let kind = if self.stays_open(f, was_open, &old_rims) { FaceKind::Hole } else { FaceKind::Solid };
             self.register_cap(f, kind, &plane.plane);
             if kind == FaceKind::Solid && self.tidy(f) {
                 caps.push(f);
             }
         }
         if caps.len() > 1 || (touches_itself && !caps.is_empty()) { self.nest(&plane.plane, caps) } else { Ok(caps) }
+    }
+
+    /// The half-edges of the holes in a region, ascending.
+    fn rims_of(&self, region: &[FaceId]) -> Vec<HalfEdgeId> {
+        let holes = region.iter().filter(|&&f| self.mesh.is_hole(f));
+        let mut rims: Vec<HalfEdgeId> = holes.flat_map(|&f| self.mesh.face_half_edges(f)).collect();
+        rims.sort_unstable();
+        rims
+    }
+
+    fn stays_open(&self, walk: FaceId, was_open: bool, old_rims: &[HalfEdgeId]) -> bool {
+        match self.capping {
+            Capping::Auto => was_open,
+            Capping::Always => self.mesh.face_half_edges(walk).any(|h| old_rims.binary_search(&h).is_ok()),
+            Capping::Never => true,
+        }
     }
 
     /// Vertices that were pulled apart are new to the tables. Returns whether the walk's component is open.
@@ -143,9 +160,11 @@ impl Cutter {
 
 /// The smallest outer walk around a hole.
 fn innermost(outers: &[SectionWalk], hole: &SectionWalk) -> Option<usize> {
+    let next = hole.corners.iter().cycle().skip(1);
+    let middles: Vec<DVec2> = hole.corners.iter().zip(next).map(|(a, &b)| a.midpoint(b)).collect();
     let is_around = |outer: &SectionWalk| {
-        let places = hole.corners.iter().map(|&p| locate(&outer.corners, p));
-        // A hole may touch its outer walk: the first corner that is clearly inside or outside tells.
+        let places = hole.corners.iter().chain(&middles).map(|&p| locate(&outer.corners, p));
+        // A hole may touch its outer walk: the first place that is clearly inside or outside tells.
         outer.area > -hole.area && places.into_iter().find(|&l| l != Location::Boundary) == Some(Location::Inside)
     };
     // A hole that touches its outer walk shares its face.

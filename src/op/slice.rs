@@ -12,7 +12,7 @@ use serde::{Deserialize, Deserializer};
 
 use super::cutter::{Cutter, Reach, SlicingPlane};
 use super::report::{CutReport, RoundMarks, finish};
-use super::{OpContext, OpError};
+use super::{Capping, OpContext, OpError};
 use crate::geom::Plane;
 use crate::mesh::Mesh;
 use crate::units::{Length, UnitError, parse_number};
@@ -26,6 +26,8 @@ pub enum Keep {
     Reverse,
     /// The part on the side to which the normal points.
     Normal,
+    /// Both parts, each as a mesh of its own; see [`slice_both`].
+    Both,
 }
 
 /// A direction, typed as `x`, `-z` or three numbers `1,0,1`; its length does not matter.
@@ -49,6 +51,17 @@ pub struct SliceParams {
     #[arg(long, value_enum, default_value_t = Keep::Reverse)]
     #[serde(default)]
     pub keep: Keep,
+    /// Which loops of the section are closed.
+    #[arg(long, value_enum, default_value_t = Capping::Auto)]
+    #[serde(default)]
+    pub cap: Capping,
+}
+
+impl SliceParams {
+    /// Cuts through `point` across `normal`, everything else by default.
+    pub fn new(normal: DVec3, point: DVec3) -> Self {
+        Self { normal: Direction(normal), point: Point(point), keep: Keep::default(), cap: Capping::default() }
+    }
 }
 
 /// Cuts a mesh by a plane.
@@ -58,15 +71,21 @@ pub struct SliceParams {
 ///
 /// # Errors
 /// [`OpError::NoDirection`], [`OpError::BadPoint`], [`OpError::NothingLeft`] when the plane leaves no mesh,
-/// [`OpError::TangledSection`] when the mesh intersects itself along the plane.
+/// [`OpError::TangledSection`] and [`OpError::HolesNotJoined`] when the mesh intersects itself along the plane,
+/// [`OpError::TwoParts`] for [`Keep::Both`], which [`slice_both`] is for.
 pub fn slice(mesh: &Mesh, params: &SliceParams, _context: &OpContext<'_>) -> Result<(Mesh, CutReport), OpError> {
     let (Direction(normal), Point(point)) = (params.normal, params.point);
     if !point.is_finite() {
         return Err(OpError::BadPoint(point.x, point.y, point.z));
     }
-    let normal = if params.keep == Keep::Normal { -normal } else { normal };
+    let normal = match params.keep {
+        Keep::Reverse => normal,
+        Keep::Normal => -normal,
+        Keep::Both => return Err(OpError::TwoParts),
+    };
     let plane = Plane::new(normal, point).ok_or(OpError::NoDirection(normal.x, normal.y, normal.z))?;
     let mut cutter = Cutter::new(mesh.clone());
+    cutter.capping = params.cap;
     let cut = cutter.cut(&SlicingPlane { plane, given: Some((normal, point)) }, Reach::Global)?;
     if cutter.mesh.face_count() == 0 {
         return Err(OpError::NothingLeft { cut: 1, cuts: 1 });
@@ -75,6 +94,24 @@ pub fn slice(mesh: &Mesh, params: &SliceParams, _context: &OpContext<'_>) -> Res
     let made = marks.collect(&cutter);
     let report = CutReport { cuts: 1, missed: usize::from(cut.is_miss), made, ..CutReport::default() };
     Ok(finish(cutter.mesh, report))
+}
+
+/// Cuts a mesh by a plane and keeps both parts: first the one on the reverse side, then the one on the normal side.
+/// `None` stands for a part that is empty. [`SliceParams::keep`] is not asked.
+///
+/// # Errors
+/// As [`slice()`], but an empty part is none.
+pub fn slice_both(
+    mesh: &Mesh,
+    params: &SliceParams,
+    context: &OpContext<'_>,
+) -> Result<[Option<(Mesh, CutReport)>; 2], OpError> {
+    let part = |keep| match slice(mesh, &SliceParams { keep, ..params.clone() }, context) {
+        Ok(part) => Ok(Some(part)),
+        Err(OpError::NothingLeft { .. }) => Ok(None),
+        Err(error) => Err(error),
+    };
+    Ok([part(Keep::Reverse)?, part(Keep::Normal)?])
 }
 
 impl FromStr for Direction {

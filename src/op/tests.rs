@@ -48,7 +48,7 @@ fn counts(mesh: &Mesh) -> (usize, usize, usize) {
 }
 
 fn cut(mesh: &Mesh, normal: DVec3, point: DVec3, keep: Keep) -> Result<Mesh, OpError> {
-    let params = SliceParams { normal: Direction(normal), point: Point(point), keep };
+    let params = SliceParams { keep, ..SliceParams::new(normal, point) };
     slice(mesh, &params, &OpContext::default()).map(|(mesh, _)| mesh)
 }
 
@@ -218,6 +218,55 @@ fn ten_rounds_keep_every_face_planar() {
         }
         assert!(worst <= 1e-12, "{worst:e} at {shift}");
     }
+}
+
+#[test]
+fn disjoint_cuts_shrink_only_what_meets() {
+    let context = OpContext::default();
+    for offset in [0.25, 0.5, 0.75, 1.0, 1.5] {
+        for (mesh, v) in [(cube(), 8), (crate::shape::dodecahedron(10.0), 20), (crate::shape::octahedron(10.0), 6)] {
+            let params = TruncateVertex { disjoint: Disjoint::Yes, ..TruncateVertex::new(all(), offset) };
+            let (cut, report) = truncate_vertices(&mesh, &params, &context).expect("a cut");
+            assert_sound(&cut);
+            assert_eq!(counts(&cut), (2 * mesh.edge_count(), 3 * mesh.edge_count(), v + mesh.face_count()));
+            assert!(report.overcut.is_empty() && report.not_three_valent.is_empty());
+            assert_eq!(report.shrunk.is_empty(), offset < 0.5);
+            assert!(report.shrunk.iter().all(|&(_, t)| t < 0.5 && t > 0.3));
+        }
+    }
+    // One short edge above and below: only the vertices at its ends give way.
+    let mesh = prism(&[(0., 0.), (10., 0.), (10., 10.), (0.5, 10.), (0., 9.5)], 10.0);
+    let params = TruncateVertex { disjoint: Disjoint::Yes, ..TruncateVertex::new(all(), 0.3) };
+    let (cut, report) = truncate_vertices(&mesh, &params, &context).expect("a cut");
+    assert_eq!(counts(&cut), (30, 45, 17));
+    let shrunk: Vec<usize> = report.shrunk.iter().map(|s| s.0).collect();
+    assert_eq!(shrunk, [3, 4, 8, 9]);
+}
+
+#[test]
+fn the_plane_of_the_paper_is_kept_disjoint_on_the_cube() {
+    // At t = 1/3 neighbouring planes meet from the third round on.
+    let free = TruncateVertex { repeat: 3, ..TruncateVertex::new(all(), 1.0 / 3.0) };
+    let (_, report) = truncate_vertices(&cube(), &free, &OpContext::default()).expect("a cut");
+    assert!(!report.overcut.is_empty());
+    let (mesh, report) =
+        truncate_vertices(&cube(), &TruncateVertex { disjoint: Disjoint::Yes, ..free }, &OpContext::default())
+            .expect("a cut");
+    assert_sound(&mesh);
+    assert_eq!(mesh.vertex_count(), 8 * 27);
+    assert!(report.overcut.is_empty() && report.not_three_valent.is_empty() && !report.shrunk.is_empty());
+}
+
+#[test]
+fn cuts_that_share_vertices_cannot_be_disjoint() {
+    let params = TruncateEdge { disjoint: Disjoint::Yes, ..TruncateEdge::new(all(), 0.25) };
+    let error = truncate_edges(&cube(), &params, &OpContext::default()).expect_err("edges meet");
+    assert!(matches!(&error, OpError::NotDisjoint { elements } if elements.len() == 12), "{error}");
+    // A matching of the cube: four parallel edges.
+    let select = "along=z".parse().expect("a selection");
+    let params = TruncateEdge { disjoint: Disjoint::Yes, ..TruncateEdge::new(select, 0.75) };
+    let (mesh, report) = truncate_edges(&cube(), &params, &OpContext::default()).expect("a cut");
+    assert_eq!((counts(&mesh), report.shrunk.len()), ((16, 24, 10), 4));
 }
 
 proptest! {

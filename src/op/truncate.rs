@@ -1,5 +1,7 @@
 //! What the three truncations share: offsets, scope, rounds. They only choose planes; all cutting is `cutter.rs`.
 
+use std::collections::BTreeMap;
+
 use serde::Deserialize;
 
 use super::OpError;
@@ -19,6 +21,18 @@ pub enum Scope {
     Global,
     /// Only the part in front of the plane that hangs together with the element is cut off.
     Local,
+}
+
+/// Whether the cuts of a round may meet.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash, clap::ValueEnum, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Disjoint {
+    /// They may; the report names the elements.
+    #[default]
+    No,
+    /// The offsets of those elements whose cuts would meet, touch, or reach a vertex that is not theirs are made smaller,
+    /// by an eighth at a time, until none does; the report tells how small.
+    Yes,
 }
 
 /// What surrounds a call: what the step before made, and whom to tell how far the work is.
@@ -45,6 +59,12 @@ impl OpContext<'_> {
 
 /// Rounds beyond this only make elements smaller than rounding.
 const MOST_ROUNDS: u32 = 64;
+
+/// By how much the offset of an element is made smaller when its cut meets another.
+const SHRINKAGE: f64 = 0.875;
+
+/// After this many trials an offset is 1/5000 of what was asked for; whatever still meets then has another reason.
+const MOST_TRIALS: usize = 64;
 
 /// One element to be cut off.
 pub(super) struct Element {
@@ -74,35 +94,136 @@ pub(super) fn check_ranges(offset: f64, repeat: u32) -> Result<(), OpError> {
     Ok(())
 }
 
-/// Cuts `repeat` rounds. `choose` sets all planes of a round from the mesh as it is before the round; for the rounds after
-/// the first it is told what the round before made.
+/// What all truncations are asked for.
+pub(super) struct Settings {
+    pub offset: f64,
+    pub scope: Scope,
+    pub repeat: u32,
+    pub disjoint: Disjoint,
+}
+
+/// The offset of each element of a round.
+pub(super) struct Offsets {
+    usual: f64,
+    shrunk: BTreeMap<usize, f64>,
+}
+
+impl Offsets {
+    pub(super) fn of(&self, element: usize) -> f64 {
+        self.shrunk.get(&element).copied().unwrap_or(self.usual)
+    }
+
+    fn shrink(&mut self, elements: &[usize]) {
+        for &id in elements {
+            *self.shrunk.entry(id).or_insert(self.usual) *= SHRINKAGE;
+        }
+    }
+}
+
+/// What the cuts of one round did.
+#[derive(Default)]
+struct Round {
+    marks: RoundMarks,
+    cuts: usize,
+    missed: usize,
+    /// Elements whose cut took what was not theirs.
+    overcut: Vec<usize>,
+    /// Elements whose cut ends where another one does, or at a vertex of the mesh.
+    touching: Vec<usize>,
+    /// The cut that left nothing.
+    emptied_by: Option<usize>,
+}
+
+/// Cuts `settings.repeat` rounds. `choose` sets all planes of a round from the mesh as it is before the round; for the rounds
+/// after the first it is told what the round before made.
 pub(super) fn truncate(
     mesh: &Mesh,
-    (offset, scope, repeat): (f64, Scope, u32),
+    settings: &Settings,
     context: &OpContext<'_>,
-    choose: impl Fn(&Cutter, Option<&Made>) -> Result<Vec<Element>, OpError>,
+    choose: impl Fn(&Cutter, Option<&Made>, &Offsets) -> Result<Vec<Element>, OpError>,
 ) -> Result<(Mesh, CutReport), OpError> {
-    check_ranges(offset, repeat)?;
+    check_ranges(settings.offset, settings.repeat)?;
     let mut cutter = Cutter::new(mesh.clone());
-    let mut report = CutReport { is_beyond_far_ends: offset > 1.0, ..CutReport::default() };
-    for round in 0..repeat {
+    let mut report = CutReport { is_beyond_far_ends: settings.offset > 1.0, ..CutReport::default() };
+    for round in 0..settings.repeat {
         cutter.start_round();
         let made = (round > 0).then_some(&report.made);
-        let elements = choose(&cutter, made)?;
-        let marks = cut_round(&mut cutter, &elements, scope, &mut report, context.progress)?;
-        report.made = marks.collect(&cutter);
+        let mut offsets = Offsets { usual: settings.offset, shrunk: BTreeMap::new() };
+        let choose = |offsets: &Offsets| choose(&cutter, made, offsets);
+        let done = match settings.disjoint {
+            Disjoint::No => {
+                let elements = choose(&offsets)?;
+                cut_round(&mut cutter, &elements, settings.scope, context.progress)?
+            }
+            Disjoint::Yes => {
+                let (after, done) = cut_disjoint_round(&cutter, &mut offsets, settings.scope, context, choose)?;
+                cutter = after;
+                done
+            }
+        };
+        if let Some(cut) = done.emptied_by {
+            return Err(OpError::NothingLeft { cut: cut + 1, cuts: done.cuts });
+        }
+        report.cuts += done.cuts;
+        report.missed += done.missed;
+        report.overcut.extend(done.overcut);
+        report.shrunk.extend(offsets.shrunk);
+        report.made = done.marks.collect(&cutter);
     }
+    report.overcut.sort_unstable();
+    report.overcut.dedup();
     Ok(finish(cutter.mesh, report))
+}
+
+/// Tries a round, makes the offsets of those elements smaller whose cuts meet, and tries again from the same mesh.
+fn cut_disjoint_round(
+    before: &Cutter,
+    offsets: &mut Offsets,
+    scope: Scope,
+    context: &OpContext<'_>,
+    choose: impl Fn(&Offsets) -> Result<Vec<Element>, OpError>,
+) -> Result<(Cutter, Round), OpError> {
+    let mut meeting = sharing_vertices(&choose(offsets)?);
+    if !meeting.is_empty() {
+        return Err(OpError::NotDisjoint { elements: meeting });
+    }
+    for _ in 0..MOST_TRIALS {
+        let elements = choose(offsets)?;
+        let mut cutter = before.clone();
+        let round = cut_round(&mut cutter, &elements, scope, context.progress)?;
+        meeting = round.overcut.iter().chain(&round.touching).copied().collect();
+        if round.emptied_by.is_some() {
+            meeting = elements.iter().map(|e| e.id).collect();
+        }
+        meeting.sort_unstable();
+        meeting.dedup();
+        if meeting.is_empty() {
+            return Ok((cutter, round));
+        }
+        offsets.shrink(&meeting);
+    }
+    Err(OpError::NotDisjoint { elements: meeting })
+}
+
+/// The elements that have a vertex in common with another one, ascending: no offset keeps their cuts apart.
+fn sharing_vertices(elements: &[Element]) -> Vec<usize> {
+    let mut at: Vec<(VertexId, usize)> = elements.iter().flat_map(|e| e.vertices.iter().map(|&v| (v, e.id))).collect();
+    at.sort_unstable();
+    at.dedup();
+    let mut sharing: Vec<usize> =
+        at.chunk_by(|a, b| a.0 == b.0).filter(|group| group.len() > 1).flatten().map(|&(_, id)| id).collect();
+    sharing.sort_unstable();
+    sharing.dedup();
+    sharing
 }
 
 fn cut_round(
     cutter: &mut Cutter,
     elements: &[Element],
     scope: Scope,
-    report: &mut CutReport,
     progress: &dyn Progress,
-) -> Result<RoundMarks, OpError> {
-    let mut marks = RoundMarks { caps: Vec::new(), strips: Vec::new() };
+) -> Result<Round, OpError> {
+    let mut round = Round { cuts: elements.len(), ..Round::default() };
     for (i, element) in elements.iter().enumerate() {
         if i % 64 == 0 {
             progress.report("cutting", i, elements.len());
@@ -115,20 +236,49 @@ fn cut_round(
         let reach = if scope == Scope::Local { Reach::Local(&seeds) } else { Reach::Global };
         let cut = cutter.cut(&plane, reach)?;
         if cutter.mesh.face_count() == 0 {
-            return Err(OpError::NothingLeft { cut: i + 1, cuts: elements.len() });
+            round.emptied_by = Some(i);
+            break;
         }
-        report.cuts += 1;
-        report.missed += usize::from(cut.is_miss);
+        round.missed += usize::from(cut.is_miss);
         let is_own = |v: &VertexId| element.vertices.contains(v);
         if !cut.met.is_empty() || !cut.removed.iter().all(is_own) || cut.removed.len() < element.vertices.len() {
-            report.overcut.push(element.id);
-            report.overcut.extend(cut.met.iter().map(|&k| elements[k].id));
+            round.overcut.push(element.id);
+            round.overcut.extend(cut.met.iter().map(|&k| elements[k].id));
+        }
+        if cut.ends_at_vertex || !cut.touched.is_empty() {
+            round.touching.push(element.id);
+            round.touching.extend(cut.touched.iter().map(|&k| elements[k].id));
         }
         let cap = cutter.cap_lineage(i);
-        marks.caps.push(cap);
-        marks.strips.extend(element.along.map(|along| (cap, along)));
+        round.marks.caps.push(cap);
+        round.marks.strips.extend(element.along.map(|along| (cap, along)));
     }
-    report.overcut.sort_unstable();
-    report.overcut.dedup();
-    Ok(marks)
+    Ok(round)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::op::TruncateVertex;
+    use clap::Parser;
+
+    #[derive(Parser)]
+    struct Line {
+        #[command(flatten)]
+        cut: TruncateVertex,
+    }
+
+    #[test]
+    fn disjoint_is_a_flag() {
+        let read = |words: &[&str]| {
+            let line = ["cut", "--select", "all"].iter().chain(words);
+            Line::try_parse_from(line).map(|line| line.cut.disjoint).ok()
+        };
+        assert_eq!(read(&[]), Some(Disjoint::No));
+        assert_eq!(read(&["--disjoint"]), Some(Disjoint::Yes));
+        assert_eq!(read(&["--disjoint=no", "--offset", "0.5"]), Some(Disjoint::No));
+        assert_eq!(read(&["--disjoint", "--offset", "0.5"]), Some(Disjoint::Yes));
+        let recipe: TruncateVertex = toml::from_str("select = \"all\"\ndisjoint = \"yes\"").expect("a recipe");
+        assert_eq!(recipe.disjoint, Disjoint::Yes);
+    }
 }

@@ -9,9 +9,9 @@
 use serde::Deserialize;
 
 use super::cutter::Cutter;
-use super::truncate::{Element, edge_point, truncate};
+use super::truncate::{Element, Offsets, Settings, edge_point, truncate};
 use super::truncate_vertex::{default_offset, default_repeat};
-use super::{CutReport, OpContext, OpError, Scope};
+use super::{CutReport, Disjoint, OpContext, OpError, Scope};
 use crate::geom::Plane;
 use crate::mesh::{EdgeId, HalfEdgeId, Mesh};
 use crate::select::{Made, Selection};
@@ -38,12 +38,23 @@ pub struct TruncateEdge {
     #[arg(long, default_value_t = default_repeat())]
     #[serde(default = "default_repeat")]
     pub repeat: u32,
+    /// Make the offset smaller where cuts would meet each other, so that every element gets a cut of its own.
+    #[arg(long, value_enum, default_value_t = Disjoint::No, default_missing_value = "yes", num_args = 0..=1, require_equals = true)]
+    #[serde(default)]
+    pub disjoint: Disjoint,
 }
 
 impl TruncateEdge {
     /// Cuts the selected edges at `offset`, everything else by default.
     pub fn new(select: Selection, offset: f64) -> Self {
-        Self { select, offset, bend: 0.0, scope: Scope::default(), repeat: default_repeat() }
+        Self {
+            select,
+            offset,
+            bend: 0.0,
+            scope: Scope::default(),
+            repeat: default_repeat(),
+            disjoint: Disjoint::default(),
+        }
     }
 }
 
@@ -51,7 +62,8 @@ impl TruncateEdge {
 ///
 /// # Errors
 /// [`OpError::Select`] for an empty selection, [`OpError::OffsetOutOfRange`], [`OpError::BendOutOfRange`],
-/// [`OpError::RepeatOutOfRange`], [`OpError::NoPlaneAtEdge`], [`OpError::NothingLeft`] when the planes leave no mesh.
+/// [`OpError::RepeatOutOfRange`], [`OpError::NoPlaneAtEdge`], [`OpError::NothingLeft`] when the planes leave no mesh,
+/// [`OpError::NotDisjoint`] when disjoint cuts were asked for and cannot be had.
 pub fn truncate_edges(
     mesh: &Mesh,
     params: &TruncateEdge,
@@ -61,24 +73,26 @@ pub fn truncate_edges(
         return Err(OpError::BendOutOfRange { bend: params.bend });
     }
     let chosen = params.select.edges(&context.select(mesh))?;
-    truncate(mesh, (params.offset, params.scope, params.repeat), context, |cutter: &Cutter, made: Option<&Made>| {
+    let TruncateEdge { offset, scope, repeat, disjoint, .. } = *params;
+    let settings = Settings { offset, scope, repeat, disjoint };
+    truncate(mesh, &settings, context, |cutter: &Cutter, made: Option<&Made>, offsets: &Offsets| {
         let edges = made.map_or(&chosen, |made| &made.strip);
-        edges.iter().map(|&e| element(cutter, e, params)).collect()
+        edges.iter().map(|&e| element(cutter, e, offsets.of(e.index()), params.bend)).collect()
     })
 }
 
-fn element(cutter: &Cutter, e: EdgeId, params: &TruncateEdge) -> Result<Element, OpError> {
+fn element(cutter: &Cutter, e: EdgeId, t: f64, bend: f64) -> Result<Element, OpError> {
     let mesh = &cutter.mesh;
     let around = |h: HalfEdgeId| mesh.outgoing(mesh.origin(h)).filter(move |out| out.edge() != e);
     let points: Vec<_> = e
         .half_edges()
         .into_iter()
         .flat_map(around)
-        .map(|out| edge_point(mesh, mesh.origin(out), mesh.target(out), params.offset))
+        .map(|out| edge_point(mesh, mesh.origin(out), mesh.target(out), t))
         .collect();
     let mut faces = mesh.edge_faces(e);
     faces.sort_unstable();
-    let weights = [1.0 + params.bend, 1.0 - params.bend];
+    let weights = [1.0 + bend, 1.0 - bend];
     let normals: Vec<_> = faces
         .into_iter()
         .zip(weights)

@@ -7,9 +7,9 @@
 use serde::Deserialize;
 
 use super::cutter::Cutter;
-use super::truncate::{Element, edge_point, truncate};
+use super::truncate::{Element, Offsets, Settings, edge_point, truncate};
 use super::truncate_vertex::{default_offset, default_repeat};
-use super::{CutReport, OpContext, OpError, Scope};
+use super::{CutReport, Disjoint, OpContext, OpError, Scope};
 use crate::geom::Plane;
 use crate::mesh::{FaceId, Mesh, VertexId};
 use crate::select::{Made, Selection};
@@ -32,12 +32,16 @@ pub struct TruncateFace {
     #[arg(long, default_value_t = default_repeat())]
     #[serde(default = "default_repeat")]
     pub repeat: u32,
+    /// Make the offset smaller where cuts would meet each other, so that every element gets a cut of its own.
+    #[arg(long, value_enum, default_value_t = Disjoint::No, default_missing_value = "yes", num_args = 0..=1, require_equals = true)]
+    #[serde(default)]
+    pub disjoint: Disjoint,
 }
 
 impl TruncateFace {
     /// Cuts the selected faces at `offset`, everything else by default.
     pub fn new(select: Selection, offset: f64) -> Self {
-        Self { select, offset, scope: Scope::default(), repeat: default_repeat() }
+        Self { select, offset, scope: Scope::default(), repeat: default_repeat(), disjoint: Disjoint::default() }
     }
 }
 
@@ -45,16 +49,19 @@ impl TruncateFace {
 ///
 /// # Errors
 /// [`OpError::Select`] for an empty selection, [`OpError::OffsetOutOfRange`], [`OpError::RepeatOutOfRange`],
-/// [`OpError::NoPlaneAtFace`], [`OpError::NothingLeft`] when the planes leave no mesh.
+/// [`OpError::NoPlaneAtFace`], [`OpError::NothingLeft`] when the planes leave no mesh,
+/// [`OpError::NotDisjoint`] when disjoint cuts were asked for and cannot be had.
 pub fn truncate_faces(
     mesh: &Mesh,
     params: &TruncateFace,
     context: &OpContext<'_>,
 ) -> Result<(Mesh, CutReport), OpError> {
     let chosen = params.select.faces(&context.select(mesh))?;
-    truncate(mesh, (params.offset, params.scope, params.repeat), context, |cutter: &Cutter, made: Option<&Made>| {
+    let TruncateFace { offset, scope, repeat, disjoint, .. } = *params;
+    let settings = Settings { offset, scope, repeat, disjoint };
+    truncate(mesh, &settings, context, |cutter: &Cutter, made: Option<&Made>, offsets: &Offsets| {
         let faces = made.map_or(&chosen, |made| &made.faces);
-        faces.iter().map(|&f| element(&cutter.mesh, f, params.offset)).collect()
+        faces.iter().map(|&f| element(&cutter.mesh, f, offsets.of(f.index()))).collect()
     })
 }
 

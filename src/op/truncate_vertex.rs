@@ -16,8 +16,8 @@
 use serde::Deserialize;
 
 use super::cutter::Cutter;
-use super::truncate::{Element, edge_point, truncate};
-use super::{CutReport, OpContext, OpError, Scope};
+use super::truncate::{Element, Offsets, Settings, edge_point, truncate};
+use super::{CutReport, Disjoint, OpContext, OpError, Scope};
 use crate::geom::Plane;
 use crate::mesh::{Mesh, VertexId};
 use crate::select::{Made, Selection};
@@ -40,6 +40,10 @@ pub struct TruncateVertex {
     #[arg(long, default_value_t = default_repeat())]
     #[serde(default = "default_repeat")]
     pub repeat: u32,
+    /// Make the offset smaller where cuts would meet each other, so that every element gets a cut of its own.
+    #[arg(long, value_enum, default_value_t = Disjoint::No, default_missing_value = "yes", num_args = 0..=1, require_equals = true)]
+    #[serde(default)]
+    pub disjoint: Disjoint,
 }
 
 pub(super) fn default_offset() -> f64 {
@@ -53,7 +57,7 @@ pub(super) fn default_repeat() -> u32 {
 impl TruncateVertex {
     /// Cuts the selected vertices at `offset`, everything else by default.
     pub fn new(select: Selection, offset: f64) -> Self {
-        Self { select, offset, scope: Scope::default(), repeat: default_repeat() }
+        Self { select, offset, scope: Scope::default(), repeat: default_repeat(), disjoint: Disjoint::default() }
     }
 }
 
@@ -61,16 +65,19 @@ impl TruncateVertex {
 ///
 /// # Errors
 /// [`OpError::Select`] for an empty selection, [`OpError::OffsetOutOfRange`], [`OpError::RepeatOutOfRange`],
-/// [`OpError::NoPlaneAtVertex`], [`OpError::NothingLeft`] when the planes leave no mesh.
+/// [`OpError::NoPlaneAtVertex`], [`OpError::NothingLeft`] when the planes leave no mesh,
+/// [`OpError::NotDisjoint`] when disjoint cuts were asked for and cannot be had.
 pub fn truncate_vertices(
     mesh: &Mesh,
     params: &TruncateVertex,
     context: &OpContext<'_>,
 ) -> Result<(Mesh, CutReport), OpError> {
     let chosen = params.select.vertices(&context.select(mesh))?;
-    truncate(mesh, (params.offset, params.scope, params.repeat), context, |cutter: &Cutter, made: Option<&Made>| {
+    let TruncateVertex { offset, scope, repeat, disjoint, .. } = *params;
+    let settings = Settings { offset, scope, repeat, disjoint };
+    truncate(mesh, &settings, context, |cutter: &Cutter, made: Option<&Made>, offsets: &Offsets| {
         let vertices = made.map_or(&chosen, |made| &made.vertices);
-        vertices.iter().map(|&v| element(&cutter.mesh, v, params.offset)).collect()
+        vertices.iter().map(|&v| element(&cutter.mesh, v, offsets.of(v.index()))).collect()
     })
 }
 

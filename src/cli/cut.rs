@@ -1,6 +1,6 @@
 //! `kerfold cut`
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
 
@@ -10,9 +10,10 @@ use super::terminal::Terminal;
 use super::{Console, Outcome};
 use crate::mesh::Mesh;
 use crate::op::{
-    CutReport, OpContext, OpError, SliceParams, TruncateEdge, TruncateFace, TruncateVertex, slice, truncate_edges,
-    truncate_faces, truncate_vertices,
+    CutReport, Keep, OpContext, OpError, ResolveParams, SliceParams, TruncateEdge, TruncateFace, TruncateVertex,
+    resolve, slice, slice_both, truncate_edges, truncate_faces, truncate_vertices,
 };
+use crate::units::Length;
 
 /// Cut a mesh by a plane, or its vertices, edges or faces by planes that they set themselves
 #[derive(Debug, clap::Args)]
@@ -46,7 +47,12 @@ struct CutOf<T: Args> {
     input: Input,
     #[command(flatten)]
     params: T,
-    /// The mesh to write: OBJ, PLY, STL or OFF; `-` writes OBJ to standard output
+    /// Afterwards split vertices with more than three edges into 3-valent ones by moving faces inwards, by 0.01mm at most
+    /// or as far as given
+    #[arg(long, value_name = "DEPTH", num_args = 0..=1, require_equals = true, default_missing_value = "0.01mm")]
+    resolve: Option<Length>,
+    /// The mesh to write: OBJ, PLY, STL or OFF; `-` writes OBJ to standard output. With `--keep both` two meshes are
+    /// written, OUT-reverse and OUT-normal
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
 }
@@ -56,8 +62,40 @@ pub(super) fn run(args: &CutArgs, console: &Console) -> Result<Outcome, CliError
         What::Vertex(cut) => cut.run("vertex", truncate_vertices, console),
         What::Edge(cut) => cut.run("edge", truncate_edges, console),
         What::Face(cut) => cut.run("face", truncate_faces, console),
+        What::Plane(cut) if cut.params.keep == Keep::Both => both_parts(cut, console),
         What::Plane(cut) => cut.run("plane", slice, console),
     }
+}
+
+/// Writes the parts on both sides of a plane, or the only one that is not empty.
+fn both_parts(cut: &CutOf<SliceParams>, console: &Console) -> Result<Outcome, CliError> {
+    if cut.output == Path::new("-") {
+        return Err(CliError::TwoToStdout);
+    }
+    let read = cut.input.read()?;
+    let progress = Terminal::new(console.quiet);
+    let parts = slice_both(&read.mesh, &cut.params, &OpContext { made: None, progress: &progress })?;
+    console.notes(&read.notes);
+    for (part, side) in parts.into_iter().zip(["reverse", "normal"]) {
+        match part {
+            Some((mesh, report)) => cut.finish(mesh, report.notes("plane"), &beside(&cut.output, side), console)?,
+            None => {
+                console.notes(&[format!("nothing lies on the {side} side of the plane; no file was written for it")])
+            }
+        }
+    }
+    Ok(Outcome::Clean)
+}
+
+/// `dir/half.obj` becomes `dir/half-normal.obj`.
+fn beside(path: &Path, side: &str) -> PathBuf {
+    let mut name = path.file_stem().unwrap_or_default().to_owned();
+    name.push(format!("-{side}"));
+    if let Some(extension) = path.extension() {
+        name.push(".");
+        name.push(extension);
+    }
+    path.with_file_name(name)
 }
 
 type Operator<T> = fn(&Mesh, &T, &OpContext<'_>) -> Result<(Mesh, CutReport), OpError>;
@@ -68,8 +106,18 @@ impl<T: Args> CutOf<T> {
         let progress = Terminal::new(console.quiet);
         let context = OpContext { made: None, progress: &progress };
         let (mesh, report) = operator(&read.mesh, &self.params, &context)?;
-        let notes: Vec<String> = read.notes.iter().map(ToString::to_string).chain(report.notes(element)).collect();
-        console.write_model(&self.output, &mesh, &notes)?;
+        let notes = read.notes.iter().map(ToString::to_string).chain(report.notes(element)).collect();
+        self.finish(mesh, notes, &self.output, console)?;
         Ok(Outcome::Clean)
+    }
+
+    fn finish(&self, mut mesh: Mesh, mut notes: Vec<String>, output: &Path, console: &Console) -> Result<(), CliError> {
+        if let Some(depth) = self.resolve {
+            let params = ResolveParams { depth, ..ResolveParams::default() };
+            let (resolved, report) = resolve(&mesh, &params, &OpContext::default())?;
+            notes.extend(report.notes());
+            mesh = resolved;
+        }
+        console.write_model(output, &mesh, &notes)
     }
 }

@@ -37,6 +37,10 @@ pub(super) enum CliError {
     NotPng { path: PathBuf },
     #[error("{}: reports are written as JSON or CSV; name the file something.json or something.csv", path.display())]
     UnknownReport { path: PathBuf },
+    #[error(
+        "two meshes cannot go to standard output; name a file with -o, and -reverse and -normal are put to its name"
+    )]
+    TwoToStdout,
     #[error("writing to standard output: {0}")]
     Stdout(io::Error),
 }

@@ -46,6 +46,10 @@ impl CutReport {
                 shown.join(", ")
             ));
         }
+        if let Some(least) = self.shrunk.iter().map(|s| s.1).min_by(f64::total_cmp) {
+            let count = self.shrunk.len();
+            notes.push(format!("{count} offsets were made smaller to keep the cuts apart, the least to {least:.4}"));
+        }
         if !self.not_three_valent.is_empty() {
             notes.push(format!("{} vertices have other than three edges", self.not_three_valent.len()));
         }

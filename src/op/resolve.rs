@@ -68,6 +68,25 @@ pub struct ResolveReport {
     pub largest_vertex_movement_mm: f64,
 }
 
+impl ResolveReport {
+    /// What the user should know, in words.
+    pub fn notes(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        if !self.resolved.is_empty() {
+            notes.push(format!(
+                "{} vertices were split into 3-valent ones; faces moved by {:.3e} mm at most, vertices by {:.3e} mm",
+                self.resolved.len(),
+                self.largest_face_movement_mm,
+                self.largest_vertex_movement_mm
+            ));
+        }
+        if !self.unresolved.is_empty() {
+            notes.push(format!("{} vertices could not be split without changing the shape", self.unresolved.len()));
+        }
+        notes
+    }
+}
+
 /// Splits vertices of valence above three by moving faces inwards.
 ///
 /// # Errors

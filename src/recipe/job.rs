@@ -6,7 +6,7 @@ use super::{FabricateParams, Fabrication, Recipe, Step, StepError, StepFailure, 
 use crate::check::{CheckParams, Report, check};
 use crate::io::{ReadMesh, read_mesh};
 use crate::mesh::{Mesh, SplitVertex};
-use crate::op::{CutReport, OpContext, OpError, slice, truncate_edges, truncate_faces, truncate_vertices};
+use crate::op::{CutReport, OpContext, OpError, resolve, slice, truncate_edges, truncate_faces, truncate_vertices};
 use crate::picture::RenderParams;
 use crate::progress::Progress;
 use crate::select::Made;
@@ -88,6 +88,12 @@ impl Job {
                 self.cut("face", |mesh, context| truncate_faces(mesh, params, context), progress)?
             }
             Step::CutPlane(params) => self.cut("plane", |mesh, context| slice(mesh, params, context), progress)?,
+            Step::Resolve(params) => {
+                let context = OpContext { made: self.made.as_ref(), progress };
+                let (mesh, report) = resolve(self.mesh()?, params, &context)?;
+                self.notes.extend(report.notes());
+                (self.mesh, self.made) = (Some(mesh), None);
+            }
             Step::Check(params) => (self.check, self.is_check_asked) = (params.clone(), true),
             Step::Render(params) => self.render = params.clone(),
             Step::Unfold { unfold, fabricate, sheet } => self.unfold(unfold, fabricate, sheet, progress)?,

@@ -24,7 +24,7 @@ pub use outputs::{fabrication_outputs, job_outputs, sheet_picture};
 
 use crate::check::CheckParams;
 use crate::io::ReadOptions;
-use crate::op::{SliceParams, TruncateEdge, TruncateFace, TruncateVertex};
+use crate::op::{ResolveParams, SliceParams, TruncateEdge, TruncateFace, TruncateVertex};
 use crate::picture::RenderParams;
 use crate::shape::SolidParams;
 use crate::sheet::SheetParams;
@@ -67,6 +67,8 @@ pub enum Step {
     CutFace(TruncateFace),
     /// `cut = "plane"`.
     CutPlane(SliceParams),
+    /// `resolve = "all"`: splits vertices of valence above three.
+    Resolve(ResolveParams),
     /// `check = "glass"`: limits for the report.
     Check(CheckParams),
     /// `unfold = "auto"`: pieces and sheets.
@@ -92,6 +94,7 @@ impl Step {
             Self::CutEdge(_) => "cut edge",
             Self::CutFace(_) => "cut face",
             Self::CutPlane(_) => "cut plane",
+            Self::Resolve(_) => "resolve",
             Self::Check(_) => "check",
             Self::Unfold { .. } => "unfold",
             Self::Render(_) => "render",

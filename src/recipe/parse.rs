@@ -13,7 +13,7 @@ use toml::de::{DeTable, DeValue};
 use super::error::{Position, RecipeError};
 use super::{FabricateParams, ReadStep, Recipe, Step};
 use crate::check::CheckParams;
-use crate::op::{SliceParams, TruncateEdge, TruncateFace, TruncateVertex};
+use crate::op::{ResolveParams, SliceParams, TruncateEdge, TruncateFace, TruncateVertex};
 use crate::picture::RenderParams;
 use crate::shape::SolidParams;
 use crate::sheet::SheetParams;
@@ -21,8 +21,15 @@ use crate::unfold::UnfoldParams;
 use crate::units::nearest_word;
 
 /// The keys that say what a step does, with the field of its parameters that the value goes to.
-const VERBS: [(&str, &str); 6] =
-    [("solid", "name"), ("read", "path"), ("cut", ""), ("check", "profile"), ("unfold", "pieces"), ("render", "view")];
+const VERBS: [(&str, &str); 7] = [
+    ("solid", "name"),
+    ("read", "path"),
+    ("cut", ""),
+    ("resolve", "select"),
+    ("check", "profile"),
+    ("unfold", "pieces"),
+    ("render", "view"),
+];
 
 /// What `cut` may cut.
 const CUTS: [&str; 4] = ["vertex", "edge", "face", "plane"];
@@ -128,6 +135,7 @@ impl Source<'_> {
         Ok(match (verb.key, kind.as_str()) {
             ("solid", _) => Step::Solid(fields.read1::<SolidParams>()?),
             ("read", _) => Step::Read(fields.read1::<ReadStep>()?),
+            ("resolve", _) => Step::Resolve(fields.read1::<ResolveParams>()?),
             ("check", _) => Step::Check(fields.read1::<CheckParams>()?),
             ("render", _) => Step::Render(fields.read1::<RenderParams>()?),
             ("unfold", _) => fields.unfold()?,

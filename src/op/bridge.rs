@@ -81,11 +81,14 @@ impl Cutter {
         }
         faces.retain(|&f| self.mesh.has_face(f));
         faces.sort_unstable();
-        let is_turned_over = |&f: &FaceId| {
+        // Walks on top of each other may have led a bridge astray.
+        let is_astray = |&f: &FaceId| {
             let corners: Vec<DVec2> = self.mesh.face_positions(f).into_iter().map(|p| frame.flatten(p)).collect();
-            signed_area(&corners) <= 0.0
+            let mut vertices: Vec<VertexId> = self.mesh.face_vertices(f).collect();
+            vertices.sort_unstable();
+            signed_area(&corners) <= 0.0 || vertices.windows(2).any(|w| w[0] == w[1])
         };
-        if !cap.doubled.is_empty() && faces.iter().any(is_turned_over) {
+        if !cap.doubled.is_empty() && faces.iter().any(is_astray) {
             return Err(OpError::HolesNotJoined { holes: cap.walks.len() - 1 });
         }
         Ok(faces)

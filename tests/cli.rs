@@ -98,6 +98,8 @@ const READERS: &[(&[&str], &str)] = &[
     (&["cut", "face", "IN", "--select", "0", "-o", "OUT"], "out.off"),
     (&["cut", "plane", "IN", "--normal", "z", "--point", "0,0,0", "-o", "OUT"], "out.stl"),
     (&["unfold", "IN", "--sheet", "600x400", "-o", "OUT"], "out"),
+    (&["seams", "IN"], ""),
+    (&["dform", "IN", "--rounds", "1", "-o", "OUT"], "out"),
     (&["render", "IN", "--width", "64", "-o", "OUT"], "out.png"),
 ];
 
@@ -271,10 +273,12 @@ fn verbs() -> Vec<Vec<String>> {
 #[test]
 fn every_verb_has_an_example_in_its_help() {
     let verbs = verbs();
-    for name in ["solid", "info", "check", "cut", "unfold", "run", "render", "completions", "man"] {
+    for name in
+        ["solid", "info", "check", "cut", "unfold", "seams", "dform", "verify", "run", "render", "completions", "man"]
+    {
         assert!(verbs.contains(&vec![name.to_owned()]), "{name}");
     }
-    assert!(verbs.len() >= 13, "{verbs:?}");
+    assert!(verbs.len() >= 16, "{verbs:?}");
     for verb in verbs {
         let mut arguments: Vec<&str> = verb.iter().map(String::as_str).collect();
         let example = format!("Example: kerfold {}", arguments.join(" "));
@@ -385,4 +389,85 @@ fn the_two_piece_recipe_gives_two_pieces_and_the_same_bytes_twice() {
     assert!(command.starts_with("kerfold --json run "));
     assert_eq!((net.pieces.len(), net.proof.overlaps), (2, 0));
     assert!(net.proof.congruence_mm < 1e-9 && net.proof.refold_mm < 1e-6, "{:?}", net.proof);
+}
+
+#[test]
+fn seams_are_listed_up_to_symmetry_or_the_best_of_too_many() {
+    let folder = Folder::new("seams");
+    let model = good_model(&folder);
+    let told = |arguments: &[&str]| {
+        let ran = run(&[&["seams", &model, "--json"], arguments].concat());
+        assert_eq!((ran.code, ran.err.as_str()), (Some(0), ""));
+        let value: Value = serde_json::from_str(&ran.out).expect("JSON");
+        let rows = value["matchings"].as_array().expect("rows").clone();
+        let columns = rows.iter().map(|r| (r["pieces"].as_u64(), r["seam_cycles"].as_u64(), r["orbit"].as_u64()));
+        (columns.collect::<Vec<_>>(), value["notes"].as_array().expect("notes").len())
+    };
+    assert_eq!(told(&[]), (vec![(Some(2), Some(1), Some(30)), (Some(4), Some(3), Some(6))], 0));
+    let (rows, notes) = told(&["--limit", "10"]);
+    assert_eq!((rows.len(), rows[1], notes), (2, (Some(2), Some(1), None), 1));
+    let octahedron = folder.path("octahedron.obj");
+    assert_eq!(run(&["solid", "octahedron", "-o", &octahedron]).code, Some(0));
+    let ran = run(&["seams", &octahedron]);
+    assert_eq!(ran.code, Some(2));
+    assert!(ran.err.contains("valence 4"), "{}", ran.err);
+}
+
+#[test]
+fn a_d_form_of_a_named_solid_is_two_pieces_that_verify() {
+    let folder = Folder::new("dform");
+    let out = folder.path("out");
+    let ran = run(&["dform", "dodecahedron", "--size", "18cm", "--rounds", "2", "-o", &out, "--json"]);
+    assert_eq!(ran.code, Some(0), "{}", ran.err);
+    let told: Value = serde_json::from_str(&ran.out).expect("JSON");
+    assert_eq!(told["fabrication"]["pieces"], 2);
+    let [pieces, model] = ["out/pieces.json", "out/model.obj"].map(|name| folder.path(name));
+    let ran = run(&["verify", &pieces, &model]);
+    assert_eq!((ran.code, ran.err.as_str()), (Some(0), ""), "{}", ran.out);
+    assert!(ran.out.contains("pass") && ran.out.contains("0 overlaps") && ran.out.contains("1e-9"), "{}", ran.out);
+    let misspelt = run(&["dform", "dodecahedrn", "-o", &out]);
+    assert!(misspelt.code == Some(2) && misspelt.err.contains("did you mean `dodecahedron`?"), "{}", misspelt.err);
+}
+
+#[test]
+fn verify_finds_what_is_wrong_and_trusts_no_proof() {
+    let folder = Folder::new("verify");
+    let model = good_model(&folder);
+    let out = folder.path("out");
+    assert_eq!(run(&["unfold", &model, "--sheet", "none", "-o", &out]).code, Some(0));
+    let good = fs::read_to_string(folder.path("out/pieces.json")).expect("pieces");
+    let path = folder.path("changed.json");
+    let verify = |text: &str| {
+        fs::write(&path, text).expect("a file");
+        run(&["verify", &path, &model, "--json"])
+    };
+    let ran = verify(&good);
+    assert_eq!(ran.code, Some(0), "{}", ran.out);
+    // The file may claim what it likes about itself.
+    let boasting = good.replace("\"overlaps\": 0", "\"overlaps\": 7");
+    assert_ne!(boasting, good);
+    assert_eq!(verify(&boasting).code, Some(0));
+    // Other units, a face that is no face, a fold bent otherwise: each is a finding.
+    for (from, to) in [
+        ("\"scale\": 1.0", "\"scale\": 1.0000001"),
+        ("\"face\": 3,", "\"face\": 400,"),
+        ("\"fold_angle\": 63.4", "\"fold_angle\": 64.4"),
+    ] {
+        let changed = good.replacen(from, to, 1);
+        assert_ne!(changed, good, "{from}");
+        let ran = verify(&changed);
+        assert_eq!((ran.code, ran.err.as_str()), (Some(1), ""), "{from}");
+        let told: Value = serde_json::from_str(&ran.out).expect("JSON");
+        assert_eq!((&told["verdict"], told["findings"].as_array().map(Vec::len)), (&Value::from("fail"), Some(1)));
+    }
+    for (text, message) in
+        [("", "line 1"), ("{}", "is missing"), (&good.replace("\"scale\": 1.0", "\"scale\": 0"), "scale")]
+    {
+        let ran = verify(text);
+        assert_eq!((ran.code, ran.out.as_str()), (Some(2), ""), "{}", ran.err);
+        assert!(ran.err.contains(message), "{}", ran.err);
+    }
+    let cube = run(&["verify", &folder.path("out/pieces.json"), "fixtures/meshes/cube.obj"]);
+    assert_eq!(cube.code, Some(1), "{}", cube.err);
+    assert!(cube.out.contains("take the mesh that was unfolded"), "{}", cube.out);
 }

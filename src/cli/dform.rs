@@ -32,7 +32,7 @@ pub(super) struct DformArgs {
 pub(super) fn run(args: &DformArgs, console: &Console) -> Result<Outcome, CliError> {
     let dform = Step::Dform { dform: args.dform.clone(), sheet: args.sheet.clone() };
     let recipe = Recipe { name: None, steps: vec![args.start()?, dform] };
-    let job = Job::run(&recipe, Path::new(""), &Terminal::new(console.quiet)).map_err(|error| error.cause)?;
+    let job = Job::run(&recipe, Path::new(""), &Terminal::new(console.quiet)).map_err(|error| *error.cause)?;
     finish(&job, None, &args.output, console)
 }
 

@@ -1,6 +1,7 @@
 //! Divides a piece that no sheet can hold: halves it by area along folds, again and again, until every part fits.
 
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 use glam::DVec2;
 
@@ -71,8 +72,8 @@ impl<'a> FoldGraph<'a> {
         while let Some(&f) = order.get(next) {
             next += 1;
             for &(g, _) in self.neighbours[f].iter().filter(|(g, _)| members.contains(g)) {
-                if !parent.contains_key(&g) {
-                    parent.insert(g, f);
+                if let Entry::Vacant(place) = parent.entry(g) {
+                    place.insert(f);
                     order.push(g);
                 }
             }

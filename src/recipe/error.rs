@@ -91,7 +91,7 @@ pub struct StepError {
     /// What it does.
     pub verb: &'static str,
     /// Why it failed.
-    pub cause: StepFailure,
+    pub cause: Box<StepFailure>,
 }
 
 /// What stopped a step.

@@ -39,7 +39,11 @@ impl Job {
     pub fn run(recipe: &Recipe, folder: &Path, progress: &dyn Progress) -> Result<Self, StepError> {
         let mut job = Self::default();
         for (i, step) in recipe.steps.iter().enumerate() {
-            job.step(step, folder, progress).map_err(|cause| StepError { step: i + 1, verb: step.verb(), cause })?;
+            job.step(step, folder, progress).map_err(|cause| StepError {
+                step: i + 1,
+                verb: step.verb(),
+                cause: Box::new(cause),
+            })?;
         }
         Ok(job)
     }

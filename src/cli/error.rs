@@ -5,9 +5,11 @@ use std::path::PathBuf;
 
 use crate::check::CheckError;
 use crate::io::IoError;
+use crate::io::pieces_json::PiecesJsonError;
 use crate::op::OpError;
 use crate::picture::PictureError;
 use crate::recipe::{RecipeError, StepError, StepFailure};
+use crate::seam::SeamError;
 use crate::shape::ShapeError;
 
 /// What went wrong, for the user.
@@ -24,6 +26,8 @@ pub(super) enum CliError {
     #[error(transparent)]
     Picture(#[from] PictureError),
     #[error(transparent)]
+    Seam(#[from] SeamError),
+    #[error(transparent)]
     Step(#[from] StepFailure),
     #[error("{}: {error}", path.display())]
     Recipe { path: PathBuf, error: Box<RecipeError> },
@@ -31,7 +35,11 @@ pub(super) enum CliError {
     RecipeStep { path: PathBuf, error: StepError },
     #[error("{}: cannot be read: {error}", path.display())]
     Unreadable { path: PathBuf, error: io::Error },
-    #[error("{}: a recipe is text in UTF-8, but byte {at} is not", path.display())]
+    #[error("{}: {error}", path.display())]
+    Pieces { path: PathBuf, error: PiecesJsonError },
+    #[error("{}: the scale is {scale}; it must be a number above 0, the factor from the model's unit to millimetres", path.display())]
+    Scale { path: PathBuf, scale: f64 },
+    #[error("{}: this must be text in UTF-8, but byte {at} is not", path.display())]
     NotText { path: PathBuf, at: usize },
     #[error("{}: pictures are written as PNG; name the file something.png", path.display())]
     NotPng { path: PathBuf },

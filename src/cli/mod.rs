@@ -5,6 +5,7 @@
 
 mod check;
 mod cut;
+mod dform;
 mod error;
 mod info;
 mod input;
@@ -12,9 +13,11 @@ mod manual;
 mod output;
 mod render;
 mod run;
+mod seams;
 mod solid;
 mod terminal;
 mod unfold;
+mod verify;
 
 use std::process::ExitCode;
 
@@ -43,6 +46,9 @@ enum Verb {
     Check(check::CheckArgs),
     Cut(cut::CutArgs),
     Unfold(unfold::UnfoldArgs),
+    Seams(seams::SeamsArgs),
+    Dform(dform::DformArgs),
+    Verify(verify::VerifyArgs),
     Run(run::RunArgs),
     Render(render::RenderArgs),
     Completions(manual::CompletionsArgs),
@@ -72,6 +78,9 @@ pub fn run() -> ExitCode {
         Verb::Check(args) => check::run(&args, &console),
         Verb::Cut(args) => cut::run(&args, &console),
         Verb::Unfold(args) => unfold::run(&args, &console),
+        Verb::Seams(args) => seams::run(&args, &console),
+        Verb::Dform(args) => dform::run(&args, &console),
+        Verb::Verify(args) => verify::run(&args, &console),
         Verb::Run(args) => run::run(&args, &console),
         Verb::Render(args) => render::run(&args, &console),
         Verb::Completions(args) => manual::completions(&args),

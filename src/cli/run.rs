@@ -28,20 +28,24 @@ pub(super) fn run(args: &RunArgs, console: &Console) -> Result<Outcome, CliError
     let folder = args.recipe.parent().unwrap_or(Path::new(""));
     let job = Job::run(&recipe, folder, &Terminal::new(console.quiet))
         .map_err(|error| CliError::RecipeStep { path: args.recipe.clone(), error })?;
+    finish(&job, recipe.name, &args.output, console)
+}
+
+/// Writes everything that a job has made into a folder and tells about it.
+pub(super) fn finish(job: &Job, name: Option<String>, folder: &Path, console: &Console) -> Result<Outcome, CliError> {
     let command = command_line();
-    let outputs = job_outputs(&job, &command)?;
-    let written = Console::write_folder(&args.output, outputs)?;
+    let written = Console::write_folder(folder, job_outputs(job, &command)?)?;
     let report = job.report()?;
     let has_findings = report.has_findings();
     if console.json {
         let summary = json!({
-            "command": command, "name": recipe.name, "written": written, "notes": job.notes, "model": model_json(job.mesh()?),
+            "command": command, "name": name, "written": written, "notes": job.notes, "model": model_json(job.mesh()?),
             "verdict": report.verdict().name(), "fabrication": job.fabrication.as_ref().map(|(f, _)| summary_json(f)),
         });
         console.result(&format!("{summary:#}\n"))?;
     } else {
         console.notes(&job.notes);
-        let mut text = recipe.name.map_or_else(String::new, |name| name + "\n");
+        let mut text = name.map_or_else(String::new, |name| name + "\n");
         text += &format!(
             "{}\ncheck: {} ({})\n",
             model_text(job.mesh()?),

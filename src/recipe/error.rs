@@ -6,6 +6,7 @@ use crate::check::CheckError;
 use crate::io::IoError;
 use crate::op::OpError;
 use crate::picture::PictureError;
+use crate::seam::SeamError;
 use crate::select::SelectError;
 use crate::shape::ShapeError;
 use crate::sheet::SheetError;
@@ -115,6 +116,9 @@ pub enum StepFailure {
     /// A selection could not be read on the mesh.
     #[error(transparent)]
     Select(#[from] SelectError),
+    /// No such seams.
+    #[error(transparent)]
+    Seam(#[from] SeamError),
     /// A limit of the check is no limit.
     #[error(transparent)]
     Check(#[from] CheckError),

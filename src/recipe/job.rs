@@ -2,14 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{FabricateParams, Fabrication, Recipe, Step, StepError, StepFailure, fabricate};
+use super::{DformParams, FabricateParams, Fabrication, Recipe, Step, StepError, StepFailure, carve_dform, fabricate};
 use crate::check::{CheckParams, Report, check};
 use crate::io::{ReadMesh, read_mesh};
 use crate::mesh::{Mesh, SplitVertex};
 use crate::op::{CutReport, OpContext, OpError, resolve, slice, truncate_edges, truncate_faces, truncate_vertices};
 use crate::picture::RenderParams;
 use crate::progress::Progress;
-use crate::select::Made;
+use crate::select::{Made, Selection};
 use crate::shape::solid;
 use crate::sheet::SheetParams;
 use crate::unfold::{Source, UnfoldParams};
@@ -96,6 +96,7 @@ impl Job {
             }
             Step::Check(params) => (self.check, self.is_check_asked) = (params.clone(), true),
             Step::Render(params) => self.render = params.clone(),
+            Step::Dform { dform, sheet } => self.dform(dform, sheet, progress)?,
             Step::Unfold { unfold, fabricate, sheet } => self.unfold(unfold, fabricate, sheet, progress)?,
         }
         Ok(())
@@ -121,6 +122,18 @@ impl Job {
         self.made = Some(report.made);
         self.mesh = Some(mesh);
         Ok(())
+    }
+
+    fn dform(&mut self, params: &DformParams, sheet: &SheetParams, progress: &dyn Progress) -> Result<(), StepFailure> {
+        let carved = carve_dform(self.mesh()?, params, progress)?;
+        self.notes.extend(carved.notes);
+        self.mesh = Some(carved.mesh);
+        let folds = FabricateParams {
+            seams: None,
+            folds: Selection::of_ids(carved.made.strip.iter().map(|e| e.index() as u32)),
+        };
+        self.made = Some(carved.made);
+        self.unfold(&UnfoldParams::default(), &folds, sheet, progress)
     }
 
     fn unfold(

@@ -3,6 +3,7 @@
 //! Every step is the same parameter struct as the verb of that name on the command line. The steps of a recipe share one
 //! [`Job`]: the mesh as it is by then, what the last step made, and the results that are written at the end.
 
+mod dform;
 mod divide;
 mod error;
 mod fabricate;
@@ -17,6 +18,7 @@ use std::path::PathBuf;
 
 use serde::Deserialize;
 
+pub use dform::{CarvedDform, DformParams, MatchingChoice, MatchingChoiceError, carve_dform};
 pub use error::{Position, RecipeError, StepError, StepFailure};
 pub use fabricate::{FabricateParams, Fabrication, fabricate};
 pub use job::Job;
@@ -80,6 +82,13 @@ pub enum Step {
         /// Where the pieces go.
         sheet: SheetParams,
     },
+    /// `dform = "hamiltonian"`: carves the folds of a D-form and unfolds it.
+    Dform {
+        /// Which folds, and how to carve them.
+        dform: DformParams,
+        /// Where the pieces go.
+        sheet: SheetParams,
+    },
     /// `render = "iso"`: how the picture of the model looks.
     Render(RenderParams),
 }
@@ -97,6 +106,7 @@ impl Step {
             Self::Resolve(_) => "resolve",
             Self::Check(_) => "check",
             Self::Unfold { .. } => "unfold",
+            Self::Dform { .. } => "dform",
             Self::Render(_) => "render",
         }
     }

@@ -11,7 +11,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::{Position, RecipeError};
-use super::{FabricateParams, ReadStep, Recipe, Step};
+use super::{DformParams, FabricateParams, ReadStep, Recipe, Step};
 use crate::check::CheckParams;
 use crate::op::{ResolveParams, SliceParams, TruncateEdge, TruncateFace, TruncateVertex};
 use crate::picture::RenderParams;
@@ -21,13 +21,14 @@ use crate::unfold::UnfoldParams;
 use crate::units::nearest_word;
 
 /// The keys that say what a step does, with the field of its parameters that the value goes to.
-const VERBS: [(&str, &str); 7] = [
+const VERBS: [(&str, &str); 8] = [
     ("solid", "name"),
     ("read", "path"),
     ("cut", ""),
     ("resolve", "select"),
     ("check", "profile"),
     ("unfold", "pieces"),
+    ("dform", "matching"),
     ("render", "view"),
 ];
 
@@ -139,6 +140,7 @@ impl Source<'_> {
             ("check", _) => Step::Check(fields.read1::<CheckParams>()?),
             ("render", _) => Step::Render(fields.read1::<RenderParams>()?),
             ("unfold", _) => fields.unfold()?,
+            ("dform", _) => fields.dform()?,
             ("cut", "vertex") => Step::CutVertex(fields.read1::<TruncateVertex>()?),
             ("cut", "edge") => Step::CutEdge(fields.read1::<TruncateEdge>()?),
             ("cut", "face") => Step::CutFace(fields.read1::<TruncateFace>()?),
@@ -167,6 +169,11 @@ impl StepFields<'_> {
             [field_names::<UnfoldParams>(), field_names::<FabricateParams>(), field_names::<SheetParams>()].concat();
         self.check_keys(&known)?;
         Ok(Step::Unfold { unfold: self.read()?, fabricate: self.read()?, sheet: self.read()? })
+    }
+
+    fn dform(&self) -> Result<Step, RecipeError> {
+        self.check_keys(&[field_names::<DformParams>(), field_names::<SheetParams>()].concat())?;
+        Ok(Step::Dform { dform: self.read()?, sheet: self.read()? })
     }
 
     fn check_keys(&self, known: &[String]) -> Result<(), RecipeError> {

@@ -20,7 +20,7 @@ mod start;
 
 pub use error::UnfoldError;
 pub use params::{PiecesMode, PiecesModeError, Seams, Source, UnfoldParams};
-pub use proof::{EdgeFault, ProofError, prove};
+pub use proof::{EdgeFault, LENGTH as LENGTH_LIMIT, ProofError, REFOLD as REFOLD_LIMIT, prove, renumbered};
 
 use crate::mesh::Mesh;
 use crate::net::Net;

@@ -7,17 +7,20 @@
 mod congruence;
 mod overlap;
 mod refold;
+mod renumber;
 mod structure;
+
+pub use renumber::renumbered;
 
 use crate::mesh::Mesh;
 use crate::net::{Net, Proof};
 
-/// Sides of one edge may differ by this much of their length (plus [`LENGTH_OF_SIZE`] of the model's size).
-const LENGTH: f64 = 1e-9;
+/// Sides of one edge may differ by this much of their length (plus as much of the model's size, for rounding).
+pub const LENGTH: f64 = 1e-9;
 /// Distances may differ by this much of the model's size: what flattening nearly planar faces may cost.
 const LENGTH_OF_SIZE: f64 = 1e-9;
 /// A refolded corner may miss its vertex by this much of the model's size when all faces are planar.
-const REFOLD: f64 = 1e-6;
+pub const REFOLD: f64 = 1e-6;
 
 /// What is wrong with a net. Faces, vertices and edges are named by their numbers in the mesh.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -67,12 +67,12 @@ fn faces_once<'a>(mesh: &Mesh, net: &'a Net) -> Result<Faces<'a>, ProofError> {
     Err(ProofError::FaceTimes { face: strange.unwrap_or(0), times: 1 })
 }
 
-fn is_face(mesh: &Mesh, f: FaceId) -> bool {
+pub(super) fn is_face(mesh: &Mesh, f: FaceId) -> bool {
     mesh.has_face(f) && !mesh.is_hole(f)
 }
 
 /// Whether `named` is `v`, or the file's vertex at the same point that `v` was split from.
-fn is_vertex(mesh: &Mesh, named: usize, v: VertexId) -> bool {
+pub(super) fn is_vertex(mesh: &Mesh, named: usize, v: VertexId) -> bool {
     named == v.index()
         || (named < mesh.vertex_slots()
             && mesh.has_vertex(VertexId::new(named))

@@ -1,0 +1,51 @@
+//! `kerfold dform`
+
+use std::path::{Path, PathBuf};
+
+use super::error::CliError;
+use super::run::finish;
+use super::terminal::Terminal;
+use super::{Console, Outcome};
+use crate::io::ReadOptions;
+use crate::recipe::{DformParams, Job, ReadStep, Recipe, Step};
+use crate::shape::{ShapeError, SolidName, SolidParams};
+use crate::sheet::SheetParams;
+
+/// Make a D-form of a solid: choose the folds, carve them into smooth strips, unfold, and lay the pieces out
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Example: kerfold dform dodecahedron --size 180mm --rounds 4 --offset 0.3 -o out")]
+pub(super) struct DformArgs {
+    /// A solid by name, or a closed 3-valent mesh: OBJ, PLY, STL or OFF; `-` reads OBJ from standard input
+    #[arg(value_name = "SOLID")]
+    solid: PathBuf,
+    #[command(flatten)]
+    options: ReadOptions,
+    #[command(flatten)]
+    dform: DformParams,
+    #[command(flatten)]
+    sheet: SheetParams,
+    /// The folder for model, picture, report, pieces and sheets; made if it is missing
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+}
+
+pub(super) fn run(args: &DformArgs, console: &Console) -> Result<Outcome, CliError> {
+    let dform = Step::Dform { dform: args.dform.clone(), sheet: args.sheet.clone() };
+    let recipe = Recipe { name: None, steps: vec![args.start()?, dform] };
+    let job = Job::run(&recipe, Path::new(""), &Terminal::new(console.quiet)).map_err(|error| *error.cause)?;
+    finish(&job, None, &args.output, console)
+}
+
+impl DformArgs {
+    /// A file wins over a solid of the same name; a word without dots and slashes is meant as a name.
+    fn start(&self) -> Result<Step, ShapeError> {
+        let word = self.solid.to_str().filter(|text| !text.contains(['.', '/', '\\']) && *text != "-");
+        match word.filter(|_| !self.solid.is_file()) {
+            Some(name) => {
+                let name: SolidName = name.parse()?;
+                Ok(Step::Solid(SolidParams { name, edge: None, size: self.options.size }))
+            }
+            None => Ok(Step::Read(ReadStep { path: self.solid.clone(), options: self.options.clone() })),
+        }
+    }
+}

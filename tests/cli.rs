@@ -1,0 +1,473 @@
+//! The program as users meet it: exit codes, messages, pipes, and files that are whole or not there.
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use kerfold::io::pieces_json::read_pieces_json;
+use serde_json::Value;
+
+/// A folder that goes with the test.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("kerfold-cli-{name}-{}", std::process::id()));
+        let _ = fs::remove_dir_all(&path);
+        fs::create_dir_all(&path).expect("a folder for the test");
+        Self(path)
+    }
+
+    fn path(&self, name: &str) -> String {
+        self.0.join(name).to_str().expect("a plain path").to_owned()
+    }
+
+    /// Everything in it, with its bytes; folders without.
+    fn contents(&self) -> Vec<(PathBuf, Option<Vec<u8>>)> {
+        fn collect(folder: &Path, found: &mut Vec<(PathBuf, Option<Vec<u8>>)>) {
+            for entry in fs::read_dir(folder).expect("a folder") {
+                let path = entry.expect("an entry").path();
+                if path.is_dir() {
+                    collect(&path, found);
+                    found.push((path, None));
+                } else {
+                    let bytes = fs::read(&path).expect("a file");
+                    found.push((path, Some(bytes)));
+                }
+            }
+        }
+        let mut found = Vec::new();
+        collect(&self.0, &mut found);
+        found.sort();
+        found
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+struct Ran {
+    code: Option<i32>,
+    out: String,
+    err: String,
+}
+
+fn program() -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_kerfold"));
+    command.stdin(Stdio::null());
+    command
+}
+
+fn run(arguments: &[&str]) -> Ran {
+    ran(program().args(arguments))
+}
+
+fn ran(command: &mut Command) -> Ran {
+    let output = command.output().expect("the program starts");
+    Ran {
+        code: output.status.code(),
+        out: String::from_utf8(output.stdout).expect("UTF-8"),
+        err: String::from_utf8(output.stderr).expect("UTF-8"),
+    }
+}
+
+fn piped(arguments: &[&str], input: &str) -> Ran {
+    let mut command = program();
+    command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().expect("the program starts");
+    child.stdin.take().expect("a pipe").write_all(input.as_bytes()).expect("the program reads");
+    let output = child.wait_with_output().expect("the program ends");
+    Ran {
+        code: output.status.code(),
+        out: String::from_utf8(output.stdout).expect("UTF-8"),
+        err: String::from_utf8(output.stderr).expect("UTF-8"),
+    }
+}
+
+/// Verbs that read a mesh, with IN and OUT where the files go, and the name of what they write.
+const READERS: &[(&[&str], &str)] = &[
+    (&["info", "IN"], ""),
+    (&["check", "IN"], ""),
+    (&["check", "IN", "--report", "OUT"], "report.json"),
+    (&["cut", "vertex", "IN", "--select", "all", "--offset", "0.25", "-o", "OUT"], "out.obj"),
+    (&["cut", "edge", "IN", "--select", "0", "--offset", "0.2", "-o", "OUT"], "out.ply"),
+    (&["cut", "face", "IN", "--select", "0", "-o", "OUT"], "out.off"),
+    (&["cut", "plane", "IN", "--normal", "z", "--point", "0,0,0", "-o", "OUT"], "out.stl"),
+    (&["unfold", "IN", "--sheet", "600x400", "-o", "OUT"], "out"),
+    (&["seams", "IN"], ""),
+    (&["dform", "IN", "--rounds", "1", "-o", "OUT"], "out"),
+    (&["render", "IN", "--width", "64", "-o", "OUT"], "out.png"),
+];
+
+/// Verbs that need no mesh but write something.
+const MAKERS: &[(&[&str], &str)] =
+    &[(&["solid", "dodecahedron", "--size", "100mm", "-o", "OUT"], "out.obj"), (&["man", "-o", "OUT"], "man")];
+
+fn fill<'a>(arguments: &[&'a str], input: &'a str, output: &'a str) -> Vec<&'a str> {
+    let filled = arguments.iter().map(|&a| match a {
+        "IN" => input,
+        "OUT" => output,
+        _ => a,
+    });
+    filled.collect()
+}
+
+fn good_model(folder: &Folder) -> String {
+    let model = folder.path("model.obj");
+    let made = run(&["solid", "dodecahedron", "--size", "100mm", "-o", &model]);
+    assert_eq!((made.code, made.err.as_str()), (Some(0), ""), "{}", made.out);
+    model
+}
+
+#[test]
+fn good_input_gives_results_on_stdout_and_whole_files() {
+    let folder = Folder::new("good");
+    let model = good_model(&folder);
+    for (i, (arguments, name)) in READERS.iter().chain(MAKERS).enumerate() {
+        let output = folder.path(&format!("{i}-{name}"));
+        let ran = run(&fill(arguments, &model, &output));
+        assert_eq!(ran.code, Some(0), "{arguments:?}: {}", ran.err);
+        assert!(!ran.out.is_empty(), "{arguments:?} says nothing");
+        assert!(ran.err.lines().all(|l| l.starts_with("note: ")), "{arguments:?}: {}", ran.err);
+        if !name.is_empty() {
+            assert!(Path::new(&output).exists(), "{arguments:?}");
+        }
+    }
+    let leftovers = folder.contents().into_iter().filter(|(p, _)| p.to_string_lossy().contains("tmp-"));
+    assert_eq!(leftovers.count(), 0);
+}
+
+#[test]
+fn bad_input_is_exit_code_2_with_one_line_and_no_file() {
+    let folder = Folder::new("bad");
+    let missing = folder.path("nothing-here.obj");
+    let inputs = [
+        ("fixtures/bad/empty.obj", "is empty"),
+        ("fixtures/bad/word.obj", "as in `v 0 1.5 2`"),
+        ("fixtures/bad/garbage.stl", "export the model again"),
+        (missing.as_str(), "there is no file"),
+    ];
+    for (arguments, name) in READERS {
+        for (input, message) in inputs {
+            let output = folder.path(name);
+            let ran = run(&fill(arguments, input, &output));
+            assert_eq!(ran.code, Some(2), "{arguments:?} {input}");
+            assert_eq!(ran.out, "", "{arguments:?} {input}");
+            assert!(ran.err.starts_with("kerfold: ") && ran.err.contains(message), "{arguments:?}: {}", ran.err);
+            assert_eq!(ran.err.lines().count(), 1, "{arguments:?}: {}", ran.err);
+        }
+    }
+    assert_eq!(folder.contents(), [], "nothing may be written");
+}
+
+#[test]
+fn output_that_cannot_be_written_leaves_everything_as_it_was() {
+    let folder = Folder::new("unwritable");
+    let model = good_model(&folder);
+    fs::write(folder.path("wall"), "a file where a folder should be").expect("a file");
+    let before = folder.contents();
+    for (arguments, name) in READERS.iter().chain(MAKERS).filter(|v| !v.1.is_empty()) {
+        let output = folder.path(&format!("wall/{name}"));
+        let ran = run(&fill(arguments, &model, &output));
+        assert_eq!(ran.code, Some(2), "{arguments:?}");
+        assert!(ran.err.starts_with("kerfold: ") && ran.err.contains("wall"), "{arguments:?}: {}", ran.err);
+        assert_eq!(folder.contents(), before, "{arguments:?}");
+    }
+}
+
+#[test]
+fn of_several_files_all_are_written_or_none() {
+    let folder = Folder::new("all-or-none");
+    let model = good_model(&folder);
+    fs::create_dir_all(folder.path("out/layout.json")).expect("a folder where a file should go");
+    fs::write(folder.path("out/pieces.json"), "precious").expect("a file");
+    let before = folder.contents();
+    let ran = run(&["unfold", &model, "--sheet", "600x400", "-o", &folder.path("out")]);
+    assert_eq!(ran.code, Some(2));
+    assert!(ran.err.contains("layout.json"), "{}", ran.err);
+    assert_eq!(folder.contents(), before);
+}
+
+#[test]
+fn a_dash_is_standard_input_and_output() {
+    let made = run(&["solid", "cube", "-o", "-"]);
+    assert_eq!(made.code, Some(0));
+    assert!(made.err.contains("8 vertices"), "the summary gives way to the mesh: {}", made.err);
+    let cut = piped(&["cut", "vertex", "-", "--select", "all", "--offset", "0.25", "-o", "-"], &made.out);
+    assert_eq!(cut.code, Some(0), "{}", cut.err);
+    let info = piped(&["info", "-", "--json"], &cut.out);
+    let told: Value = serde_json::from_str(&info.out).expect("JSON");
+    assert!(info.out.contains("24"), "a truncated cube has 24 vertices: {told}");
+    let empty = piped(&["info", "-"], "");
+    assert_eq!(empty.code, Some(2));
+    assert!(empty.err.contains("standard input"), "{}", empty.err);
+}
+
+#[test]
+fn json_parses_and_quiet_is_silent() {
+    let folder = Folder::new("json");
+    let model = good_model(&folder);
+    for (i, (arguments, name)) in READERS.iter().chain(MAKERS).enumerate() {
+        let output = folder.path(&format!("{i}-{name}"));
+        let mut with = fill(arguments, &model, &output);
+        with.push("--json");
+        let ran = run(&with);
+        assert_eq!(ran.code, Some(0), "{with:?}: {}", ran.err);
+        let value: Value = serde_json::from_str(&ran.out).unwrap_or_else(|e| panic!("{with:?}: {e}\n{}", ran.out));
+        assert!(value["command"].as_str().is_some_and(|c| c.starts_with("kerfold ")), "{with:?}");
+        *with.last_mut().expect("--json") = "--quiet";
+        let ran = run(&with);
+        assert_eq!((ran.code, ran.out.as_str(), ran.err.as_str()), (Some(0), "", ""), "{with:?}");
+        with[if arguments[0] == "cut" { 2 } else { 1 }] = "no-such-thing.obj";
+        if arguments.contains(&"IN") {
+            let ran = run(&with);
+            assert_eq!(ran.code, Some(2), "{with:?}");
+            assert!(!ran.err.is_empty(), "errors are not silenced: {with:?}");
+        }
+    }
+}
+
+#[test]
+fn findings_are_exit_code_1() {
+    let folder = Folder::new("findings");
+    let model = folder.path("octahedron.obj");
+    assert_eq!(run(&["solid", "octahedron", "-o", &model]).code, Some(0));
+    let ran = run(&["check", &model, "--require", "valence3"]);
+    assert_eq!((ran.code, ran.err.as_str()), (Some(1), ""), "{}", ran.out);
+    assert!(ran.out.contains("valence"), "{}", ran.out);
+}
+
+#[test]
+fn a_reader_that_leaves_is_no_error() {
+    for arguments in [&["completions", "bash"][..], &["solid", "geodesic-40", "-o", "-"]] {
+        let mut command = program();
+        command.args(arguments).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = command.spawn().expect("the program starts");
+        drop(child.stdout.take());
+        let output = child.wait_with_output().expect("the program ends");
+        let err = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {err}");
+        assert!(!err.contains("kerfold:") && !err.contains("panicked"), "{err}");
+    }
+}
+
+/// The verbs that the help lists, those of `cut` with it.
+fn verbs() -> Vec<Vec<String>> {
+    let listed = |of: &[&str]| -> Vec<String> {
+        let help = run(&[of, &["--help"]].concat());
+        assert_eq!(help.code, Some(0), "{of:?}");
+        let commands = help.out.split("Commands:\n").nth(1).expect("a list of verbs");
+        let lines =
+            commands.lines().take_while(|l| !l.is_empty()).filter(|l| l.starts_with("  ") && !l.starts_with("   "));
+        lines.filter_map(|l| l.split_whitespace().next().map(str::to_owned)).collect()
+    };
+    let mut all: Vec<Vec<String>> = listed(&[]).into_iter().map(|v| vec![v]).collect();
+    all.extend(listed(&["cut"]).into_iter().map(|v| vec!["cut".to_owned(), v]));
+    all
+}
+
+#[test]
+fn every_verb_has_an_example_in_its_help() {
+    let verbs = verbs();
+    for name in
+        ["solid", "info", "check", "cut", "unfold", "seams", "dform", "verify", "run", "render", "completions", "man"]
+    {
+        assert!(verbs.contains(&vec![name.to_owned()]), "{name}");
+    }
+    assert!(verbs.len() >= 16, "{verbs:?}");
+    for verb in verbs {
+        let mut arguments: Vec<&str> = verb.iter().map(String::as_str).collect();
+        let example = format!("Example: kerfold {}", arguments.join(" "));
+        arguments.push("--help");
+        let help = run(&arguments);
+        assert_eq!((help.code, help.err.as_str()), (Some(0), ""));
+        assert!(help.out.contains(&example), "{verb:?} has no example:\n{}", help.out);
+    }
+}
+
+#[test]
+fn completions_and_manual_pages_know_every_verb() {
+    let folder = Folder::new("man");
+    assert_eq!(run(&["man", "-o", &folder.path("man1")]).code, Some(0));
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let script = run(&["completions", shell]);
+        assert_eq!((script.code, script.err.as_str()), (Some(0), ""), "{shell}");
+        for verb in verbs() {
+            assert!(script.out.contains(verb.last().expect("a verb")), "{shell} {verb:?}");
+            let page = folder.path(&format!("man1/kerfold-{}.1", verb.join("-")));
+            assert!(fs::read_to_string(&page).expect(&page).contains("Example: kerfold"), "{page}");
+        }
+    }
+    assert_eq!(run(&["completions", "tcsh"]).code, Some(2));
+}
+
+#[test]
+fn mistyped_arguments_are_exit_code_2() {
+    let cases: &[(&[&str], &str)] = &[
+        (&["unfoldd", "x.obj"], "unfold"),
+        (&["unfold", "x.obj"], "--output"),
+        (&["solid", "dodecahedrn", "-o", "x.obj"], "dodecahedron"),
+        (&["render", "fixtures/meshes/cube.obj", "-o", "x.jpg"], ".png"),
+        (&["check", "fixtures/meshes/cube.obj", "--report", "x.txt"], ".json"),
+        (&["cut", "edge", "fixtures/meshes/cube.obj", "--select", "hamiltonain", "-o", "x.obj"], "hamiltonian"),
+    ];
+    for (arguments, hint) in cases {
+        let ran = run(arguments);
+        assert_eq!((ran.code, ran.out.as_str()), (Some(2), ""), "{arguments:?}");
+        assert!(ran.err.contains(hint), "{arguments:?}: {}", ran.err);
+    }
+    assert!(!Path::new("x.obj").exists() && !Path::new("x.jpg").exists());
+}
+
+/// Recipe, place, and what the message advises.
+const BAD_RECIPES: &[(&str, &str, &str)] = &[
+    ("misspelt-key.toml", "line 7, column 1", "did you mean `offset`?"),
+    ("misspelt-solid.toml", "line 2, column 9", "dodecahedron"),
+    ("misspelt-table.toml", "line 1, column 3", "did you mean `step`?"),
+    ("misspelt-verb.toml", "line 2, column 1", "did you mean `solid`?"),
+    ("no-mesh.toml", "step 1 (cut edge)", "begin with a step that names a solid or reads a file"),
+    ("no-steps.toml", "no [[step]]", "solid = \"dodecahedron\""),
+    ("syntax.toml", "line 2", "string"),
+    ("two-verbs.toml", "line 3, column 1", "make two steps of it"),
+    ("unknown-cut.toml", "line 5, column 7", "did you mean `edge`?"),
+    ("wrong-value.toml", "line 7, column 10", "invalid type: string \"wide\""),
+];
+
+#[test]
+fn recipe_errors_name_line_column_and_the_nearest_word() {
+    let mut listed: Vec<_> = fs::read_dir("fixtures/bad-recipes").expect("recipes").collect();
+    listed.sort_by_key(|e| e.as_ref().expect("an entry").file_name());
+    let listed: Vec<_> = listed.into_iter().map(|e| e.expect("an entry").file_name().into_string()).collect();
+    assert_eq!(listed, BAD_RECIPES.iter().map(|r| Ok(r.0.to_owned())).collect::<Vec<_>>());
+    let folder = Folder::new("recipes");
+    let output = folder.path("out");
+    for (name, place, advice) in BAD_RECIPES {
+        let path = format!("fixtures/bad-recipes/{name}");
+        let ran = run(&["run", &path, "-o", &output]);
+        assert_eq!((ran.code, ran.out.as_str()), (Some(2), ""), "{name}");
+        assert!(ran.err.starts_with(&format!("kerfold: {path}: ")), "{}", ran.err);
+        assert!(ran.err.contains(place) && ran.err.contains(advice), "{name}: {}", ran.err);
+    }
+    for (path, message) in [("nothing.toml", "cannot be read"), ("fixtures/bad/garbage.bin", "UTF-8")] {
+        let ran = run(&["run", path, "-o", &output]);
+        assert_eq!(ran.code, Some(2));
+        assert!(ran.err.contains(message), "{}", ran.err);
+    }
+    assert_eq!(folder.contents(), []);
+}
+
+const TWO_PIECES: &str = "fixtures/recipes/two-piece-d-form.toml";
+
+#[test]
+fn the_two_piece_recipe_gives_two_pieces_and_the_same_bytes_twice() {
+    let recipe = fs::canonicalize(TWO_PIECES).expect("the recipe");
+    let folders = [Folder::new("twice-a"), Folder::new("twice-b")];
+    let told = folders.each_ref().map(|folder| {
+        let ran = ran(program().current_dir(&folder.0).args(["--json", "run"]).arg(&recipe).args(["-o", "out"]));
+        assert_eq!(ran.code, Some(0), "{}", ran.err);
+        ran.out
+    });
+    assert_eq!(told[0], told[1]);
+    let told: Value = serde_json::from_str(&told[0]).expect("JSON");
+    assert_eq!((&told["fabrication"]["pieces"], &told["verdict"]), (&Value::from(2), &Value::from("pass")));
+    let [first, second] = folders.each_ref().map(|folder| {
+        let strip = |(path, bytes): (PathBuf, _)| (path.strip_prefix(&folder.0).expect("inside").to_owned(), bytes);
+        folder.contents().into_iter().map(strip).collect::<Vec<_>>()
+    });
+    assert_eq!(first, second);
+    for name in ["model.obj", "model.png", "report.json", "pieces.json", "layout.json", "sheet-01.svg", "sheet-01.png"]
+    {
+        let found = first.iter().find(|(path, _)| path == &Path::new("out").join(name));
+        assert!(found.is_some_and(|(_, bytes)| bytes.as_ref().is_some_and(|b| b.len() > 100)), "{name}");
+    }
+    let text = fs::read_to_string(folders[0].path("out/pieces.json")).expect("pieces");
+    let (net, command) = read_pieces_json(&text).expect("our own file");
+    assert!(command.starts_with("kerfold --json run "));
+    assert_eq!((net.pieces.len(), net.proof.overlaps), (2, 0));
+    assert!(net.proof.congruence_mm < 1e-9 && net.proof.refold_mm < 1e-6, "{:?}", net.proof);
+}
+
+#[test]
+fn seams_are_listed_up_to_symmetry_or_the_best_of_too_many() {
+    let folder = Folder::new("seams");
+    let model = good_model(&folder);
+    let told = |arguments: &[&str]| {
+        let ran = run(&[&["seams", &model, "--json"], arguments].concat());
+        assert_eq!((ran.code, ran.err.as_str()), (Some(0), ""));
+        let value: Value = serde_json::from_str(&ran.out).expect("JSON");
+        let rows = value["matchings"].as_array().expect("rows").clone();
+        let columns = rows.iter().map(|r| (r["pieces"].as_u64(), r["seam_cycles"].as_u64(), r["orbit"].as_u64()));
+        (columns.collect::<Vec<_>>(), value["notes"].as_array().expect("notes").len())
+    };
+    assert_eq!(told(&[]), (vec![(Some(2), Some(1), Some(30)), (Some(4), Some(3), Some(6))], 0));
+    let (rows, notes) = told(&["--limit", "10"]);
+    assert_eq!((rows.len(), rows[1], notes), (2, (Some(2), Some(1), None), 1));
+    let octahedron = folder.path("octahedron.obj");
+    assert_eq!(run(&["solid", "octahedron", "-o", &octahedron]).code, Some(0));
+    let ran = run(&["seams", &octahedron]);
+    assert_eq!(ran.code, Some(2));
+    assert!(ran.err.contains("valence 4"), "{}", ran.err);
+}
+
+#[test]
+fn a_d_form_of_a_named_solid_is_two_pieces_that_verify() {
+    let folder = Folder::new("dform");
+    let out = folder.path("out");
+    let ran = run(&["dform", "dodecahedron", "--size", "18cm", "--rounds", "2", "-o", &out, "--json"]);
+    assert_eq!(ran.code, Some(0), "{}", ran.err);
+    let told: Value = serde_json::from_str(&ran.out).expect("JSON");
+    assert_eq!(told["fabrication"]["pieces"], 2);
+    let [pieces, model] = ["out/pieces.json", "out/model.obj"].map(|name| folder.path(name));
+    let ran = run(&["verify", &pieces, &model]);
+    assert_eq!((ran.code, ran.err.as_str()), (Some(0), ""), "{}", ran.out);
+    assert!(ran.out.contains("pass") && ran.out.contains("0 overlaps") && ran.out.contains("1e-9"), "{}", ran.out);
+    let misspelt = run(&["dform", "dodecahedrn", "-o", &out]);
+    assert!(misspelt.code == Some(2) && misspelt.err.contains("did you mean `dodecahedron`?"), "{}", misspelt.err);
+}
+
+#[test]
+fn verify_finds_what_is_wrong_and_trusts_no_proof() {
+    let folder = Folder::new("verify");
+    let model = good_model(&folder);
+    let out = folder.path("out");
+    assert_eq!(run(&["unfold", &model, "--sheet", "none", "-o", &out]).code, Some(0));
+    let good = fs::read_to_string(folder.path("out/pieces.json")).expect("pieces");
+    let path = folder.path("changed.json");
+    let verify = |text: &str| {
+        fs::write(&path, text).expect("a file");
+        run(&["verify", &path, &model, "--json"])
+    };
+    let ran = verify(&good);
+    assert_eq!(ran.code, Some(0), "{}", ran.out);
+    // The file may claim what it likes about itself.
+    let boasting = good.replace("\"overlaps\": 0", "\"overlaps\": 7");
+    assert_ne!(boasting, good);
+    assert_eq!(verify(&boasting).code, Some(0));
+    // Other units, a face that is no face, a fold bent otherwise: each is a finding.
+    for (from, to) in [
+        ("\"scale\": 1.0", "\"scale\": 1.0000001"),
+        ("\"face\": 3,", "\"face\": 400,"),
+        ("\"fold_angle\": 63.4", "\"fold_angle\": 64.4"),
+    ] {
+        let changed = good.replacen(from, to, 1);
+        assert_ne!(changed, good, "{from}");
+        let ran = verify(&changed);
+        assert_eq!((ran.code, ran.err.as_str()), (Some(1), ""), "{from}");
+        let told: Value = serde_json::from_str(&ran.out).expect("JSON");
+        assert_eq!((&told["verdict"], told["findings"].as_array().map(Vec::len)), (&Value::from("fail"), Some(1)));
+    }
+    for (text, message) in
+        [("", "line 1"), ("{}", "is missing"), (&good.replace("\"scale\": 1.0", "\"scale\": 0"), "scale")]
+    {
+        let ran = verify(text);
+        assert_eq!((ran.code, ran.out.as_str()), (Some(2), ""), "{}", ran.err);
+        assert!(ran.err.contains(message), "{}", ran.err);
+    }
+    let cube = run(&["verify", &folder.path("out/pieces.json"), "fixtures/meshes/cube.obj"]);
+    assert_eq!(cube.code, Some(1), "{}", cube.err);
+    assert!(cube.out.contains("take the mesh that was unfolded"), "{}", cube.out);
+}

@@ -1,0 +1,72 @@
+//! Every recipe of the fixtures runs, with the pieces that its figure shows, and its pieces are proved once more.
+
+use std::path::Path;
+
+use kerfold::progress::Silent;
+use kerfold::recipe::{Job, Recipe};
+use kerfold::unfold::prove;
+
+/// Recipe, pieces, and the genus of the model. Figures are those of the thesis.
+const RECIPES: &[(&str, usize, usize)] = &[
+    ("fig-17-leaning-cuts.toml", 2, 0),
+    ("fig-17-one-sided-cuts.toml", 2, 0),
+    ("fig-18-three-piece-dodecahedron.toml", 3, 0),
+    ("fig-19-two-piece-dodecahedron.toml", 2, 0),
+    ("fig-20-two-y-pieces-octahedron.toml", 2, 0),
+    ("fig-21-five-piece-truncated-tetrahedron.toml", 5, 0),
+    ("fig-21-four-piece-dodecahedron.toml", 4, 0),
+    ("one-piece-torus.toml", 1, 1),
+    ("two-piece-d-form.toml", 2, 0),
+];
+
+fn run(name: &str) -> Job {
+    let folder = Path::new("fixtures/recipes");
+    let text = std::fs::read_to_string(folder.join(name)).expect(name);
+    let recipe = Recipe::parse(&text).unwrap_or_else(|e| panic!("{name}: {e}"));
+    Job::run(&recipe, folder, &Silent).unwrap_or_else(|e| panic!("{name}: {e}"))
+}
+
+#[test]
+fn every_recipe_gives_its_pieces_without_overlap() {
+    let mut listed: Vec<String> = std::fs::read_dir("fixtures/recipes")
+        .expect("recipes")
+        .map(|e| e.expect("an entry").file_name().to_string_lossy().into_owned())
+        .collect();
+    listed.sort();
+    assert_eq!(listed, RECIPES.iter().map(|r| r.0).collect::<Vec<_>>());
+    for &(name, pieces, genus) in RECIPES {
+        let job = run(name);
+        let mesh = job.mesh().expect("a mesh");
+        let (fabrication, _) = job.fabrication.as_ref().expect("pieces");
+        assert_eq!(fabrication.net.pieces.len(), pieces, "{name}");
+        assert_eq!(kerfold::measure::genus(mesh), genus, "{name}");
+        let proof = prove(mesh, &fabrication.net).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert_eq!(proof.overlaps, 0, "{name}");
+        assert!(!fabrication.sheets.drawings.is_empty(), "{name}");
+    }
+}
+
+#[test]
+fn the_long_piece_of_figure_18_meets_itself() {
+    let job = run("fig-18-three-piece-dodecahedron.toml");
+    let (fabrication, _) = job.fabrication.as_ref().expect("pieces");
+    let seams = &fabrication.net.seams;
+    let own = |piece: usize| {
+        let is_own = |s: &&kerfold::net::Seam| s.sides.iter().all(|side| side.piece.0 == piece);
+        seams.iter().filter(is_own).map(|s| s.length).sum::<f64>()
+    };
+    let total: f64 = seams.iter().map(|s| s.length).sum();
+    assert!(own(0) > 0.25 * total, "the long piece meets itself along {} of {total} mm", own(0));
+    assert_eq!([own(1), own(2)], [0.0, 0.0], "the caps meet only the long piece");
+}
+
+#[test]
+fn the_pieces_of_figure_20_have_three_arms() {
+    let job = run("fig-20-two-y-pieces-octahedron.toml");
+    let net = &job.fabrication.as_ref().expect("pieces").0.net;
+    for piece in &net.pieces {
+        let arms = |face: usize| net.folds.iter().filter(|fold| fold.faces.contains(&face)).count();
+        let middles = piece.faces.iter().filter(|flat| arms(flat.face) == 3).count();
+        assert!(middles >= 1, "{} has no face with three folds", piece.id);
+    }
+}

@@ -171,7 +171,7 @@ fn components_come_apart_by_themselves() {
     let mesh = build((points, faces));
     assert_eq!(free(&mesh).pieces.len(), 2);
     let error = try_unfold(&mesh, &Seams::Free, PiecesMode::Count(1)).expect_err("two components");
-    assert_eq!(error, UnfoldError::MorePieces { asked: 1, found: 2, components: 2 });
+    assert!(matches!(error, UnfoldError::MorePieces { asked: 1, found: 2, components: 2, .. }), "{error}");
 }
 
 #[test]

@@ -86,7 +86,7 @@ impl Job {
             Step::CutPlane(params) => self.cut("plane", |mesh, context| slice(mesh, params, context), progress)?,
             Step::Check(params) => (self.check, self.is_check_asked) = (params.clone(), true),
             Step::Render(params) => self.render = params.clone(),
-            Step::Unfold { unfold, fabricate, sheet } => self.unfold(unfold, fabricate, sheet, progress)?,
+            Step::Unfold { unfold, fabricate, sheet } => self.unfold(unfold, fabricate, sheet, folder, progress)?,
         }
         Ok(())
     }
@@ -118,11 +118,13 @@ impl Job {
         unfold: &UnfoldParams,
         choice: &FabricateParams,
         sheet: &SheetParams,
+        folder: &Path,
         progress: &dyn Progress,
     ) -> Result<(), StepFailure> {
         let splits: &[SplitVertex] = &[];
         let source = Source { scale: 1.0, split_vertices: splits };
-        let fabrication = fabricate(self.mesh()?, self.made.as_ref(), (unfold, choice, sheet), &source, progress)?;
+        let choice = choice.in_folder(folder);
+        let fabrication = fabricate(self.mesh()?, self.made.as_ref(), (unfold, &choice, sheet), &source, progress)?;
         self.notes.extend(fabrication.notes());
         self.fabrication = Some((fabrication, sheet.clone()));
         Ok(())

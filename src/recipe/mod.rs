@@ -3,12 +3,14 @@
 //! Every step is the same parameter struct as the verb of that name on the command line. The steps of a recipe share one
 //! [`Job`]: the mesh as it is by then, what the last step made, and the results that are written at the end.
 
+mod d_form;
 mod divide;
 mod error;
 mod fabricate;
 mod job;
 mod outputs;
 mod parse;
+mod seam_choice;
 
 use std::path::PathBuf;
 
@@ -18,6 +20,7 @@ pub use error::{Position, RecipeError, StepError, StepFailure};
 pub use fabricate::{FabricateParams, Fabrication, fabricate};
 pub use job::Job;
 pub use outputs::{fabrication_outputs, job_outputs, sheet_picture};
+pub use seam_choice::SeamChoice;
 
 use crate::check::CheckParams;
 use crate::io::ReadOptions;

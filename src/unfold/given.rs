@@ -19,11 +19,9 @@ pub fn check_seams(mesh: &Mesh, seams: &Seams) -> Result<(), UnfoldError> {
     };
     let mut is_open = EdgeMap::filled(mesh.edge_slots(), !opens);
     listed.iter().filter(|&&e| mesh.has_edge(e)).for_each(|&e| is_open[e] = opens);
-    let is_inside =
-        |v: &crate::mesh::VertexId| mesh.outgoing(*v).all(|h| !is_open[h.edge()] && !mesh.is_rim(h.edge()));
+    let is_inside = |v: &crate::mesh::VertexId| mesh.outgoing(*v).all(|h| !is_open[h.edge()] && !mesh.is_rim(h.edge()));
     let is_cone = |v: &crate::mesh::VertexId| angle_deficit(mesh, *v).is_some_and(|deficit| deficit.abs() > FLAT);
-    let vertices: Vec<usize> =
-        mesh.vertices().filter(|v| is_inside(v) && is_cone(v)).map(|v| v.index()).collect();
+    let vertices: Vec<usize> = mesh.vertices().filter(|v| is_inside(v) && is_cone(v)).map(|v| v.index()).collect();
     if vertices.is_empty() { Ok(()) } else { Err(UnfoldError::ConePoints { vertices }) }
 }
 

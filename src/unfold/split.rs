@@ -81,7 +81,8 @@ pub(super) fn split_to_count(layout: &mut Layout, count: usize) {
         let forest = &layout.forest;
         let folds = (0..layout.dual.face_count() as u32).filter(|&c| forest.parent_side[c as usize] != NONE);
         let keeps = |c: u32| forest.must_keep(layout.dual, c);
-        let best = folds.max_by_key(|&c| (!keeps(c), forest.size(forest.root(c)), forest.smaller_size(c), std::cmp::Reverse(c)));
+        let best = folds
+            .max_by_key(|&c| (!keeps(c), forest.size(forest.root(c)), forest.smaller_size(c), std::cmp::Reverse(c)));
         layout.split(best.expect("fewer pieces than faces leave a fold"));
     }
 }

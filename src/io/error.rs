@@ -95,6 +95,25 @@ pub enum IoError {
         /// The other end.
         b: usize,
     },
+    /// A seam file names two vertices without an edge.
+    #[error("{place}: there is no edge between vertices {a} and {b} (counted from 0); name the two ends of an edge")]
+    NoSuchEdge {
+        /// Where.
+        place: Place,
+        /// One end, counted from 0.
+        a: usize,
+        /// The other end.
+        b: usize,
+    },
+    /// A seam file without a seam.
+    #[error(
+        "{} names no seam; write `l 1 2 3` lines in an OBJ file, or two vertices (counted from 0) per line",
+        Shown(path)
+    )]
+    NoSeams {
+        /// The file.
+        path: PathBuf,
+    },
     /// The surface would be closed if vertices at one point were one.
     #[error(
         "{}: the surface is torn: each of its {rim_edges} rim edges lies exactly on another one; \
@@ -259,6 +278,12 @@ pub enum ContentFault {
     /// An OBJ seam line that cannot be read.
     #[error("`{text}` is not a seam; it needs the numbers of at least two vertices, as in `l 1 2 3`")]
     NotASeam {
+        /// The line.
+        text: String,
+    },
+    /// A line of an edge list that cannot be read.
+    #[error("`{text}` is not an edge; it needs the numbers of its two vertices, counted from 0, as in `3 17`")]
+    NotAnEdge {
         /// The line.
         text: String,
     },

@@ -1,31 +1,47 @@
 //! From a mesh to pieces on sheets: chooses the seams, unfolds, and divides what no sheet can hold.
 
 use std::collections::BTreeSet;
+use std::path::Path;
 
 use serde::Deserialize;
 
 use super::StepFailure;
 use super::divide::{Room, folds_to_open};
-use crate::measure::{edge_length, fold_angle};
-use crate::mesh::{EdgeId, EdgeMap, FaceMap, Mesh};
+use super::dull_folds;
+use super::seam_choice::SeamChoice;
+use crate::mesh::{EdgeId, FaceMap, Mesh};
 use crate::net::{Net, PieceId};
 use crate::progress::Progress;
-use crate::seam::least_matching_by;
 use crate::select::{Context, Made, Selection};
 use crate::sheet::{SheetError, SheetParams, SheetSet, lay_out};
-use crate::unfold::{PiecesMode, Seams, Source, UnfoldParams, unfold};
+use crate::unfold::{PiecesMode, Seams, Source, UnfoldParams, check_folded, check_seams, unfold};
 
 /// Which edges open. Without either, marked seams of the file are used; without marks the unfolder chooses.
 #[derive(Debug, Clone, Default, clap::Args, Deserialize)]
 pub struct FabricateParams {
-    /// Edges to open, in the selection language; others open only where a piece cannot lie flat without.
-    #[arg(long, value_name = "SELECTION", conflicts_with = "folds")]
+    /// Edges to open: a selection, or a file (OBJ with `l` lines, or `v0 v1` per line); others open only where faces overlap.
+    #[arg(long, value_name = "SELECTION|FILE", conflicts_with = "folds")]
     #[serde(default)]
-    pub seams: Option<Selection>,
+    pub seams: Option<SeamChoice>,
     /// Edges to keep as folds (`matching`, `hamiltonian`, `strip`, …); all others open.
     #[arg(long, value_name = "SELECTION")]
     #[serde(default)]
     pub folds: Option<Selection>,
+    /// Edges that must stay together as folds, whatever else opens; an error where they cannot.
+    #[arg(long, value_name = "SELECTION")]
+    #[serde(default)]
+    pub keep: Option<Selection>,
+    /// Edges that must open, whatever else does.
+    #[arg(long, value_name = "SELECTION")]
+    #[serde(default)]
+    pub cut: Option<Selection>,
+}
+
+impl FabricateParams {
+    /// The same with a seam file looked for from a folder.
+    pub(super) fn in_folder(&self, folder: &Path) -> Self {
+        Self { seams: self.seams.as_ref().map(|seams| seams.in_folder(folder)), ..self.clone() }
+    }
 }
 
 /// Pieces, and the sheets that hold them.
@@ -41,9 +57,6 @@ pub struct Fabrication {
     pub divided: usize,
 }
 
-/// A D-form folds far less than it is seamed: the mean seam must turn at least this many times as much as the mean fold.
-const D_FORM_CONTRAST: f64 = 4.0;
-
 /// Unfolds a mesh, in millimetres, and lays the pieces out. Pieces too large for the sheet are opened at the fold that
 /// divides their area best until they fit.
 ///
@@ -57,13 +70,17 @@ pub fn fabricate(
     source: &Source<'_>,
     progress: &dyn Progress,
 ) -> Result<Fabrication, StepFailure> {
-    let (mut seams, words) = choose_seams(mesh, made, params, choice)?;
+    let keep = selected(mesh, made, choice.keep.as_ref())?;
+    let (mut seams, words) = choose_seams(mesh, made, source, params, choice)?;
     let mut params = params.clone();
     let mut divided = 0;
     loop {
         let net = unfold(mesh, &seams, &params, source, progress)?;
         match lay_out(&net, sheet) {
-            Ok(sheets) => return Ok(Fabrication { net, sheets, seams: words, divided }),
+            Ok(sheets) => {
+                check_folded(&net, &keep)?;
+                return Ok(Fabrication { net, sheets, seams: words, divided });
+            }
             Err(SheetError::PiecesTooLarge { pieces, width, height, margin }) if pieces.iter().all(|p| p.faces > 1) => {
                 let mut open: BTreeSet<usize> = net.seams.iter().map(|s| s.id.0).collect();
                 let before = open.len();
@@ -86,19 +103,18 @@ pub fn fabricate(
 fn choose_seams(
     mesh: &Mesh,
     made: Option<&Made>,
+    source: &Source<'_>,
     params: &UnfoldParams,
     choice: &FabricateParams,
 ) -> Result<(Seams, &'static str), StepFailure> {
-    let context = Context { mesh, made };
-    if let Some(seams) = &choice.seams {
-        return Ok((Seams::Open(seams.edges(&context)?), "the edges that were selected open"));
+    let [keep, cut] = [&choice.keep, &choice.cut].map(|list| selected(mesh, made, list.as_ref()));
+    let (keep, cut) = (keep?, cut?);
+    if let Some((seams, words)) = given_seams(mesh, made, source, choice, [&keep, &cut])? {
+        check_seams(mesh, &seams)?;
+        return Ok((seams, words));
     }
-    if let Some(folds) = &choice.folds {
-        return Ok((Seams::Folds(folds.edges(&context)?), "all edges but the selected folds open"));
-    }
-    let marked = Seams::marked(mesh);
-    if marked != Seams::Free {
-        return Ok((marked, "the seams that the file marks open"));
+    if !keep.is_empty() || !cut.is_empty() {
+        return Ok((Seams::Within { keep, cut }, "the unfolder chose the seams within what was to be kept and cut"));
     }
     // Cutting a matching over and over leaves strips; where they reach every face, they are the pieces.
     if params.pieces == PiecesMode::Auto
@@ -108,11 +124,45 @@ fn choose_seams(
         return Ok((Seams::Folds(made.strip.clone()), "the strips that the last cut made fold, all other edges open"));
     }
     if params.pieces == PiecesMode::Auto
-        && let Some(folds) = d_form_folds(mesh)
+        && let Some(folds) = dull_folds::folds(mesh)
     {
         return Ok((Seams::Folds(folds), "the model is a D-form: its dull edges fold, all others open"));
     }
     Ok((Seams::Free, "the unfolder chose the seams"))
+}
+
+/// The seams that the user gave, in one way or the other.
+fn given_seams(
+    mesh: &Mesh,
+    made: Option<&Made>,
+    source: &Source<'_>,
+    choice: &FabricateParams,
+    [keep, cut]: [&[EdgeId]; 2],
+) -> Result<Option<(Seams, &'static str)>, StepFailure> {
+    let context = Context { mesh, made };
+    let open = |mut edges: Vec<EdgeId>| {
+        edges.extend(cut);
+        Seams::Open(edges)
+    };
+    if let Some(seams) = &choice.seams {
+        let edges = seams.edges(&context, source.split_vertices)?;
+        return Ok(Some((open(edges), "the edges that were selected open")));
+    }
+    if let Some(folds) = &choice.folds {
+        let mut edges = folds.edges(&context)?;
+        edges.extend(keep);
+        edges.retain(|e| !cut.contains(e));
+        return Ok(Some((Seams::Folds(edges), "all edges but the selected folds open")));
+    }
+    Ok(match Seams::marked(mesh) {
+        Seams::Open(marked) => Some((open(marked), "the seams that the file marks open")),
+        _ => None,
+    })
+}
+
+/// The edges of a list that may be missing.
+fn selected(mesh: &Mesh, made: Option<&Made>, list: Option<&Selection>) -> Result<Vec<EdgeId>, StepFailure> {
+    Ok(list.map_or(Ok(Vec::new()), |list| list.edges(&Context { mesh, made }))?)
 }
 
 fn strips_reach_every_face(mesh: &Mesh, strip: &[EdgeId]) -> bool {
@@ -121,28 +171,6 @@ fn strips_reach_every_face(mesh: &Mesh, strip: &[EdgeId]) -> bool {
         is_reached[f] = true;
     }
     mesh.is_closed() && mesh.faces().all(|f| is_reached[f])
-}
-
-/// The folds of a D-form: a closed 3-valent mesh whose dullest perfect matching of edges is clearly duller than the rest.
-fn d_form_folds(mesh: &Mesh) -> Option<Vec<EdgeId>> {
-    if !mesh.is_closed() || mesh.vertices().any(|v| mesh.valence(v) != 3) {
-        return None;
-    }
-    // By angle alone: with the length as a factor, short sharp edges would be lighter than the long dull folds of a strip.
-    let folds = least_matching_by(mesh, |e| fold_angle(mesh, e).unwrap_or(0.0).abs()).ok()?;
-    let mut is_fold = EdgeMap::filled(mesh.edge_slots(), false);
-    for &e in &folds {
-        is_fold[e] = true;
-    }
-    let mean = |wanted: bool| {
-        let edges = mesh.edges().filter(|&e| is_fold[e] == wanted);
-        let (turn, length) = edges.fold((0.0, 0.0), |(turn, length), e| {
-            let l = edge_length(mesh, e);
-            (turn + l * fold_angle(mesh, e).unwrap_or(0.0).abs(), length + l)
-        });
-        turn / length
-    };
-    (mean(false) > D_FORM_CONTRAST * mean(true)).then_some(folds)
 }
 
 /// The room inside the margin of a sheet, kerf included; `None` without sheets.

@@ -97,7 +97,7 @@ impl Job {
             Step::Check(params) => (self.check, self.is_check_asked) = (params.clone(), true),
             Step::Render(params) => self.render = params.clone(),
             Step::Dform { dform, sheet } => self.dform(dform, sheet, progress)?,
-            Step::Unfold { unfold, fabricate, sheet } => self.unfold(unfold, fabricate, sheet, progress)?,
+            Step::Unfold { unfold, fabricate, sheet } => self.unfold(unfold, fabricate, sheet, folder, progress)?,
         }
         Ok(())
     }
@@ -129,11 +129,11 @@ impl Job {
         self.notes.extend(carved.notes);
         self.mesh = Some(carved.mesh);
         let folds = FabricateParams {
-            seams: None,
             folds: Selection::of_ids(carved.made.strip.iter().map(|e| e.index() as u32)),
+            ..FabricateParams::default()
         };
         self.made = Some(carved.made);
-        self.unfold(&UnfoldParams::default(), &folds, sheet, progress)
+        self.unfold(&UnfoldParams::default(), &folds, sheet, Path::new(""), progress)
     }
 
     fn unfold(
@@ -141,11 +141,13 @@ impl Job {
         unfold: &UnfoldParams,
         choice: &FabricateParams,
         sheet: &SheetParams,
+        folder: &Path,
         progress: &dyn Progress,
     ) -> Result<(), StepFailure> {
         let splits: &[SplitVertex] = &[];
         let source = Source { scale: 1.0, split_vertices: splits };
-        let fabrication = fabricate(self.mesh()?, self.made.as_ref(), (unfold, choice, sheet), &source, progress)?;
+        let choice = choice.in_folder(folder);
+        let fabrication = fabricate(self.mesh()?, self.made.as_ref(), (unfold, &choice, sheet), &source, progress)?;
         self.notes.extend(fabrication.notes());
         self.fabrication = Some((fabrication, sheet.clone()));
         Ok(())

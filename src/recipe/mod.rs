@@ -5,11 +5,13 @@
 
 mod dform;
 mod divide;
+mod dull_folds;
 mod error;
 mod fabricate;
 mod job;
 mod outputs;
 mod parse;
+mod seam_choice;
 
 #[cfg(test)]
 mod tests;
@@ -23,6 +25,7 @@ pub use error::{Position, RecipeError, StepError, StepFailure};
 pub use fabricate::{FabricateParams, Fabrication, fabricate};
 pub use job::Job;
 pub use outputs::{fabrication_outputs, job_outputs, sheet_picture};
+pub use seam_choice::SeamChoice;
 
 use crate::check::CheckParams;
 use crate::io::ReadOptions;

@@ -103,7 +103,9 @@ impl Source<'_> {
             .map(|(key, value)| Entry { key: key.get_ref().as_ref(), key_span: key.span(), value })
             .collect();
         entries.sort_by_key(|e| e.key_span.start);
-        let is_verb = |e: &&Entry<'_>| VERBS.iter().any(|v| v.0 == e.key);
+        // An unfold step has a list of edges called `cut`, which is no verb there.
+        let is_unfold = entries.iter().any(|e| e.key == "unfold");
+        let is_verb = |e: &&Entry<'_>| VERBS.iter().any(|v| v.0 == e.key) && !(is_unfold && e.key == "cut");
         let mut verbs = entries.iter().filter(is_verb);
         let Some(verb) = verbs.next() else {
             return Err(self.no_verb(step.span(), &entries));

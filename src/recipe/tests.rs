@@ -119,6 +119,14 @@ fn made_and_strip_mean_what_the_last_step_made() {
 }
 
 #[test]
+fn an_unfold_step_has_lists_of_edges_to_keep_and_to_cut() {
+    let job = run("[[step]]\nsolid = \"cube\"\n[[step]]\nunfold = \"one\"\nkeep = \"0\"\ncut = \"3\"").expect("a net");
+    let (fabrication, _) = job.fabrication.as_ref().expect("pieces");
+    assert!(fabrication.net.folds.iter().any(|f| f.id.0 == 0));
+    assert!(fabrication.net.seams.iter().any(|s| s.id.0 == 3));
+}
+
+#[test]
 fn a_piece_too_large_for_the_sheet_is_divided_until_it_fits() {
     let recipe = |sheet: &str| {
         format!("[[step]]\nsolid = \"cube\"\nsize = 100\n[[step]]\nunfold = \"one\"\nsheet = \"{sheet}\"")

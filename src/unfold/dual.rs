@@ -33,6 +33,8 @@ pub(super) struct Hinge {
     pub length: f64,
     /// How far the faces turn against each other, in radians, without sign.
     pub fold: f64,
+    /// Whether the caller wants it to stay together.
+    pub is_kept: bool,
 }
 
 /// See the module documentation.
@@ -75,7 +77,7 @@ impl Dual {
             let flat = FlatPolygon::new(mesh, f, rounding)?;
             dual.push_face(mesh, f, flat)?;
         }
-        dual.link(mesh, &may_fold(mesh, seams)?)?;
+        dual.link(mesh, seams)?;
         Ok(dual)
     }
 
@@ -108,7 +110,8 @@ impl Dual {
         Ok(())
     }
 
-    fn link(&mut self, mesh: &Mesh, may_fold: &EdgeMap<bool>) -> Result<(), UnfoldError> {
+    fn link(&mut self, mesh: &Mesh, seams: &Seams) -> Result<(), UnfoldError> {
+        let (may_fold, must_fold) = (may_fold(mesh, seams)?, must_fold(mesh, seams)?);
         let mut side_of = HalfEdgeMap::filled(mesh.half_edge_slots(), NONE);
         for (s, &h) in self.half_edges.iter().enumerate() {
             side_of[h] = s as u32;
@@ -127,10 +130,15 @@ impl Dual {
             if may_fold[e] {
                 let fold = measure::fold_angle(mesh, e).map_or(0.0, f64::abs);
                 sides.into_iter().for_each(|s| self.hinge[s as usize] = self.hinges.len() as u32);
-                self.hinges.push(Hinge { sides, length: measure::edge_length(mesh, e), fold });
+                self.hinges.push(Hinge { sides, length: measure::edge_length(mesh, e), fold, is_kept: must_fold[e] });
             }
         }
         Ok(())
+    }
+
+    /// The edge of a side.
+    pub fn edge(&self, s: u32) -> EdgeId {
+        self.half_edges[s as usize].edge()
     }
 
     /// Number of faces.
@@ -179,7 +187,23 @@ fn may_fold(mesh: &Mesh, seams: &Seams) -> Result<EdgeMap<bool>, UnfoldError> {
         Seams::Free => (&[], false),
         Seams::Open(edges) => (edges, false),
         Seams::Folds(edges) => (edges, true),
+        Seams::Within { cut, .. } => (cut, false),
     };
+    marked(mesh, listed, value)
+}
+
+/// Which edges have to stay together.
+fn must_fold(mesh: &Mesh, seams: &Seams) -> Result<EdgeMap<bool>, UnfoldError> {
+    let Seams::Within { keep, cut } = seams else { return marked(mesh, &[], true) };
+    let both: Vec<usize> = keep.iter().filter(|e| cut.contains(e)).map(|e| e.index()).collect();
+    if !both.is_empty() {
+        return Err(UnfoldError::KeptAndCut { edges: both });
+    }
+    marked(mesh, keep, true)
+}
+
+/// A table with a value at the listed edges and its opposite elsewhere.
+fn marked(mesh: &Mesh, listed: &[EdgeId], value: bool) -> Result<EdgeMap<bool>, UnfoldError> {
     let mut table = EdgeMap::filled(mesh.edge_slots(), !value);
     for &e in listed {
         if !mesh.has_edge(e) {

@@ -1,6 +1,7 @@
 //! Why a mesh could not be unfolded.
 
 use super::ProofError;
+use crate::seam::{NoHamiltonian, SeamError};
 
 /// Why a mesh could not be unfolded. Faces and edges are named by their numbers in the mesh.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -52,8 +53,9 @@ pub enum UnfoldError {
     },
     /// The search ended with more pieces than asked for.
     #[error(
-        "no net of {asked} piece(s) without overlap was found, only one of {found} (components: {components}); \
-         raise --effort, try another --seed, or take --pieces auto"
+        "no net of {asked} piece(s) without overlap was found, only one of {found} (components: {components}); tried were \
+         {starts} first nets, {moves} moves of branches and {joins} joins of pieces; raise --effort, try another --seed, \
+         or take --pieces auto"
     )]
     MorePieces {
         /// Pieces asked for.
@@ -62,6 +64,49 @@ pub enum UnfoldError {
         found: usize,
         /// Connected parts of the mesh; no net has fewer pieces.
         components: usize,
+        /// Spanning forests that were laid to start from.
+        starts: usize,
+        /// Moves of branches that were looked for.
+        moves: u64,
+        /// Joins of pieces that were tried.
+        joins: usize,
+    },
+    /// No choice of seams makes two pieces.
+    #[error(transparent)]
+    Seam(#[from] SeamError),
+    /// Seams of two pieces exist, but with each of them a piece overlaps itself.
+    #[error(
+        "no two-piece seam lies flat without overlap: {overlapping} seams were laid out and overlap, and what was learnt \
+         from them leaves no other ({proof}); take --pieces auto"
+    )]
+    NoFlatTwoPieces {
+        /// Seams that were laid out.
+        overlapping: usize,
+        /// How it was shown that there is no other.
+        proof: NoHamiltonian,
+    },
+    /// Edges to keep that had to open.
+    #[error(
+        "edges {edges:?} cannot all stay together: their faces would overlap or surround a vertex that is not flat; keep fewer"
+    )]
+    NotKept {
+        /// The edges that opened, ascending.
+        edges: Vec<usize>,
+    },
+    /// Edges to keep and to cut at once.
+    #[error("edges {edges:?} are both to be kept and to be cut; leave them out of one of the two lists")]
+    KeptAndCut {
+        /// The edges.
+        edges: Vec<usize>,
+    },
+    /// Vertices that no given seam reaches though the faces around them cannot lie flat.
+    #[error(
+        "too few seams: the faces around vertices {vertices:?} cannot lie flat together; lead a seam to each of them, or \
+         leave the seams to the unfolder"
+    )]
+    ConePoints {
+        /// The vertices, ascending.
+        vertices: Vec<usize>,
     },
     /// More pieces were asked for than there are faces.
     #[error("{asked} pieces cannot be made of {faces} faces; ask for {faces} at most")]

@@ -120,6 +120,14 @@ impl Forest {
         }
     }
 
+    /// Whether the caller wants the fold above `c` to stay.
+    pub fn must_keep(&self, dual: &Dual, c: u32) -> bool {
+        match self.parent_side[c as usize] {
+            NONE => false,
+            s => dual.hinges[dual.hinge[s as usize] as usize].is_kept,
+        }
+    }
+
     /// Number of faces of that smaller part.
     pub fn smaller_size(&self, c: u32) -> u32 {
         self.size(c).min(self.size(self.root(c)) - self.size(c))

@@ -4,10 +4,13 @@
 //! moving does not help, and lets [`prove`], which shares none of that code, measure the result against the mesh.
 
 mod convex;
+mod d_form;
 mod dual;
 mod error;
 mod forest;
+mod given;
 mod grid;
+mod join;
 mod layout;
 mod overlap;
 mod params;
@@ -19,6 +22,7 @@ mod split;
 mod start;
 
 pub use error::UnfoldError;
+pub use given::{check_folded, check_seams};
 pub use params::{PiecesMode, PiecesModeError, Seams, Source, UnfoldParams};
 pub use proof::{EdgeFault, LENGTH as LENGTH_LIMIT, ProofError, REFOLD as REFOLD_LIMIT, prove, renumbered};
 
@@ -43,6 +47,8 @@ const STARTS: usize = 30;
 /// Which edges fold: a forest over the faces, within what `seams` allows. Two faces of a piece whose common edge comes to lie
 /// on itself fold there too (around a flat vertex, for instance), so no slit of zero width is ever cut. With
 /// [`Seams::Free`] the forest is the best of several rules, then repaired; the piece count is as low as the search finds.
+/// [`Seams::Within`] holds that search to edges that stay and edges that open. [`PiecesMode::Strips`], and two pieces of a
+/// closed 3-valent mesh, choose seams as D-forms do: the folds meet every vertex once.
 /// With given seams or folds every ring of faces opens at the fold with the least fold angle × length, flat ones last.
 /// Where faces overlap and no other allowed edge helps, a further fold opens. So given seams always open; a given fold may.
 ///
@@ -68,12 +74,30 @@ pub fn unfold(
     let whole = |forest| Layout::new(&dual, forest, usize::MAX).expect("no limit, no giving up");
     let layout = match params.pieces {
         PiecesMode::Faces => whole(Forest::scattered(&dual)),
-        PiecesMode::Strips => settled(whole(start::strips(&dual))),
+        PiecesMode::Strips => settled(match d_form::strips(&dual, mesh, seams, params, progress) {
+            Some(layout) => layout,
+            None => whole(start::strips(&dual)),
+        }),
+        PiecesMode::Count(2) => match d_form::two_pieces(&dual, mesh, seams, params, progress)? {
+            Some(layout) => layout,
+            None => counted(fewest(&dual, mesh, seams, params, progress), params.pieces)?,
+        },
         _ => counted(fewest(&dual, mesh, seams, params, progress), params.pieces)?,
     };
     let mut net = result::net(mesh, &layout, source);
+    if let Seams::Within { keep, .. } = seams {
+        check_folded(&net, keep)?;
+    }
     net.proof = prove(mesh, &net)?;
     Ok(net)
+}
+
+/// What a search has tried, for the message when it did not find what was asked for.
+#[derive(Debug, Clone, Copy, Default)]
+struct Tried {
+    starts: usize,
+    moves: u64,
+    joins: usize,
 }
 
 /// The layout with the fewest pieces that the search finds.
@@ -83,32 +107,40 @@ fn fewest<'a>(
     seams: &Seams,
     params: &UnfoldParams,
     progress: &dyn Progress,
-) -> Layout<'a> {
+) -> (Layout<'a>, Tried) {
     let mut random = Random::new(params.seed);
-    let start = best_start(dual, mesh, seams, &mut random, progress);
+    let (start, starts) = best_start(dual, mesh, seams, &mut random, progress);
+    let mut tried = Tried { starts, ..Tried::default() };
     let budget = u64::from(params.effort) * 30 * dual.face_count().max(100) as u64;
-    let mut layout = Repair::new(start, random.bits()).run(budget, progress);
+    let mut repair = Repair::new(start, random.bits());
+    let mut layout = repair.run(budget, progress);
+    let (moves, work) = repair.effort();
+    tried.moves = u64::from(moves);
     if !layout.overlaps.is_empty() {
         split::split_overlaps(&mut layout);
         split::join_pieces(&mut layout, || !progress.is_cancelled());
+        let mut joiner = join::Joiner::new(layout, &mut random, budget.saturating_sub(work));
+        joiner.run(progress);
+        (tried.joins, tried.moves) = (joiner.joins, tried.moves + joiner.moves);
+        layout = joiner.layout;
     }
-    settled(layout)
+    (settled(layout), tried)
 }
 
-/// The start with the fewest overlaps; the first without any.
+/// The start with the fewest overlaps, the first without any, and how many were tried.
 fn best_start<'a>(
     dual: &'a Dual,
     mesh: &Mesh,
     seams: &Seams,
     random: &mut Random,
     progress: &dyn Progress,
-) -> Layout<'a> {
-    let first = if *seams == Seams::Free { Rule::of_turn(0, random) } else { Rule::Sharpest };
+) -> (Layout<'a>, usize) {
+    let first = if seams.is_searched() { Rule::of_turn(0, random) } else { Rule::Sharpest };
     let lay = |rule, limit, random: &mut Random| Layout::new(dual, start::forest(dual, mesh, rule, random), limit);
     let mut best = lay(first, usize::MAX, random).expect("no limit, no giving up");
     for turn in 1..STARTS {
         if best.overlaps.is_empty() || progress.is_cancelled() {
-            break;
+            return (best, turn);
         }
         progress.report("choosing a start", turn, STARTS);
         let rule = Rule::of_turn(turn, random);
@@ -116,7 +148,7 @@ fn best_start<'a>(
             best = better;
         }
     }
-    best
+    (best, STARTS)
 }
 
 /// Laid out afresh until that shows no overlap: what the moves have lost to rounding may hide one at the bound.
@@ -130,7 +162,7 @@ fn settled(layout: Layout) -> Layout {
 }
 
 /// Holds the layout to the number of pieces that was asked for.
-fn counted(mut layout: Layout, mode: PiecesMode) -> Result<Layout, UnfoldError> {
+fn counted<'a>((mut layout, tried): (Layout<'a>, Tried), mode: PiecesMode) -> Result<Layout<'a>, UnfoldError> {
     let components = layout.dual.component_count();
     let asked = match mode {
         PiecesMode::One => components,
@@ -139,7 +171,8 @@ fn counted(mut layout: Layout, mode: PiecesMode) -> Result<Layout, UnfoldError> 
     };
     let found = layout.forest.roots().len();
     if found > asked {
-        return Err(UnfoldError::MorePieces { asked, found, components });
+        let Tried { starts, moves, joins } = tried;
+        return Err(UnfoldError::MorePieces { asked, found, components, starts, moves, joins });
     }
     if found == asked {
         return Ok(layout);

@@ -115,11 +115,23 @@ pub enum Seams {
     Free,
     /// These edges open; of the others only those that keep a piece from lying flat without overlap.
     Open(Vec<EdgeId>),
+    /// The unfolder chooses, but these edges stay together and those open. An edge that cannot stay is an error.
+    Within {
+        /// Edges that stay together.
+        keep: Vec<EdgeId>,
+        /// Edges that open.
+        cut: Vec<EdgeId>,
+    },
     /// These edges stay together where the pieces can lie flat without overlap; all others open.
     Folds(Vec<EdgeId>),
 }
 
 impl Seams {
+    /// Whether the unfolder chooses, within limits or without.
+    pub fn is_searched(&self) -> bool {
+        matches!(self, Self::Free | Self::Within { .. })
+    }
+
     /// The edges that carry the mesh's seam mark; [`Seams::Free`] when there are none.
     pub fn marked(mesh: &Mesh) -> Self {
         let marked: Vec<EdgeId> = mesh.edges().filter(|&e| mesh.is_seam(e)).collect();

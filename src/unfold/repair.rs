@@ -2,8 +2,8 @@
 //!
 //! For a pair of faces that overlap, one of the folds on the path between them must go. Cutting one leaves two parts; the
 //! smaller is hung on again by another edge of its boundary, and a move that lessens the overlaps is kept. An edge that was
-//! cut may not fold again for a while (tabu list). After Zawallich and Pajarola 2024 ("Unfolding polyhedra via tabu
-//! search"); here only the moved part is laid and tested again.
+//! cut may not fold again for a while (tabu list). After Zawallich 2024 ("Unfolding polyhedra via tabu search"); here only
+//! the moved part is laid and tested again, and it may also move to another piece.
 
 use super::dual::NONE;
 use super::forest::Forest;
@@ -63,9 +63,14 @@ impl<'a> Repair<'a> {
         }
     }
 
+    /// How many moves were looked for and how many faces were laid for them.
+    pub fn effort(&self) -> (u32, u64) {
+        (self.step, self.work)
+    }
+
     /// Moves branches until no overlap is left, `budget` faces have been laid, or a quarter of that brought nothing better.
     /// Returns the best layout on the way.
-    pub fn run(mut self, budget: u64, progress: &dyn Progress) -> Layout<'a> {
+    pub fn run(&mut self, budget: u64, progress: &dyn Progress) -> Layout<'a> {
         let start = self.layout.overlaps.len();
         let (mut low, mut low_work) = (start, 0);
         let mut best = self.layout.forest.parent_side.clone();
@@ -83,7 +88,7 @@ impl<'a> Repair<'a> {
             let forest = Forest::new(self.layout.dual, best);
             return Layout::new(self.layout.dual, forest, usize::MAX).expect("no limit, no giving up");
         }
-        self.layout
+        self.layout.clone()
     }
 
     fn step(&mut self) {
@@ -93,6 +98,7 @@ impl<'a> Repair<'a> {
         let (f, g) = self.layout.overlaps[self.random.below(self.layout.overlaps.len())];
         self.layout.forest.path(self.layout.dual, f, g, &mut self.path);
         let forest = &self.layout.forest;
+        self.path.retain(|&c| !forest.must_keep(self.layout.dual, c));
         self.path.sort_by_key(|&c| forest.smaller_size(c));
         self.path.truncate(FOLDS);
         let mut best: Option<Move> = None;
@@ -117,7 +123,7 @@ impl<'a> Repair<'a> {
             // One worse than now is worth a thought, after that only what beats the best so far.
             let Ok(limit) = usize::try_from(before - best.as_ref().map_or(-1, |m| m.gain + 1)) else { return };
             let motion = self.layout.motion(side);
-            let piece = self.layout.piece[self.faces[0] as usize];
+            let piece = self.layout.piece[self.layout.dual.neighbour(side) as usize];
             self.work += self.layout.try_motion(&self.faces, motion, piece, limit, &mut self.found) as u64;
             if self.found.len() > limit {
                 continue;
@@ -134,12 +140,10 @@ impl<'a> Repair<'a> {
     fn gather_hinges(&mut self, cut: u32) {
         let Self { layout, hinges, faces, tabu, step, .. } = self;
         let dual = layout.dual;
-        let piece = layout.piece[faces[0] as usize];
         let above = layout.forest.parent_side[cut as usize];
         let is_open = |&s: &u32| {
             let g = dual.neighbour(s);
             dual.hinge[s as usize] != NONE
-                && layout.piece[g as usize] == piece
                 && !layout.is_marked(g)
                 && s != above
                 && dual.across[s as usize] != above

@@ -11,11 +11,13 @@ pub(super) fn split_overlaps(layout: &mut Layout) {
     while !layout.overlaps.is_empty() {
         count_parted(layout, &mut parted);
         let dual = layout.dual;
-        let cost = |c: u32| fold_cost(dual, &layout.forest, c);
-        let folds = (0..dual.face_count() as u32).filter(|&c| layout.forest.parent_side[c as usize] != NONE);
+        let forest = &layout.forest;
+        let cost = |c: u32| fold_cost(dual, forest, c);
+        let folds = (0..dual.face_count() as u32).filter(|&c| forest.parent_side[c as usize] != NONE);
         let best = folds.min_by(|&a, &b| {
             let by_count = parted[b as usize].cmp(&parted[a as usize]);
-            by_count.then_with(|| cost(a).total_cmp(&cost(b))).then(a.cmp(&b))
+            let keeps = |c: u32| parted[c as usize] == 0 || forest.must_keep(dual, c);
+            keeps(a).cmp(&keeps(b)).then(by_count).then_with(|| cost(a).total_cmp(&cost(b))).then(a.cmp(&b))
         });
         layout.split(best.expect("two faces that overlap hang together by folds"));
     }
@@ -78,7 +80,9 @@ pub(super) fn split_to_count(layout: &mut Layout, count: usize) {
     while layout.forest.roots().len() < count {
         let forest = &layout.forest;
         let folds = (0..layout.dual.face_count() as u32).filter(|&c| forest.parent_side[c as usize] != NONE);
-        let best = folds.max_by_key(|&c| (forest.size(forest.root(c)), forest.smaller_size(c), std::cmp::Reverse(c)));
+        let keeps = |c: u32| forest.must_keep(layout.dual, c);
+        let best = folds
+            .max_by_key(|&c| (!keeps(c), forest.size(forest.root(c)), forest.smaller_size(c), std::cmp::Reverse(c)));
         layout.split(best.expect("fewer pieces than faces leave a fold"));
     }
 }

@@ -68,7 +68,18 @@ impl Rule {
 /// The spanning forest of a rule.
 pub(super) fn forest(dual: &Dual, mesh: &Mesh, rule: Rule, random: &mut Random) -> Forest {
     let weights = weights(dual, mesh, rule, random);
+    spanning(dual, by_weight(dual, &weights))
+}
+
+/// The forest of given folds. A ring of them opens at the least fold angle × length, flat ones last.
+pub(super) fn folded(dual: &Dual, is_fold: &EdgeMap<bool>) -> Forest {
+    let weights: Vec<f64> = dual.hinges.iter().map(|h| -h.fold * h.length).collect();
     let order = by_weight(dual, &weights);
+    spanning(dual, order.into_iter().filter(|&h| is_fold[dual.edge(dual.hinges[h].sides[0])]))
+}
+
+/// The spanning forest of hinges in order.
+fn spanning(dual: &Dual, order: impl IntoIterator<Item = usize>) -> Forest {
     let mut sets = Sets::new(dual.face_count());
     let mut kept = vec![false; dual.across.len()];
     for hinge in order {
@@ -81,9 +92,13 @@ pub(super) fn forest(dual: &Dual, mesh: &Mesh, rule: Rule, random: &mut Random) 
     hang(dual, &kept)
 }
 
-/// Chains: every face keeps two folds at most, flat and long ones first.
+/// Chains: every face keeps two folds at most, the dullest first and of nearly equal ones the longest. Every vertex inside
+/// the mesh ends up on a seam, since a ring of folds around one would be no chain.
 pub(super) fn strips(dual: &Dual) -> Forest {
-    let weights: Vec<f64> = dual.hinges.iter().map(|h| -h.length).collect();
+    /// How much duller a fold must be to come before one that is as much longer as any two edges can be, in radians.
+    const STEP: f64 = 0.02;
+    let longest = dual.hinges.iter().map(|h| h.length).fold(f64::MIN_POSITIVE, f64::max);
+    let weights: Vec<f64> = dual.hinges.iter().map(|h| h.fold - STEP * h.length / longest).collect();
     let mut sets = Sets::new(dual.face_count());
     let mut folds = vec![0_u8; dual.face_count()];
     let mut kept = vec![false; dual.across.len()];
@@ -98,10 +113,10 @@ pub(super) fn strips(dual: &Dual) -> Forest {
     hang(dual, &kept)
 }
 
-/// The hinges: flat ones first, then by weight, then by number.
+/// The hinges: those to keep, then flat ones first, then by weight, then by number.
 fn by_weight(dual: &Dual, weights: &[f64]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..dual.hinges.len()).collect();
-    let is_bent = |hinge: usize| dual.hinges[hinge].fold > FLAT;
+    let is_bent = |hinge: usize| (!dual.hinges[hinge].is_kept, dual.hinges[hinge].fold > FLAT);
     order.sort_by(|&a, &b| is_bent(a).cmp(&is_bent(b)).then(weights[a].total_cmp(&weights[b])));
     order
 }

@@ -171,7 +171,7 @@ fn components_come_apart_by_themselves() {
     let mesh = build((points, faces));
     assert_eq!(free(&mesh).pieces.len(), 2);
     let error = try_unfold(&mesh, &Seams::Free, PiecesMode::Count(1)).expect_err("two components");
-    assert_eq!(error, UnfoldError::MorePieces { asked: 1, found: 2, components: 2 });
+    assert!(matches!(error, UnfoldError::MorePieces { asked: 1, found: 2, components: 2, .. }), "{error}");
 }
 
 #[test]
@@ -419,4 +419,70 @@ fn long_chains_do_not_drift() {
     extent.sort_by(f64::total_cmp);
     assert!((extent[0] - 3.3).abs() <= 1e-12 * length, "{extent:?}");
     assert!((extent[1] - length).abs() <= 1e-12 * length, "{extent:?} {length}");
+}
+
+fn polytope(n: usize, seed: u64) -> Mesh {
+    crate::shape::random_tangent_polytope(n, seed)
+}
+
+#[test]
+fn two_pieces_share_one_seam_through_every_vertex() {
+    for seed in 0..3 {
+        let mesh = polytope(60, seed);
+        let net = net(&mesh, &Seams::Free, PiecesMode::Count(2));
+        assert_eq!((net.pieces.len(), net.seams.len()), (2, mesh.vertex_count()));
+        assert!(crate::seam::is_perfect_matching(&mesh, &folded(&net)));
+    }
+}
+
+fn folded(net: &Net) -> Vec<EdgeId> {
+    net.folds.iter().map(|f| EdgeId::new(f.id.0)).collect()
+}
+
+#[test]
+fn strips_of_a_3_valent_mesh_fold_once_at_a_vertex() {
+    let mesh = polytope(60, 1);
+    let net = net(&mesh, &Seams::Free, PiecesMode::Strips);
+    let mut met = vec![0; mesh.vertex_count()];
+    net.folds.iter().flat_map(|f| f.edge).for_each(|v| met[v] += 1);
+    assert!(met.iter().all(|&folds| folds <= 1));
+}
+
+#[test]
+fn edges_to_keep_and_to_cut_are_obeyed_or_named() {
+    let mesh = polytope(60, 2);
+    let all: Vec<EdgeId> = mesh.edges().collect();
+    let within = Seams::Within { keep: vec![all[0], all[40]], cut: vec![all[20], all[90]] };
+    for pieces in [PiecesMode::One, PiecesMode::Auto] {
+        let folds = folded(&net(&mesh, &within, pieces));
+        assert!([0, 40].iter().all(|&i| folds.contains(&all[i])));
+        assert!([20, 90].iter().all(|&i| !folds.contains(&all[i])));
+    }
+    let both = Seams::Within { keep: vec![all[3]], cut: vec![all[3]] };
+    let error = try_unfold(&mesh, &both, PiecesMode::Auto).expect_err("kept and cut");
+    assert_eq!(error, UnfoldError::KeptAndCut { edges: vec![3] });
+    let around: Vec<EdgeId> = mesh.outgoing(crate::mesh::VertexId::new(0)).map(|h| h.edge()).collect();
+    let ring = Seams::Within { keep: around.clone(), cut: Vec::new() };
+    let error = try_unfold(&mesh, &ring, PiecesMode::Auto).expect_err("a cone point");
+    assert!(matches!(&error, UnfoldError::NotKept { edges } if edges.len() == 1), "{error}");
+}
+
+#[test]
+fn too_few_seams_name_the_vertices() {
+    let mesh = build(cube(1.0, DVec3::ZERO));
+    let lid = edges(&mesh, &[[0, 1], [1, 3], [3, 2], [2, 0]]);
+    let error = check_seams(&mesh, &Seams::Open(lid)).expect_err("four corners");
+    assert_eq!(error, UnfoldError::ConePoints { vertices: vec![4, 5, 6, 7] });
+    check_seams(&mesh, &Seams::Folds(edges(&mesh, &[[0, 4]]))).expect("every corner has a seam");
+}
+
+/// The bar of the unfolder; run in release with `--ignored`.
+#[test]
+#[ignore = "takes minutes in the dev profile"]
+fn two_pieces_for_every_random_convex_mesh() {
+    for n in [100, 200, 500, 1000] {
+        for seed in 0..20 {
+            assert_eq!(net(&polytope(n, seed), &Seams::Free, PiecesMode::Count(2)).pieces.len(), 2, "{n} {seed}");
+        }
+    }
 }

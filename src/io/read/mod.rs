@@ -15,10 +15,12 @@ mod off;
 mod ply;
 mod raw;
 mod rim;
+mod seams;
 mod stl;
 mod text;
 mod weld;
 
+pub use seams::read_seams;
 pub(super) use stl::is_binary as is_binary_stl;
 
 /// How a mesh file is taken.

@@ -6,7 +6,8 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use glam::DVec2;
-use kerfold::io::{write_layout_json, write_svg};
+use kerfold::io::layout_json::write_layout_json;
+use kerfold::io::svg::write_svg;
 use kerfold::net::{
     EdgeLabel, FlatFace, Fold, FoldKind, MeshCounts, Net, Piece, PieceId, Proof, Seam, SeamSide, Segment,
 };

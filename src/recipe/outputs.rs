@@ -42,6 +42,7 @@ pub fn fabrication_outputs(fabrication: &Fabrication, sheet: &SheetParams, comma
     if !fabrication.sheets.drawings.is_empty() {
         let layout = write_layout_json(&fabrication.sheets.layout, command);
         outputs.push(("layout.json".to_owned(), layout.into_bytes()));
+        outputs.push(("assembly.txt".to_owned(), assembly_text(fabrication, command).into_bytes()));
     }
     for drawing in &fabrication.sheets.drawings {
         let svg = write_svg(drawing, sheet.preset, command);
@@ -151,6 +152,27 @@ fn edge_list(edges: &[EdgeLabel]) -> String {
     let mut text = edges.iter().take(LISTED).map(ToString::to_string).collect::<Vec<_>>().join(", ");
     if edges.len() > LISTED {
         text += ", …";
+    }
+    text
+}
+
+/// The order in which seams are closed, for people: one line a step, then the edges behind every number.
+fn assembly_text(fabrication: &Fabrication, command: &str) -> String {
+    let assembly = &fabrication.sheets.assembly;
+    let mut text = format!("{command}\n\n");
+    for (i, step) in assembly.steps.iter().enumerate() {
+        let [a, b] = assembly.stretches[step.number - 1].pieces;
+        let what = match step.attaches {
+            Some(piece) => format!("attach {piece} to {}", if piece == a { b } else { a }),
+            None if a == b => format!("close {a}"),
+            None => format!("close {a} to {b}"),
+        };
+        text += &format!("step {}: {what} along seam {}\n", i + 1, step.number);
+    }
+    text += "\n";
+    for stretch in &assembly.stretches {
+        let edges: Vec<String> = stretch.seams.iter().map(|&(s, _)| fabrication.net.seams[s].id.to_string()).collect();
+        text += &format!("seam {}: {}\n", stretch.number, edges.join(" "));
     }
     text
 }

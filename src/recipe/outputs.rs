@@ -7,8 +7,9 @@ use crate::io::pieces_json::write_pieces_json;
 use crate::io::report_json::check_json;
 use crate::io::svg::write_svg;
 use crate::io::{MeshFormat, WriteOptions, mesh_bytes};
+use crate::net::EdgeLabel;
 use crate::picture::{PictureError, Polyline, StrokeLayer, Strokes, render_model, render_sheet};
-use crate::sheet::{Drawing, LayerKind, SheetParams};
+use crate::sheet::{Drawing, Fallback, JointReport, LayerKind, SheetParams};
 
 /// A file to be written: its name in the folder, and its bytes.
 pub type Output = (String, Vec<u8>);
@@ -41,6 +42,7 @@ pub fn fabrication_outputs(fabrication: &Fabrication, sheet: &SheetParams, comma
     if !fabrication.sheets.drawings.is_empty() {
         let layout = write_layout_json(&fabrication.sheets.layout, command);
         outputs.push(("layout.json".to_owned(), layout.into_bytes()));
+        outputs.push(("assembly.txt".to_owned(), assembly_text(fabrication, command).into_bytes()));
     }
     for drawing in &fabrication.sheets.drawings {
         let svg = write_svg(drawing, sheet.preset, command);
@@ -98,6 +100,79 @@ impl Fabrication {
         note(report.lost_holes, format!("{} holes are narrower than the kerf and were left out", report.lost_holes));
         let closed = report.closed_notches;
         note(closed, format!("{closed} notches are narrower than the kerf: flaps hang together there"));
+        note(report.unmarked_angles, format!("no room for the angles of {} folds", report.unmarked_angles));
+        notes.extend(joint_notes(&report.joints));
         notes
     }
+}
+
+/// What became of the joints, in words for the user.
+fn joint_notes(joints: &JointReport) -> Vec<String> {
+    let mut notes = Vec::new();
+    if joints.flaps > 0 {
+        let (narrowed, moved) = (joints.narrowed_flaps, joints.moved_flaps);
+        notes.push(format!(
+            "{} flaps; for want of room {narrowed} are narrower and {moved} on the other side",
+            joints.flaps
+        ));
+    }
+    if !joints.bare_seams.is_empty() {
+        notes.push(format!(
+            "no room for flaps at {} seams: {}",
+            joints.bare_seams.len(),
+            edge_list(&joints.bare_seams)
+        ));
+    }
+    if joints.fingered > 0 {
+        notes.push(format!("{} seams have fingers", joints.fingered));
+    }
+    for (why, words) in [
+        (Fallback::Shallow, "too shallow for fingers (dihedral angle above 140°)"),
+        (Fallback::Sharp, "too sharp for fingers (dihedral angle below 30°)"),
+        (Fallback::Concave, "concave, where fingers cannot meet"),
+        (Fallback::Short, "too short for two fingers"),
+        (Fallback::Narrow, "beside faces too narrow for notches"),
+    ] {
+        let seams: Vec<EdgeLabel> = joints.fallbacks.iter().filter(|f| f.1 == why).map(|f| f.0).collect();
+        if !seams.is_empty() {
+            let count = seams.len();
+            notes.push(format!("{count} seams are {words}; they are stitched: {}", edge_list(&seams)));
+        }
+    }
+    if joints.hole_pairs + joints.lost_hole_pairs > 0 {
+        let (made, lost) = (joints.hole_pairs, joints.lost_hole_pairs);
+        notes.push(format!("{made} pairs of holes; {lost} more had no room on both sides"));
+    }
+    notes
+}
+
+/// The first names of a list of edges.
+fn edge_list(edges: &[EdgeLabel]) -> String {
+    const LISTED: usize = 12;
+    let mut text = edges.iter().take(LISTED).map(ToString::to_string).collect::<Vec<_>>().join(", ");
+    if edges.len() > LISTED {
+        text += ", …";
+    }
+    text
+}
+
+/// The order in which seams are closed, for people: one line a step, then the edges behind every number.
+fn assembly_text(fabrication: &Fabrication, command: &str) -> String {
+    let assembly = &fabrication.sheets.assembly;
+    let mut text = format!("{command}\n\n");
+    for (i, step) in assembly.steps.iter().enumerate() {
+        let [a, b] = assembly.stretches[step.number - 1].pieces;
+        let what = match step.attaches {
+            Some(piece) => format!("attach {piece} to {}", if piece == a { b } else { a }),
+            None if a == b => format!("close {a}"),
+            None => format!("close {a} to {b}"),
+        };
+        text += &format!("step {}: {what} along seam {}\n", i + 1, step.number);
+    }
+    text += "\n";
+    for stretch in &assembly.stretches {
+        let edges: Vec<String> = stretch.seams.iter().map(|&(s, _)| fabrication.net.seams[s].id.to_string()).collect();
+        text += &format!("seam {}: {}\n", stretch.number, edges.join(" "));
+    }
+    text
 }

@@ -7,11 +7,13 @@ use glam::DVec2;
 use super::drawing::{Drawing, MarkKind, Stroke};
 use super::error::SheetError;
 use super::glyph::lettering;
+use super::joint::{FlapFold, Jointed, directed};
 use super::kerf::CutShape;
-use super::label::{Label, Taken, name_label, number_label};
+use super::label::{Label, Taken, is_clear, name_label, number_across, number_label};
 use super::layout::{Layout, Placed, SheetReport};
-use super::params::{Labels, ScoreStyle, SheetParams, Stock};
-use crate::geom::polygon::bounds;
+use super::params::{Angles, Labels, ScoreStyle, SheetParams, Stock};
+use super::stretch::Stretch;
+use crate::geom::polygon::{Location, bounds, locate};
 use crate::net::{Fold, FoldKind, Net, Piece, PieceId, Seam};
 
 /// Length of a dash, and about the length of the gap after it, in mm.
@@ -26,10 +28,12 @@ struct Features<'a> {
     folds: Vec<&'a Fold>,
     /// The seams of the piece with the side, 0 or 1, that lies on it.
     seams: Vec<(&'a Seam, usize)>,
+    /// Stretches of seam with the side, 0 for forwards and 1 for its partner, that lies on the piece.
+    stretches: Vec<(&'a Stretch, usize)>,
 }
 
-fn features(net: &Net) -> Result<BTreeMap<PieceId, Features<'_>>, SheetError> {
-    let mut all: BTreeMap<PieceId, Features<'_>> = net.pieces.iter().map(|p| (p.id, Features::default())).collect();
+fn features<'a>(net: &'a Net, stretches: &'a [Stretch]) -> Result<BTreeMap<PieceId, Features<'a>>, SheetError> {
+    let mut all: BTreeMap<PieceId, Features<'a>> = net.pieces.iter().map(|p| (p.id, Features::default())).collect();
     let unknown = |edge: String, piece| SheetError::UnknownPiece { edge, piece };
     for fold in &net.folds {
         let here = all.get_mut(&fold.piece).ok_or_else(|| unknown(fold.id.to_string(), fold.piece))?;
@@ -41,6 +45,11 @@ fn features(net: &Net) -> Result<BTreeMap<PieceId, Features<'_>>, SheetError> {
             here.seams.push((seam, i));
         }
     }
+    for stretch in stretches {
+        for (i, piece) in stretch.pieces.iter().enumerate() {
+            all.entry(*piece).or_default().stretches.push((stretch, i));
+        }
+    }
     Ok(all)
 }
 
@@ -50,9 +59,9 @@ pub(crate) fn draw(
     shapes: &[CutShape],
     layout: &Layout,
     stock: &Stock,
-    params: &SheetParams,
+    (params, stretches, jointed): (&SheetParams, &[Stretch], Option<&Jointed>),
 ) -> Result<(Vec<Drawing>, SheetReport), SheetError> {
-    let features = features(net)?;
+    let features = features(net, stretches)?;
     let by_id: BTreeMap<PieceId, (&Piece, &CutShape)> =
         net.pieces.iter().zip(shapes).map(|(p, s)| (p.id, (p, s))).collect();
     let mut report = SheetReport::default();
@@ -64,7 +73,12 @@ pub(crate) fn draw(
             let here = &features[&placed.piece];
             draw_cuts(&mut drawing, shape, placed);
             draw_folds(&mut drawing, here, placed, params.score, &mut report);
-            draw_labels(&mut drawing, piece, here, placed, params.labels, &mut report)?;
+            let flaps = jointed.iter().flat_map(|j| &j.flap_folds).filter(|f| f.piece == piece.id);
+            draw_flap_folds(&mut drawing, flaps, placed, params.score);
+            let obstacles: Vec<Vec<DVec2>> =
+                if jointed.is_some() { shape.contours().cloned().collect() } else { Vec::new() };
+            let lettering = Lettering { net, piece, here, placed, obstacles: &obstacles, params };
+            lettering.draw(&mut drawing, &mut report)?;
         }
         draw_info(&mut drawing, stock, params)?;
         drawings.push(drawing);
@@ -101,7 +115,23 @@ fn draw_folds(
             }
         };
         let [a, b] = fold.segment.map(|p| placed.apply(p));
+        let style = match (style, kind) {
+            (ScoreStyle::Valleys, MarkKind::ValleyFold) => ScoreStyle::Dashed,
+            _ => style,
+        };
         drawing.add(kind, fold.id.to_string(), score_strokes(a, b, style));
+    }
+}
+
+fn draw_flap_folds<'a>(
+    drawing: &mut Drawing,
+    folds: impl Iterator<Item = &'a FlapFold>,
+    placed: &Placed,
+    style: ScoreStyle,
+) {
+    for fold in folds {
+        let [a, b] = fold.segment.map(|p| placed.apply(p));
+        drawing.add(MarkKind::FlapFold, format!("{}-flap", fold.id), score_strokes(a, b, style));
     }
 }
 
@@ -110,7 +140,7 @@ fn score_strokes(a: DVec2, b: DVec2, style: ScoreStyle) -> Vec<Stroke> {
     let length = a.distance(b);
     // As many gaps of about a dash's length as leave room for a dash at each end.
     let gaps = ((length - DASH) / (2.0 * DASH)).round();
-    if style == ScoreStyle::Solid || gaps.is_nan() || gaps < 1.0 {
+    if style != ScoreStyle::Dashed || gaps.is_nan() || gaps < 1.0 {
         return vec![Stroke { points: vec![a, b], closed: false }];
     }
     let period = (length - DASH) / gaps;
@@ -120,35 +150,6 @@ fn score_strokes(a: DVec2, b: DVec2, style: ScoreStyle) -> Vec<Stroke> {
         closed: false,
     };
     (0..=gaps as u32).map(dash).collect()
-}
-
-fn draw_labels(
-    drawing: &mut Drawing,
-    piece: &Piece,
-    here: &Features<'_>,
-    placed: &Placed,
-    labels: Labels,
-    report: &mut SheetReport,
-) -> Result<(), SheetError> {
-    let seams: &[(&Seam, usize)] = if labels == Labels::All { &here.seams } else { &[] };
-    if labels == Labels::None {
-        return Ok(());
-    }
-    let mut lettered = letter(piece, seams, placed, Order::NameFirst)?;
-    if lettered.unnumbered > 0 {
-        // A seam without its number is the greater loss: the name makes room.
-        let other = letter(piece, seams, placed, Order::NumbersFirst)?;
-        lettered = if other.unnumbered < lettered.unnumbered { other } else { lettered };
-    }
-    if !lettered.named {
-        report.unnamed_pieces.push(piece.id);
-    }
-    report.unnumbered_sides += lettered.unnumbered;
-    for (kind, id, label) in lettered.labels {
-        let open = |points: &Vec<DVec2>| Stroke { points: placed.apply_all(points), closed: false };
-        drawing.add(kind, id, label.strokes.iter().map(open).collect());
-    }
-    Ok(())
 }
 
 /// What is lettered first and so gets the best place.
@@ -162,55 +163,185 @@ enum Order {
 #[derive(Default)]
 struct Lettered {
     labels: Vec<(MarkKind, String, Label)>,
+    taken: Taken,
     named: bool,
     unnumbered: usize,
+    unmarked_angles: usize,
 }
 
-fn letter(piece: &Piece, seams: &[(&Seam, usize)], placed: &Placed, order: Order) -> Result<Lettered, SheetError> {
-    let mut lettered = Lettered::default();
-    let mut taken = Taken::new();
-    if order == Order::NameFirst {
-        letter_name(piece, placed, &mut taken, &mut lettered)?;
-    }
-    letter_numbers(piece, seams, &mut taken, &mut lettered)?;
-    if order == Order::NumbersFirst {
-        letter_name(piece, placed, &mut taken, &mut lettered)?;
-    }
-    Ok(lettered)
+/// Letters one piece.
+struct Lettering<'a> {
+    net: &'a Net,
+    piece: &'a Piece,
+    here: &'a Features<'a>,
+    placed: &'a Placed,
+    obstacles: &'a [Vec<DVec2>],
+    params: &'a SheetParams,
 }
 
-fn letter_name(piece: &Piece, placed: &Placed, taken: &mut Taken, lettered: &mut Lettered) -> Result<(), SheetError> {
-    let upright = DVec2::from_angle(-placed.rotation.to_radians());
-    if let Some((face, label)) = name_label(piece, upright, taken)? {
-        taken.entry(face).or_default().push(label.frame);
-        lettered.labels.push((MarkKind::PieceName, format!("{}-name", piece.id), label));
-        lettered.named = true;
-    }
-    Ok(())
-}
+/// Length of the mark at the end of a stretch, and how far from the edge it begins, in mm.
+const MARK: [f64; 2] = [2.0, 0.4];
 
-fn letter_numbers(
-    piece: &Piece,
-    seams: &[(&Seam, usize)],
-    taken: &mut Taken,
-    lettered: &mut Lettered,
-) -> Result<(), SheetError> {
-    let faces: BTreeMap<usize, usize> = piece.faces.iter().enumerate().map(|(i, f)| (f.face, i)).collect();
-    for &(seam, i) in seams {
-        let side = &seam.sides[i];
-        let number = seam.id.0.to_string();
-        let at = faces.get(&side.face).copied();
-        let taken = taken.entry(at.unwrap_or_default()).or_default();
-        let label = at.map(|f| number_label(&number, &piece.faces[f], seam.edge, side.segment, taken)).transpose()?;
-        match label.flatten() {
-            Some(label) => {
-                taken.push(label.frame);
-                lettered.labels.push((MarkKind::SeamNumber, format!("{}-number-{}", seam.id, i + 1), label));
-            }
-            None => lettered.unnumbered += 1,
+impl Lettering<'_> {
+    fn draw(&self, drawing: &mut Drawing, report: &mut SheetReport) -> Result<(), SheetError> {
+        let mut lettered = self.letter(Order::NameFirst)?;
+        if lettered.unnumbered > 0 {
+            // A seam without its number is the greater loss: the name makes room.
+            let other = self.letter(Order::NumbersFirst)?;
+            lettered = if other.unnumbered < lettered.unnumbered { other } else { lettered };
         }
+        if !lettered.named && self.params.labels != Labels::None {
+            report.unnamed_pieces.push(self.piece.id);
+        }
+        report.unnumbered_sides += lettered.unnumbered;
+        report.unmarked_angles += lettered.unmarked_angles;
+        for (kind, id, label) in lettered.labels {
+            let open = |points: &Vec<DVec2>| Stroke { points: self.placed.apply_all(points), closed: false };
+            drawing.add(kind, id, label.strokes.iter().map(open).collect());
+        }
+        Ok(())
     }
-    Ok(())
+
+    fn letter(&self, order: Order) -> Result<Lettered, SheetError> {
+        let mut lettered = Lettered::default();
+        let labels = self.params.labels;
+        if order == Order::NameFirst && labels != Labels::None {
+            self.name(&mut lettered)?;
+        }
+        match labels {
+            Labels::All => self.stretches(&mut lettered)?,
+            Labels::Edges => self.edges(&mut lettered)?,
+            Labels::None | Labels::Pieces => {}
+        }
+        if order == Order::NumbersFirst && labels != Labels::None {
+            self.name(&mut lettered)?;
+        }
+        if self.params.angles == Angles::On {
+            self.angles(&mut lettered)?;
+        }
+        Ok(lettered)
+    }
+
+    fn name(&self, lettered: &mut Lettered) -> Result<(), SheetError> {
+        let upright = DVec2::from_angle(-self.placed.rotation.to_radians());
+        if let Some((face, label)) = name_label(self.piece, upright, &lettered.taken, self.obstacles)? {
+            lettered.put(MarkKind::PieceName, format!("{}-name", self.piece.id), face, label);
+            lettered.named = true;
+        }
+        Ok(())
+    }
+
+    fn faces(&self) -> BTreeMap<usize, usize> {
+        self.piece.faces.iter().enumerate().map(|(i, f)| (f.face, i)).collect()
+    }
+
+    fn edges(&self, lettered: &mut Lettered) -> Result<(), SheetError> {
+        let faces = self.faces();
+        for &(seam, i) in &self.here.seams {
+            let text = seam.id.0.to_string();
+            match self.beside(&text, &faces, (seam, i), false, &lettered.taken)? {
+                Some((at, label)) => {
+                    lettered.put(MarkKind::SeamNumber, format!("{}-number-{}", seam.id, i + 1), at, label)
+                }
+                None => lettered.unnumbered += 1,
+            }
+        }
+        Ok(())
+    }
+
+    /// One number for every stretch, as near to its middle as there is room, and marks where only they show its ends.
+    fn stretches(&self, lettered: &mut Lettered) -> Result<(), SheetError> {
+        let faces = self.faces();
+        for &(stretch, i) in &self.here.stretches {
+            let text = stretch.number.to_string();
+            let n = stretch.seams.len();
+            let mut order: Vec<usize> = (0..n).collect();
+            order.sort_by_key(|&k| ((2 * k + 1).abs_diff(n), k));
+            let mut found = None;
+            for across in [false, true] {
+                for &k in &order {
+                    let (s, forward) = stretch.seams[k];
+                    let side = (&self.net.seams[s], forward ^ i);
+                    found = match found {
+                        None => self.beside(&text, &faces, side, across, &lettered.taken)?,
+                        some => some,
+                    };
+                }
+            }
+            let (first, forward) = stretch.seams[0];
+            let name = |what: &str| format!("{}-{what}-{}", self.net.seams[first].id, 1 + (forward ^ i));
+            match found {
+                Some((at, label)) => lettered.put(MarkKind::SeamNumber, name("number"), at, label),
+                None => lettered.unnumbered += 1,
+            }
+            if let Some(mark) = self.mark(stretch, i, &faces) {
+                lettered.labels.push((MarkKind::SeamMark, name("mark"), mark));
+            }
+        }
+        Ok(())
+    }
+
+    /// The short line at the beginning of a stretch that another one runs into.
+    fn mark(&self, stretch: &Stretch, i: usize, faces: &BTreeMap<usize, usize>) -> Option<Label> {
+        let (s, forward) = *stretch.seams.first().filter(|_| stretch.goes_on[0])?;
+        let side = &self.net.seams[s].sides[forward ^ i];
+        let face = &self.piece.faces[*faces.get(&side.face)?];
+        let [a, b] = directed(face, self.net.seams[s].edge, side.segment)?;
+        // The beginning of the stretch is where its forward side begins and its partner ends.
+        let (at, towards) = if i == 0 { (a, b) } else { (b, a) };
+        // A little beside the corner, where a fold may begin.
+        let at = at + (towards - at).normalize_or_zero() * (0.25_f64).min(0.2 * a.distance(b));
+        let inwards = (b - a).normalize_or_zero().perp();
+        let line = vec![at + inwards * MARK[1], at + inwards * (MARK[1] + MARK[0])];
+        let inside = line.iter().all(|&p| locate(&face.polygon, p) == Location::Inside);
+        let frame = [line[0], line[1], line[1], line[0]];
+        let label = Label { strokes: vec![line], frame, height: MARK[0] };
+        (inside && is_clear(&label, self.obstacles)).then_some(label)
+    }
+
+    fn angles(&self, lettered: &mut Lettered) -> Result<(), SheetError> {
+        let faces = self.faces();
+        for fold in self.here.folds.iter().filter(|f| f.kind != FoldKind::Flat) {
+            let text = format!("{:.0}°", fold.fold_angle);
+            let mut found = None;
+            for at in fold.faces.iter().filter_map(|f| faces.get(f).copied()) {
+                let taken = lettered.taken.get(&at).map_or(&[][..], Vec::as_slice);
+                found = match found {
+                    None => number_label(&text, &self.piece.faces[at], fold.edge, fold.segment, taken, self.obstacles)?
+                        .map(|label| (at, label)),
+                    some => some,
+                };
+            }
+            match found {
+                Some((at, label)) => lettered.put(MarkKind::FoldAngle, format!("{}-angle", fold.id), at, label),
+                None => lettered.unmarked_angles += 1,
+            }
+        }
+        Ok(())
+    }
+
+    fn beside(
+        &self,
+        text: &str,
+        faces: &BTreeMap<usize, usize>,
+        (seam, i): (&Seam, usize),
+        across: bool,
+        taken: &Taken,
+    ) -> Result<Option<(usize, Label)>, SheetError> {
+        let side = &seam.sides[i];
+        let Some(&at) = faces.get(&side.face) else { return Ok(None) };
+        let taken = taken.get(&at).map_or(&[][..], Vec::as_slice);
+        let put = if across { number_across } else { number_label };
+        let label = put(text, &self.piece.faces[at], seam.edge, side.segment, taken, self.obstacles)?;
+        Ok(label.map(|label| (at, label)))
+    }
+}
+
+impl Lettered {
+    fn put(&mut self, kind: MarkKind, id: String, face: usize, label: Label) {
+        self.taken.entry(face).or_default().push(label.frame);
+        self.labels.push((kind, id, label));
+    }
 }
 
 /// The reference square, clear of all pieces where there is room and else in the lower left corner; and a note in the

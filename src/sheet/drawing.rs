@@ -48,6 +48,12 @@ pub enum MarkKind {
     PieceName,
     /// Number of a seam, on both its sides.
     SeamNumber,
+    /// The angle of a fold.
+    FoldAngle,
+    /// Where a stretch of seam ends, on both its sides.
+    SeamMark,
+    /// The fold between a piece and its flap, bent inwards.
+    FlapFold,
     /// A convex fold, bent away from the viewer.
     MountainFold,
     /// A concave fold, bent towards the viewer.
@@ -67,7 +73,8 @@ pub enum MarkKind {
 /// Lines that belong together under one name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mark {
-    /// Unique in its drawing: `P01`, `P01-hole-1`, `P01-slit-1`, `P01-name`, `E012`, `E013-number-1`, `reference`, `note`.
+    /// Unique in its drawing: `P01`, `P01-hole-1`, `P01-slit-1`, `P01-name`, `E012`, `E013-number-1`, `E013-mark-1`,
+    /// `E012-angle`, `E013-flap`, `reference`, `note`.
     pub id: String,
     /// What it means.
     pub kind: MarkKind,
@@ -104,8 +111,8 @@ impl MarkKind {
     /// The layer that holds it.
     pub const fn layer(self) -> LayerKind {
         match self {
-            Self::PieceName | Self::SeamNumber => LayerKind::Engrave,
-            Self::MountainFold | Self::ValleyFold => LayerKind::Score,
+            Self::PieceName | Self::SeamNumber | Self::FoldAngle | Self::SeamMark => LayerKind::Engrave,
+            Self::FlapFold | Self::MountainFold | Self::ValleyFold => LayerKind::Score,
             Self::Hole | Self::Slit => LayerKind::CutInner,
             Self::Outline => LayerKind::CutOuter,
             Self::Reference | Self::Note => LayerKind::Info,
@@ -117,6 +124,9 @@ impl MarkKind {
         match self {
             Self::PieceName => "name",
             Self::SeamNumber => "number",
+            Self::FoldAngle => "angle",
+            Self::SeamMark => "mark",
+            Self::FlapFold => "flap",
             Self::MountainFold => "mountain",
             Self::ValleyFold => "valley",
             Self::Hole => "hole",

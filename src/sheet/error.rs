@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::joint::Joint;
 use super::layout::SheetId;
 use crate::net::PieceId;
 
@@ -19,6 +20,22 @@ pub enum SheetError {
         value: f64,
         /// What it must be at least, in mm.
         least: f64,
+    },
+    /// An option that the joint does not use, or one that it needs.
+    #[error("{}", joint_option(option, *joint, *is_missing))]
+    JointOption {
+        /// The option, as a flag without its dashes.
+        option: &'static str,
+        /// The joint.
+        joint: Joint,
+        /// Whether the option lacks; else it is one too many.
+        is_missing: bool,
+    },
+    /// An angle of flaps outside its range.
+    #[error("flap-angle is {degrees}°, but must be 20° to 90°")]
+    FlapAngle {
+        /// What it was.
+        degrees: f64,
     },
     /// The margin leaves nothing of the sheet.
     #[error(
@@ -136,6 +153,15 @@ pub struct TooLarge {
 
 /// How many pieces a message lists before it only counts.
 const LISTED: usize = 10;
+
+fn joint_option(option: &str, joint: Joint, is_missing: bool) -> String {
+    let name = clap::ValueEnum::to_possible_value(&joint).map(|v| v.get_name().to_owned()).unwrap_or_default();
+    if is_missing {
+        format!("joint {name} needs the {option}; give it, for example 3mm")
+    } else {
+        format!("joint {name} does not use {option}; leave it out or choose another joint")
+    }
+}
 
 fn too_large(pieces: &[TooLarge], width: f64, height: f64, margin: f64) -> String {
     let (usable_width, usable_height) = (width - 2.0 * margin, height - 2.0 * margin);

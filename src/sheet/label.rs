@@ -9,6 +9,7 @@ use glam::DVec2;
 
 use super::error::SheetError;
 use super::glyph::lettering;
+use super::joint::directed;
 use super::verify::{distance_to_contour, edges};
 use crate::geom::polygon::{Location, bounds, centroid, locate, on_segment, segments_cross, signed_area};
 use crate::net::{FlatFace, Piece, Segment};
@@ -46,9 +47,17 @@ pub(crate) struct Label {
 /// What is already lettered on the faces of a piece, by their index.
 pub(crate) type Taken = BTreeMap<usize, Vec<[DVec2; 4]>>;
 
+/// Contours of joints that lettering must keep clear of: the cut of a piece where it differs from its faces.
+pub(crate) type Obstacles<'a> = &'a [Vec<DVec2>];
+
 /// The name of a piece, as large as fits beside what is taken, reading along `upright` where possible and else along a
 /// face's longest edge; with the index of the face that holds it.
-pub(crate) fn name_label(piece: &Piece, upright: DVec2, taken: &Taken) -> Result<Option<(usize, Label)>, SheetError> {
+pub(crate) fn name_label(
+    piece: &Piece,
+    upright: DVec2,
+    taken: &Taken,
+    obstacles: Obstacles<'_>,
+) -> Result<Option<(usize, Label)>, SheetError> {
     let text = piece.id.to_string();
     let mut order: Vec<(f64, usize)> =
         piece.faces.iter().enumerate().map(|(i, f)| (signed_area(&f.polygon), i)).collect();
@@ -59,7 +68,8 @@ pub(crate) fn name_label(piece: &Piece, upright: DVec2, taken: &Taken) -> Result
         let centres = [centroid(polygon), inner_point(polygon)];
         for direction in [upright, along_longest_edge(polygon, upright)] {
             let beaten = best.as_ref().map_or(0.0, |(_, b)| b.height);
-            let free = |l: &Label| is_free(polygon, l, taken.get(&i).map_or(&[], Vec::as_slice));
+            let free =
+                |l: &Label| is_free(polygon, l, taken.get(&i).map_or(&[], Vec::as_slice)) && is_clear(l, obstacles);
             if let Some(label) = largest_name(&text, &centres, direction, beaten, free)? {
                 best = Some((i, label));
             }
@@ -98,25 +108,50 @@ pub(crate) fn number_label(
     edge: [usize; 2],
     segment: Segment,
     taken: &[[DVec2; 4]],
+    obstacles: Obstacles<'_>,
 ) -> Result<Option<Label>, SheetError> {
-    let n = face.vertices.len();
-    let runs = |from: usize, to: usize| (0..n).any(|i| face.vertices[i] == from && face.vertices[(i + 1) % n] == to);
-    let [a, b] = match (runs(edge[0], edge[1]), runs(edge[1], edge[0])) {
-        (true, _) => segment,
-        (_, true) => [segment[1], segment[0]],
-        _ => return Ok(None),
-    };
+    let Some([a, b]) = directed(face, edge, segment) else { return Ok(None) };
     let (length, along) = (a.distance(b), (b - a).normalize_or_zero());
-    for height in heights(NUMBER_HEIGHT.min(NUMBER_SHARE * length)) {
+    beside(text, face, [a, b], -along, NUMBER_HEIGHT.min(NUMBER_SHARE * length), taken, obstacles)
+}
+
+/// As [`number_label`] across the edge, for narrow faces: it reads away from the edge.
+pub(crate) fn number_across(
+    text: &str,
+    face: &FlatFace,
+    edge: [usize; 2],
+    segment: Segment,
+    taken: &[[DVec2; 4]],
+    obstacles: Obstacles<'_>,
+) -> Result<Option<Label>, SheetError> {
+    let Some([a, b]) = directed(face, edge, segment) else { return Ok(None) };
+    beside(text, face, [a, b], (b - a).normalize_or_zero().perp(), NUMBER_HEIGHT, taken, obstacles)
+}
+
+/// A text that reads along `reading` as near as possible to an edge that has the face on its left.
+fn beside(
+    text: &str,
+    face: &FlatFace,
+    [a, b]: Segment,
+    reading: DVec2,
+    largest: f64,
+    taken: &[[DVec2; 4]],
+    obstacles: Obstacles<'_>,
+) -> Result<Option<Label>, SheetError> {
+    let inwards = (b - a).normalize_or_zero().perp();
+    for height in heights(largest) {
         for t in [0.5, 0.38, 0.62, 0.26, 0.74] {
-            let at = set(text, a.lerp(b, t), -along, height)?;
+            let at = set(text, a.lerp(b, t), reading, height)?;
             // The face lies on the left of its edges; the frame goes there until it is clear of the edge.
-            let inwards = along.perp();
             let reach = at.frame.iter().map(|&p| (p - a).dot(inwards)).fold(f64::INFINITY, f64::min);
-            let shift = inwards * (CLEAR * height - reach);
-            let label = at.moved(shift);
-            if is_free(&face.polygon, &label, taken) {
-                return Ok(Some(label));
+            let mut label = at.moved(inwards * (CLEAR * height - reach));
+            // Notches and holes of a joint lie along the edge: further in it may be free.
+            let tries = if obstacles.is_empty() { 1 } else { 8 };
+            for _ in 0..tries {
+                if is_free(&face.polygon, &label, taken) && is_clear(&label, obstacles) {
+                    return Ok(Some(label));
+                }
+                label = label.moved(inwards * (0.5 * height));
             }
         }
     }
@@ -179,6 +214,13 @@ fn is_free(polygon: &[DVec2], label: &Label, taken: &[[DVec2; 4]]) -> bool {
     taken.iter().all(|frame| !overlap(frame, &label.frame)) && frame_inside(polygon, &label.frame)
 }
 
+/// Whether a label neither crosses an obstacle nor has one inside.
+pub(crate) fn is_clear(label: &Label, obstacles: Obstacles<'_>) -> bool {
+    obstacles.iter().all(|o| {
+        !borders_meet(o, &label.frame) && o.first().is_none_or(|&p| locate(&label.frame, p) == Location::Outside)
+    })
+}
+
 /// Whether a convex frame lies in the interior of a polygon, exactly.
 fn frame_inside(polygon: &[DVec2], frame: &[DVec2; 4]) -> bool {
     frame.iter().all(|&p| locate(polygon, p) == Location::Inside) && !borders_meet(polygon, frame)
@@ -226,18 +268,18 @@ mod tests {
         let ring = ring(PieceId(7));
         for piece in [piece(PieceId(0), square(30.0)), piece(PieceId(1), ell()), piece(PieceId(2), sliver), ring] {
             let (_, label) =
-                name_label(&piece, DVec2::X, &Taken::new()).expect("known letters").expect("room for a name");
+                name_label(&piece, DVec2::X, &Taken::new(), &[]).expect("known letters").expect("room for a name");
             assert!(label.height >= LEAST_HEIGHT);
             assert_clear(&piece, &label);
         }
         let tiny = piece(PieceId(0), square(4.0));
-        assert!(name_label(&tiny, DVec2::X, &Taken::new()).expect("known letters").is_none());
+        assert!(name_label(&tiny, DVec2::X, &Taken::new(), &[]).expect("known letters").is_none());
     }
 
     #[test]
     fn a_large_square_gets_the_full_height_upright() {
         let (_, label) =
-            name_label(&piece(PieceId(0), square(50.0)), DVec2::Y, &Taken::new()).expect("letters").expect("room");
+            name_label(&piece(PieceId(0), square(50.0)), DVec2::Y, &Taken::new(), &[]).expect("letters").expect("room");
         assert_eq!(label.height, NAME_HEIGHT);
         let reading = (label.frame[1] - label.frame[0]).normalize();
         assert!(reading.distance(DVec2::Y) < 1e-12);
@@ -250,7 +292,7 @@ mod tests {
         for (edge, segment) in
             [([0, 1], [piece.outline[0], piece.outline[1]]), ([1, 0], [piece.outline[1], piece.outline[0]])]
         {
-            let label = number_label("12", face, edge, segment, &[]).expect("letters").expect("room");
+            let label = number_label("12", face, edge, segment, &[], &[]).expect("letters").expect("room");
             assert_clear(&piece, &label);
             // The lower edge: reading from the middle, right is left.
             assert!((label.frame[1] - label.frame[0]).normalize().distance(-DVec2::X) < 1e-12);
@@ -258,19 +300,19 @@ mod tests {
             assert!(label.frame[1].y < 10.0);
         }
         let segment = [piece.outline[0], piece.outline[1]];
-        assert!(number_label("12", face, [0, 2], segment, &[]).expect("letters").is_none());
+        assert!(number_label("12", face, [0, 2], segment, &[], &[]).expect("letters").is_none());
     }
 
     #[test]
     fn a_taken_place_is_avoided_and_a_short_edge_gets_no_number() {
         let piece = piece(PieceId(0), square(60.0));
         let segment = [piece.outline[0], piece.outline[1]];
-        let first = number_label("12", &piece.faces[0], [0, 1], segment, &[]).expect("letters").expect("room");
+        let first = number_label("12", &piece.faces[0], [0, 1], segment, &[], &[]).expect("letters").expect("room");
         let second =
-            number_label("13", &piece.faces[0], [0, 1], segment, &[first.frame]).expect("letters").expect("room");
+            number_label("13", &piece.faces[0], [0, 1], segment, &[first.frame], &[]).expect("letters").expect("room");
         assert!(!overlap(&first.frame, &second.frame));
         let small = self::piece(PieceId(0), square(3.0));
         let segment = [small.outline[0], small.outline[1]];
-        assert!(number_label("12", &small.faces[0], [0, 1], segment, &[]).expect("letters").is_none());
+        assert!(number_label("12", &small.faces[0], [0, 1], segment, &[], &[]).expect("letters").is_none());
     }
 }

@@ -4,13 +4,16 @@ use std::collections::BTreeMap;
 
 use glam::DVec2;
 
+use super::assembly::{Assembly, assembly};
 use super::bounding_box::{MinBox, convex_hull, fitting_box, rounded, smallest_box};
 use super::draw::draw;
 use super::drawing::Drawing;
 use super::error::{SheetError, TooLarge};
+use super::joint::{Boundaries, JointReport, join};
 use super::kerf::CutShape;
 use super::params::{SheetParams, Stock};
 use super::place::{Item, Spot, pack};
+use super::stretch::stretches;
 use super::verify::verify;
 use crate::geom::polygon::bounds;
 use crate::net::{Net, Piece, PieceId};
@@ -106,15 +109,21 @@ pub struct SheetReport {
     pub lost_holes: usize,
     /// Notches narrower than the kerf that no single cut could open from end to end: the flaps hang together there.
     pub closed_notches: usize,
+    /// Folds without room for their angle, where angles were asked for.
+    pub unmarked_angles: usize,
+    /// What became of the joints.
+    pub joints: JointReport,
 }
 
 /// Sheets with their drawings, measured and ready to be written.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct SheetSet {
     /// Where the pieces lie.
     pub layout: Layout,
     /// One drawing per sheet.
     pub drawings: Vec<Drawing>,
+    /// In which order the seams are closed.
+    pub assembly: Assembly,
     /// What was left out.
     pub report: SheetReport,
 }
@@ -131,22 +140,29 @@ pub fn fits(piece: &Piece, params: &SheetParams) -> Result<bool, SheetError> {
 /// Places, letters, draws and measures all pieces of a net. For `sheet = none` everything is empty.
 ///
 /// # Errors
-/// [`SheetError::OutOfRange`] and [`SheetError::MarginTooLarge`] for parameters; [`SheetError::PiecesTooLarge`] with all
+/// [`SheetError::OutOfRange`], [`SheetError::MarginTooLarge`], [`SheetError::JointOption`] and [`SheetError::FlapAngle`] for
+/// parameters; [`SheetError::PiecesTooLarge`] with all
 /// pieces that fit at no angle, so that they can be split; [`SheetError::BadContour`], [`SheetError::KerfSplit`] and
 /// [`SheetError::UnknownPiece`] for a broken net; what [`verify`] finds, for a bug of ours.
 pub fn lay_out(net: &Net, params: &SheetParams) -> Result<SheetSet, SheetError> {
     let Some(stock) = params.stock()? else {
-        return Ok(SheetSet { layout: Layout::default(), drawings: Vec::new(), report: SheetReport::default() });
+        return Ok(SheetSet::default());
     };
+    let boundaries = Boundaries::new(net);
+    let stretches = stretches(net, &boundaries);
+    let jointed = join(net, params)?;
+    let bare = net;
+    let net = jointed.as_ref().map_or(net, |j| &j.net);
     let shapes = net.pieces.iter().map(|p| CutShape::of_piece(p, params.kerf.mm())).collect::<Result<Vec<_>, _>>()?;
     let mut layout = place_all(net, &shapes, &stock)?;
-    let (drawings, mut report) = draw(net, &shapes, &layout, &stock, params)?;
+    let (drawings, mut report) = draw(net, &shapes, &layout, &stock, (params, &stretches, jointed.as_ref()))?;
     report.lost_holes = shapes.iter().map(|s| s.lost_holes).sum();
     report.closed_notches = shapes.iter().map(|s| s.closed_notches).sum();
     layout.cut_length = drawings.iter().map(Drawing::cut_length).sum();
     layout.score_length = drawings.iter().map(Drawing::score_length).sum();
     verify(&shapes, &layout, params)?;
-    Ok(SheetSet { layout, drawings, report })
+    report.joints = jointed.map(|j| j.report).unwrap_or_default();
+    Ok(SheetSet { layout, drawings, assembly: assembly(bare, stretches), report })
 }
 
 /// The turn at which a shape lies best on the stock.

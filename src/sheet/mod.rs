@@ -3,30 +3,36 @@
 //! Frames: a piece has its own (y up, seen from outside); a sheet has its origin at the bottom left and y up. A point p of
 //! a piece lands at R(rotation)·p + (x, y). Nothing is mirrored. All numbers are millimetres, rotations are degrees.
 //!
-//! The way of a piece: its outline grows by half the kerf ([`CutShape`]), is turned to its smallest bounding box
+//! The way of a piece: it gets its joints ([`Joint`]), its outline grows by half the kerf ([`CutShape`]), is turned to its smallest bounding box
 //! ([`smallest_box`]), placed ([`Layout`]), lettered, drawn ([`Drawing`]), and measured once more ([`verify`]) before
 //! anybody may write a file.
 
+mod assembly;
 mod bounding_box;
 mod draw;
 mod drawing;
 mod error;
 mod glyph;
+mod joint;
 mod kerf;
 mod label;
 mod layout;
 mod params;
 mod place;
 mod slit;
+mod stretch;
 mod verify;
 
+pub use assembly::{Assembly, Step};
 pub use bounding_box::{MinBox, smallest_box};
 pub use drawing::{Drawing, Layer, LayerKind, Mark, MarkKind, Stroke};
 pub use error::{SheetError, TooLarge};
 pub use glyph::{Lettering, lettering};
+pub use joint::{Fallback, FlapSide, Joint, JointReport};
 pub use kerf::CutShape;
 pub use layout::{Layout, Placed, Sheet, SheetId, SheetReport, SheetSet, fits, lay_out};
-pub use params::{Joint, Labels, Preset, ScoreStyle, SheetParams, SheetSize};
+pub use params::{Angles, Labels, Preset, ScoreStyle, SheetParams, SheetSize};
+pub use stretch::Stretch;
 pub use verify::{clearance, verify};
 
 #[cfg(test)]

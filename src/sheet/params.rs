@@ -8,7 +8,8 @@ use glam::DVec2;
 use serde::{Deserialize, Deserializer};
 
 use super::error::SheetError;
-use crate::units::{Length, UnitError, parse_number};
+use super::joint::{FlapSide, Joint};
+use crate::units::{Angle, Length, UnitError, parse_number};
 
 /// Smallest spacing in mm: nearer cut lines would be one line in a file with four decimals.
 const MIN_SPACING: f64 = 0.01;
@@ -44,10 +45,46 @@ pub struct SheetParams {
     #[arg(long, value_enum, default_value = "solid")]
     #[serde(default)]
     pub score: ScoreStyle,
+    /// Whether the angles of folds are engraved beside them, in degrees; valleys are negative
+    #[arg(long, value_enum, default_value = "off")]
+    #[serde(default)]
+    pub angles: Angles,
     /// What joins the two sides of a seam
     #[arg(long, value_enum, default_value = "none")]
     #[serde(default)]
     pub joint: Joint,
+    /// Width of flaps, at least 1mm; of flaps 8mm, with rivets 12mm unless given
+    #[arg(long, value_name = "LENGTH")]
+    #[serde(default)]
+    pub flap_width: Option<Length>,
+    /// Angle at the ends of flaps, 20 to 90 degrees; 60deg unless given. Short seams get steeper flaps
+    #[arg(long, value_name = "ANGLE")]
+    #[serde(default)]
+    pub flap_angle: Option<Angle>,
+    /// Which side of a seam gets the flap, where it has room; lower unless given
+    #[arg(long, value_enum)]
+    #[serde(default)]
+    pub flap_side: Option<FlapSide>,
+    /// Thickness of the material; needed for fingers, at least 0.1mm
+    #[arg(long, value_name = "LENGTH")]
+    #[serde(default)]
+    pub thickness: Option<Length>,
+    /// Width of a finger, about; three times the thickness unless given, never less than it
+    #[arg(long, value_name = "LENGTH")]
+    #[serde(default)]
+    pub finger_width: Option<Length>,
+    /// From one hole to the next along a seam; stitch holes 6mm, rivets 25mm unless given
+    #[arg(long, value_name = "LENGTH")]
+    #[serde(default)]
+    pub hole_spacing: Option<Length>,
+    /// Diameter of stitch holes (1.5mm unless given) or rivet holes (3.2mm); more than the kerf
+    #[arg(long, value_name = "LENGTH")]
+    #[serde(default)]
+    pub hole_diameter: Option<Length>,
+    /// From a seam to the middle of its stitch holes; twice their diameter unless given
+    #[arg(long, value_name = "LENGTH")]
+    #[serde(default)]
+    pub hole_inset: Option<Length>,
 }
 
 fn default_sheet() -> SheetSize {
@@ -72,7 +109,16 @@ impl Default for SheetParams {
             preset: Preset::default(),
             labels: Labels::default(),
             score: ScoreStyle::default(),
+            angles: Angles::default(),
             joint: Joint::default(),
+            flap_width: None,
+            flap_angle: None,
+            flap_side: None,
+            thickness: None,
+            finger_width: None,
+            hole_spacing: None,
+            hole_diameter: None,
+            hole_inset: None,
         }
     }
 }
@@ -118,9 +164,22 @@ pub enum Labels {
     None,
     /// The name of every piece.
     Pieces,
-    /// The name of every piece, and on both sides of every seam its number.
+    /// The name of every piece, and on both sides of every stretch of seam its number, with marks where it ends.
     #[default]
     All,
+    /// The name of every piece, and on both sides of every seam edge the number of the edge in the model.
+    Edges,
+}
+
+/// Whether the angles of folds are engraved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Angles {
+    /// No angles.
+    #[default]
+    Off,
+    /// The angle that the paper turns, beside every fold with room for it.
+    On,
 }
 
 /// How folds are scored.
@@ -132,15 +191,8 @@ pub enum ScoreStyle {
     Solid,
     /// Dashes of 2 mm with gaps of about 2 mm, beginning and ending with a dash.
     Dashed,
-}
-
-/// What joins the two sides of a seam.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Joint {
-    /// The bare edges, for tape or glue.
-    #[default]
-    None,
+    /// Mountains solid, valleys dashed.
+    Valleys,
 }
 
 /// Sizes with a name, width and height in mm.

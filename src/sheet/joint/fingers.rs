@@ -1,0 +1,230 @@
+//! Finger joints between plates of one thickness, cut square.
+//!
+//! The faces are the outer sides of the plates. Every edge, in the direction in which its face runs, begins with a finger and
+//! ends with a notch, an even number of zones in all; its partner runs the other way and so has a notch wherever this one has
+//! a finger. At a corner of three plates each holds one of its two neighbours: there is nothing to choose.
+//!
+//! With the dihedral angle δ and the thickness t a notch is t / sin δ deep for δ ≥ 90° and t · cot(δ/2) for less, so that the
+//! partner's slab passes; for δ < 90° fingers are shorter by t · cot δ, so that nothing juts out of the model.
+
+use glam::DVec2;
+
+use super::super::label::segments_meet;
+use super::boundary::{Boundaries, Contour};
+use super::params::Fingers;
+use super::{Fallback, JointReport};
+use crate::geom::polygon::signed_area;
+use crate::net::{Net, Segment};
+
+/// Dihedral angles that fingers can hold, in degrees.
+const SHARPEST: f64 = 30.0;
+const FLATTEST: f64 = 140.0;
+
+/// Sines of corner angles below this count as straight: offset lines would meet far away.
+const STRAIGHT: f64 = 0.35;
+
+/// Fingers along one edge.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Comb {
+    /// Even number of zones.
+    pub zones: usize,
+    /// How far inside of the edge the fingers end.
+    pub short: f64,
+    /// How far inside of the edge the notches end.
+    pub deep: f64,
+}
+
+impl Comb {
+    /// The fingers of a seam, or why it can have none.
+    pub fn of(fold_angle: f64, length: f64, fingers: &Fingers) -> Result<Self, Fallback> {
+        let dihedral = 180.0 - fold_angle;
+        if dihedral > 180.0 {
+            return Err(Fallback::Concave);
+        }
+        if dihedral > FLATTEST {
+            return Err(Fallback::Shallow);
+        }
+        if dihedral.is_nan() || dihedral < SHARPEST {
+            return Err(Fallback::Sharp);
+        }
+        let (sin, cos) = dihedral.to_radians().sin_cos();
+        let thickness = fingers.thickness;
+        let short = (thickness * cos / sin).max(0.0);
+        let deep = thickness / sin + short;
+        let zones = 2 * (length / (2.0 * fingers.width)).round().max(1.0) as usize;
+        // The first finger loses the depth of the notch around the corner.
+        let least = (1.5 * deep).max(thickness);
+        let zones = if length / (zones as f64) < least { 2 * (length / (2.0 * least)) as usize } else { zones };
+        if zones == 0 { Err(Fallback::Short) } else { Ok(Self { zones, short, deep }) }
+    }
+
+    fn level(&self, zone: usize) -> f64 {
+        if zone.is_multiple_of(2) { self.short } else { self.deep }
+    }
+}
+
+/// Adds fingers to all seams that can have them; gives those that cannot.
+pub(super) fn add_fingers(
+    net: &Net,
+    boundaries: &mut Boundaries,
+    fingers: &Fingers,
+    report: &mut JointReport,
+) -> Vec<usize> {
+    let mut combs: Vec<Result<Comb, Fallback>> = (0..net.seams.len())
+        .map(|s| match boundaries.places[s] {
+            [Some(_), Some(_)] => Comb::of(net.seams[s].fold_angle, net.seams[s].length, fingers),
+            _ => Err(Fallback::Narrow),
+        })
+        .collect();
+    // Every round takes fingers away, so that it ends; without any the outlines are those of the net.
+    loop {
+        boundaries.contours.iter_mut().for_each(|c| shape(c, &combs));
+        let mut is_clean = true;
+        for piece in 0..net.pieces.len() {
+            for s in in_the_way(boundaries, piece, fingers.thickness / 2.0, &combs) {
+                combs[s] = Err(Fallback::Narrow);
+                is_clean = false;
+            }
+        }
+        if is_clean {
+            break;
+        }
+    }
+    let mut fallen = Vec::new();
+    for (s, comb) in combs.iter().enumerate() {
+        match comb {
+            Ok(_) => report.fingered += 1,
+            Err(why) => {
+                report.fallbacks.push((net.seams[s].id, *why));
+                fallen.push(s);
+            }
+        }
+    }
+    fallen
+}
+
+/// Cuts the fingers of all edges of a contour.
+fn shape(contour: &mut Contour, combs: &[Result<Comb, Fallback>]) {
+    let n = contour.len();
+    let comb = |i: usize| contour.sides[i].and_then(|(s, _)| combs[s].as_ref().ok().copied());
+    let all: Vec<Option<Comb>> = (0..n).map(comb).collect();
+    for i in 0..n {
+        let before = (i + n - 1) % n;
+        let ends = (all[before].map_or(0.0, |c| c.deep), all[i].map_or(0.0, |c| c.short));
+        contour.cut_corners[i] = corner(contour.edge(before), contour.edge(i), ends);
+        contour.profiles[i] = all[i].map_or_else(Vec::new, |c| profile(contour.edge(i), &c));
+    }
+}
+
+/// Where the end of one edge, moved inwards, meets the beginning of the next.
+fn corner(before: Segment, after: Segment, (end, begin): (f64, f64)) -> Vec<DVec2> {
+    let p = after[0];
+    if end == 0.0 && begin == 0.0 {
+        return vec![p];
+    }
+    let [u, v] = [before, after].map(|[a, b]| (b - a).normalize_or_zero());
+    let sin = u.perp_dot(v);
+    if sin.abs() < STRAIGHT {
+        return vec![p + u.perp() * end, p + v.perp() * begin];
+    }
+    // p + x u + end u⊥ = p + y v + begin v⊥, multiplied by v⊥.
+    let x = (begin - end * u.perp().dot(v.perp())) / u.dot(v.perp());
+    vec![p + u * x + u.perp() * end]
+}
+
+fn profile([a, b]: Segment, comb: &Comb) -> Vec<DVec2> {
+    let inwards = (b - a).normalize_or_zero().perp();
+    let step = |zone: usize| {
+        let at = a.lerp(b, zone as f64 / comb.zones as f64);
+        [at + inwards * comb.level(zone - 1), at + inwards * comb.level(zone)]
+    };
+    (1..comb.zones).flat_map(step).collect()
+}
+
+/// The fingered seams of a piece whose cut comes nearer than `web` to the cut of an edge that is no neighbour, or meets any.
+fn in_the_way(boundaries: &Boundaries, piece: usize, web: f64, combs: &[Result<Comb, Fallback>]) -> Vec<usize> {
+    let cuts: Vec<_> = boundaries.cuts(piece).collect();
+    let fingered = |(c, i, _): &(&Contour, usize, Segment)| {
+        // The corner before an edge belongs to both.
+        let n = c.len();
+        [*i, (*i + n - 1) % n]
+            .into_iter()
+            .filter_map(|i| c.sides[i].map(|(s, _)| s))
+            .filter(|&s| combs[s].is_ok())
+            .collect::<Vec<_>>()
+    };
+    let mut found = Vec::new();
+    for (x, a) in cuts.iter().enumerate() {
+        for b in &cuts[..x] {
+            let n = a.0.len();
+            let near = std::ptr::eq(a.0, b.0) && {
+                let d = a.1.abs_diff(b.1);
+                d <= 1 || d + 1 >= n
+            };
+            let [p, q] = a.2;
+            let [r, s] = b.2;
+            let is_close = if near {
+                !(p == s || q == r || p == r || q == s) && segments_meet(p, q, r, s)
+            } else {
+                let (la, lb) = (p.min(q) - DVec2::splat(web), r.min(s));
+                let (ha, hb) = (p.max(q) + DVec2::splat(web), r.max(s));
+                la.cmple(hb).all() && lb.cmple(ha).all() && super::boundary::segment_distance(a.2, b.2) < web
+            };
+            if is_close {
+                found.extend(fingered(a));
+                found.extend(fingered(b));
+            }
+        }
+    }
+    for c in boundaries.of_piece(piece) {
+        if signed_area(&c.path()) * signed_area(&c.corners) <= 0.0 {
+            found.extend(c.sides.iter().flatten().map(|&(s, _)| s).filter(|&s| combs[s].is_ok()));
+        }
+    }
+    found.sort_unstable();
+    found.dedup();
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const PLY: Fingers = Fingers { thickness: 3.0, width: 9.0 };
+
+    #[test]
+    fn depths_follow_the_dihedral_angle() {
+        let right = Comb::of(90.0, 60.0, &PLY).expect("a right angle");
+        assert!((right.deep - 3.0).abs() < 1e-12 && right.short.abs() < 1e-12);
+        let sharp = Comb::of(120.0, 60.0, &PLY).expect("60 degrees");
+        assert!((sharp.deep - 3.0 / 30_f64.to_radians().tan()).abs() < 1e-12, "{sharp:?}");
+        assert!((sharp.short - 3.0 / 60_f64.to_radians().tan()).abs() < 1e-12);
+        let dull = Comb::of(63.0, 60.0, &PLY).expect("117 degrees");
+        assert!((dull.deep - 3.0 / 117_f64.to_radians().sin()).abs() < 1e-12 && dull.short == 0.0);
+    }
+
+    #[test]
+    fn what_fingers_cannot_hold_is_told() {
+        let why = |fold: f64, length: f64| Comb::of(fold, length, &PLY).expect_err("no fingers");
+        assert_eq!(why(20.0, 60.0), Fallback::Shallow);
+        assert_eq!(why(-20.0, 60.0), Fallback::Concave);
+        assert_eq!(why(155.0, 60.0), Fallback::Sharp);
+        assert_eq!(why(90.0, 5.0), Fallback::Short);
+    }
+
+    proptest! {
+        /// At every place exactly one of the two sides has a finger, and the two fit into each other.
+        #[test]
+        fn the_two_sides_are_complementary(fold in 41.0..149.0_f64, length in 20.0..300.0_f64, at in 0.0..1.0_f64) {
+            let Ok(comb) = Comb::of(fold, length, &PLY) else { return Ok(()) };
+            let zone = |t: f64| ((t * comb.zones as f64) as usize).min(comb.zones - 1);
+            let border = (at * comb.zones as f64).fract();
+            prop_assume!(border > 1e-9 && border < 1.0 - 1e-9);
+            let levels = [comb.level(zone(at)), comb.level(zone(1.0 - at))];
+            prop_assert_eq!(levels[0] + levels[1], comb.short + comb.deep);
+            let engaged = comb.deep - comb.short;
+            prop_assert!((engaged - 3.0 / (180.0 - fold).to_radians().sin()).abs() < 1e-9);
+        }
+    }
+}

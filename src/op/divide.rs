@@ -162,7 +162,8 @@ impl Cutter {
                 is_inside_after: sector.holds(Direction::Ahead),
             });
         }
-        on.sort_by(|a, b| a.place.total_cmp(&b.place));
+        // Where a face touches itself in a point, what ends there comes before what begins.
+        on.sort_by(|a, b| a.place.total_cmp(&b.place).then(b.is_inside_before.cmp(&a.is_inside_before)));
         let agree = on.windows(2).all(|w| w[0].is_inside_after == w[1].is_inside_before);
         let ends_outside = !on.first()?.is_inside_before && !on.last()?.is_inside_after;
         (agree && ends_outside).then_some(on)

@@ -459,13 +459,15 @@ mod tests {
             let (drawing, _) = drawn(&two_pieces(), &SheetParams { labels, ..SheetParams::default() });
             assert_eq!(ids(&drawing, LayerKind::Engrave), expected);
         }
+        // Too small even for a number of one digit.
+        let shrink = 0.05;
         let mut small = two_pieces();
         for piece in &mut small.pieces {
             let faces = piece.faces.iter_mut().flat_map(|f| &mut f.polygon);
-            faces.chain(&mut piece.outline).for_each(|p| *p *= 0.1);
+            faces.chain(&mut piece.outline).for_each(|p| *p *= shrink);
         }
-        small.folds[0].segment = small.folds[0].segment.map(|p| p * 0.1);
-        small.seams[0].sides.iter_mut().for_each(|s| s.segment = s.segment.map(|p| p * 0.1));
+        small.folds[0].segment = small.folds[0].segment.map(|p| p * shrink);
+        small.seams[0].sides.iter_mut().for_each(|s| s.segment = s.segment.map(|p| p * shrink));
         let (drawing, report) = drawn(&small, &SheetParams::default());
         assert_eq!(ids(&drawing, LayerKind::Engrave), [""; 0]);
         assert_eq!((report.unnamed_pieces.len(), report.unnumbered_sides), (2, 2));

@@ -2,6 +2,7 @@
 
 mod fit;
 mod frame;
+pub mod hull;
 mod meet3;
 mod plane;
 pub mod polygon;

@@ -33,8 +33,8 @@ impl<S: Signs> Cloud<S> {
     pub(super) fn new(mut points: Vec<DVec3>, roundings: f64, signs: S) -> (Self, f64) {
         let reach = points.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
         let scale = inverse_power_of_two(reach) * 0.5;
-        for p in &mut points {
-            *p *= scale;
+        if scale != 1.0 {
+            points.iter_mut().for_each(|p| *p *= scale);
         }
         (Self { points, noise: roundings * f64::EPSILON / 2.0, signs }, scale)
     }

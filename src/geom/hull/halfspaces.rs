@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::cloud::{Cloud, PlaneSigns};
 use super::contract::contract;
-use super::determinant::{excess, sign_of_excess};
+use super::determinant::excess;
 use super::interior::{Centre, deepest_point};
 use super::merge::{Faces, fan_starts};
 use super::order::{MOST_POINTS, insertion_order};
@@ -13,7 +13,6 @@ use super::polytope::{Polygons, Polytope};
 use super::split::split;
 use super::start::{Flat, enclose_centre, far_apart};
 use super::surface::{NONE, Surface};
-use crate::geom::Side;
 
 /// A half-space: all x with normal · x ≤ offset.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -154,16 +153,15 @@ fn check(half_spaces: &[HalfSpace]) -> Result<(), HalfSpaceError> {
     }
 }
 
-/// How far inside `x` lies, in units of the normal; exact in sign, and right to an ulp unless the terms cancel altogether.
+/// How far inside `x` lies, in units of the normal; right to an ulp wherever [`is_well_inside`] holds.
 fn slack(h: &HalfSpace, x: DVec3) -> f64 {
-    -excess(h.normal.to_array(), x.to_array(), h.offset)
+    if x == DVec3::ZERO { h.offset } else { -excess(h.normal.to_array(), x.to_array(), h.offset) }
 }
 
-/// Whether x lies inside by more than the rounding of the terms, so that the slack is right to an ulp.
+/// Whether x lies inside by more than the rounding of the terms.
 fn is_well_inside(h: &HalfSpace, x: DVec3) -> bool {
     let terms = (h.normal * x).abs();
-    let magnitude = terms.x + terms.y + terms.z + h.offset.abs();
-    slack(h, x) > 1e-14 * magnitude && sign_of_excess(h.normal.to_array(), x.to_array(), h.offset) == Side::Reverse
+    slack(h, x) > 1e-14 * (terms.x + terms.y + terms.z + h.offset.abs())
 }
 
 /// A point strictly inside: the one that was named, the origin where that is well inside, else the centre of a largest ball.
@@ -256,11 +254,10 @@ fn open_direction(flat: Flat, dual_points: &[DVec3]) -> DVec3 {
 
 /// The meeting point of the planes of each face of the dual hull.
 fn vertices(surface: &Surface, faces: &Faces, dual: &[DVec3], scale: f64, centre: DVec3) -> Vec<DVec3> {
-    let mut vertices = vec![DVec3::ZERO; faces.first.len()];
+    let mut vertices = vec![DVec3::ZERO; faces.len()];
     fill(&mut vertices, |face| {
-        let first = faces.first[face];
-        let facet = surface.facet(first);
-        let is_alone = facet.across.iter().all(|&g| faces.of_facet(g) != face as u32);
+        let facet = surface.facet(faces.first(face as u32));
+        let is_alone = !faces.has_merged() || facet.across.iter().all(|&g| faces.of_facet(g) != face as u32);
         let triple =
             if is_alone { facet.corners.map(|v| dual[v as usize]) } else { widest(surface, faces, face, dual) };
         centre + meeting_point(triple) * scale
@@ -288,17 +285,23 @@ pub(super) fn widest_triple(points: &[DVec3]) -> [DVec3; 3] {
     [a, b, c]
 }
 
-/// Where q·y = 1 for three dual points, with the residual solved for twice more: y lies on the planes to rounding, however
-/// flat they meet.
+/// Where q·y = 1 for three dual points, with the residuals solved for again: y lies on the planes to rounding, however flat
+/// they meet.
 pub(super) fn meeting_point([a, b, c]: [DVec3; 3]) -> DVec3 {
     let (bc, ca, ab) = (b.cross(c), c.cross(a), a.cross(b));
     let normal = (b - a).cross(c - a);
-    let determinant = normal.dot(a);
-    let step = |y: DVec3| (bc * (1.0 - a.dot(y)) + ca * (1.0 - b.dot(y)) + ab * (1.0 - c.dot(y))) / determinant;
-    let start = normal / determinant;
-    let better = start + step(start);
-    let best = better + step(better);
-    if best.is_finite() { best } else { start }
+    let inverse = 1.0 / normal.dot(a);
+    let mut best = normal * inverse;
+    for _ in 0..3 {
+        let residuals = DVec3::new(1.0 - a.dot(best), 1.0 - b.dot(best), 1.0 - c.dot(best));
+        let better = best + (bc * residuals.x + ca * residuals.y + ab * residuals.z) * inverse;
+        // Terms of this size leave no more to gain.
+        if residuals.abs().max_element() <= f64::EPSILON || !better.is_finite() {
+            break;
+        }
+        best = better;
+    }
+    best
 }
 
 /// The faces of the solid: for each dual point that is a corner the dual faces around it. Also which half-spaces they are of.
@@ -309,8 +312,7 @@ fn polygons(surface: &Surface, faces: &Faces, order: &[u32]) -> (Vec<u32>, Polyg
         around.clear();
         let f = starts[place];
         if f != NONE {
-            let i = surface.facet(f).corners.iter().position(|&c| c as usize == place);
-            faces.around(surface, (f, i.expect("the facet has the corner")), around);
+            faces.around(surface, place as u32, f, around);
         }
         // Inside a face or an edge of the dual hull: the plane only touches the solid.
         if around.len() < 3 {
@@ -318,9 +320,14 @@ fn polygons(surface: &Surface, faces: &Faces, order: &[u32]) -> (Vec<u32>, Polyg
         }
     };
     let mut sizes = vec![0_u32; order.len()];
-    for (place, &i) in order.iter().enumerate() {
-        walk(place, &mut around);
-        sizes[i as usize] = around.len() as u32;
+    if faces.has_merged() {
+        for (place, &i) in order.iter().enumerate() {
+            walk(place, &mut around);
+            sizes[i as usize] = around.len() as u32;
+        }
+    } else {
+        let corners = surface.live().flat_map(|f| surface.facet(f).corners);
+        corners.for_each(|v| sizes[order[v as usize] as usize] += 1);
     }
     let half_spaces: Vec<u32> = (0..order.len() as u32).filter(|&i| sizes[i as usize] > 0).collect();
     let mut total = 0;
@@ -330,9 +337,14 @@ fn polygons(surface: &Surface, faces: &Faces, order: &[u32]) -> (Vec<u32>, Polyg
     }
     let mut corners = vec![0; total as usize];
     for (place, &i) in order.iter().enumerate() {
-        walk(place, &mut around);
         let begin = begins[i as usize] as usize;
-        corners[begin..begin + around.len()].copy_from_slice(&around);
+        if faces.has_merged() {
+            walk(place, &mut around);
+            corners[begin..begin + around.len()].copy_from_slice(&around);
+        } else if starts[place] != NONE {
+            let fan = surface.fan_of(place as u32, starts[place]);
+            fan.zip(&mut corners[begin..]).for_each(|(f, corner)| *corner = faces.of_facet(f));
+        }
     }
     let next = |&i: &u32| begins.get(i as usize + 1).copied().unwrap_or(total);
     let ends = half_spaces.iter().map(next).collect();

@@ -6,10 +6,11 @@ use crate::geom::Side;
 
 /// The faces of a hull: for each facet the number of the face that it belongs to.
 pub(super) struct Faces {
-    /// By slot; `NONE` for free slots.
+    /// By slot; `NONE` for free slots. Empty when every slot is a face of its own.
     face_of: Vec<u32>,
-    /// One facet of each face.
-    pub(super) first: Vec<u32>,
+    /// One facet of each face; empty likewise.
+    first: Vec<u32>,
+    count: usize,
     has_merged: bool,
 }
 
@@ -40,17 +41,30 @@ impl Faces {
                 }
             }
         }
-        Self { face_of, first, has_merged }
+        Self { face_of, count: first.len(), first, has_merged }
     }
 
     /// Every facet a face of its own.
     pub(super) fn unmerged(surface: &Surface) -> Self {
+        if surface.len() == surface.slots() {
+            return Self { face_of: Vec::new(), first: Vec::new(), count: surface.len(), has_merged: false };
+        }
         let mut face_of = vec![NONE; surface.slots()];
         let first: Vec<u32> = surface.live().collect();
         for (face, &f) in first.iter().enumerate() {
             face_of[f as usize] = face as u32;
         }
-        Self { face_of, first, has_merged: false }
+        Self { face_of, count: first.len(), first, has_merged: false }
+    }
+
+    /// How many faces there are.
+    pub(super) fn len(&self) -> usize {
+        self.count
+    }
+
+    /// One facet of a face.
+    pub(super) fn first(&self, face: u32) -> u32 {
+        if self.first.is_empty() { face } else { self.first[face as usize] }
     }
 
     /// Whether any facets were joined.
@@ -60,15 +74,15 @@ impl Faces {
 
     /// The face of a facet.
     pub(super) fn of_facet(&self, f: u32) -> u32 {
-        self.face_of[f as usize]
+        if self.face_of.is_empty() { f } else { self.face_of[f as usize] }
     }
 
-    /// The faces around corner `i` of facet `f`, counter-clockwise, each once. A point is a corner of the hull when there
+    /// The faces around a point, counter-clockwise from facet `first`, each once. A point is a corner of the hull when there
     /// are three or more: one face has it inside, two have it on their common edge.
-    pub(super) fn around(&self, surface: &Surface, (f, i): (u32, usize), faces: &mut Vec<u32>) {
+    pub(super) fn around(&self, surface: &Surface, v: u32, first: u32, faces: &mut Vec<u32>) {
         faces.clear();
-        for (g, _) in surface.around(f, i) {
-            let face = self.of_facet(g);
+        for f in surface.fan_of(v, first) {
+            let face = self.of_facet(f);
             if faces.last() != Some(&face) {
                 faces.push(face);
             }
@@ -103,7 +117,7 @@ impl Faces {
 
     fn rim_side(&self, surface: &Surface, face: u32) -> Option<(u32, usize)> {
         let is_end = |f: u32| surface.facet(f).across.iter().position(|&g| self.of_facet(g) != face);
-        let first = self.first[face as usize];
+        let first = self.first(face);
         if let Some(side) = is_end(first) {
             return Some((first, side));
         }
@@ -127,7 +141,7 @@ fn are_coplanar<S: Signs>(surface: &Surface, cloud: &Cloud<S>, f: u32, g: u32) -
     cloud.height(surface.facet(f).corners, opposite) == Side::On
 }
 
-/// For each point a facet and its place there; facet `NONE` for points that are no corner of any.
+/// For each point a facet that has it for a corner; `NONE` for points that are no corner of any.
 pub(super) fn fan_starts(surface: &Surface, points: usize) -> Vec<u32> {
     let mut start = vec![NONE; points];
     for f in surface.live() {

@@ -7,7 +7,7 @@
 
 use glam::DVec3;
 
-use super::parallel::fill;
+use super::parallel::{fill, sort};
 
 /// Points that fit into the key beside round, side and place on the curve.
 pub(super) const MOST_POINTS: usize = 1 << INDEX_BITS;
@@ -32,7 +32,7 @@ pub(super) fn insertion_order(n: usize, direction: impl Fn(usize) -> DVec3 + Syn
         let place = hilbert(ranges[side].cell(u, bits), bits);
         u64::from(round) << 59 | (side as u64) << 56 | u64::from(place) << INDEX_BITS | i as u64
     });
-    keys.sort_unstable();
+    sort(&mut keys);
     keys.iter().map(|key| (key & (MOST_POINTS as u64 - 1)) as u32).collect()
 }
 

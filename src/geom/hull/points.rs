@@ -145,13 +145,12 @@ fn polygons(surface: &Surface, faces: &Faces, order: &[u32]) -> Polygons {
             if f == NONE || !faces.has_merged() {
                 return f != NONE;
             }
-            let i = surface.facet(f).corners.iter().position(|&c| c as usize == v).expect("the facet has the corner");
-            faces.around(surface, (f, i), &mut around);
+            faces.around(surface, v as u32, f, &mut around);
             around.len() > 2
         })
         .collect();
-    let mut rims: Vec<Vec<u32>> = Vec::with_capacity(faces.first.len());
-    for face in 0..faces.first.len() as u32 {
+    let mut rims: Vec<Vec<u32>> = Vec::with_capacity(faces.len());
+    for face in 0..faces.len() as u32 {
         faces.rim(surface, face, &mut around);
         let mut rim: Vec<u32> = around.iter().filter(|&&v| is_corner[v as usize]).map(|&v| order[v as usize]).collect();
         let lowest = (0..rim.len()).min_by_key(|&i| rim[i]).expect("a face has corners");

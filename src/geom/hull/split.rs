@@ -6,10 +6,11 @@ use super::polytope::{Polygons, Polytope};
 /// outwards by infinitely little less than the others: its corner becomes a chain of k − 3 edges, the other faces keep one edge to it.
 pub(super) fn split(polytope: Polytope) -> Polytope {
     let Polytope { mut vertices, half_spaces, faces, interior } = polytope;
-    let stars = stars(&faces, vertices.len());
-    if stars.iter().all(|star| star.len() == 3) {
+    // No vertex has fewer than three faces, so the sum tells.
+    if faces.corners().len() == 3 * vertices.len() {
         return Polytope { vertices, half_spaces, faces, interior };
     }
+    let stars = stars(&faces, vertices.len());
     // The number of the first vertex beyond the old one at each vertex.
     let mut added = Vec::with_capacity(stars.len());
     for (v, star) in stars.iter().enumerate() {

@@ -99,17 +99,21 @@ impl Surface {
         self.has_zeros
     }
 
-    /// The facets around corner `i` of facet `f`, counter-clockwise seen from outside, each with the corner's place in it.
-    pub(super) fn around(&self, f: u32, i: usize) -> impl Iterator<Item = (u32, usize)> + '_ {
-        let start = f;
-        let turn = move |&(g, j): &(u32, usize)| {
-            let side = (j + 2) % 3;
-            let next = self.facet(g).across[side];
-            let at = self.side_to(next, g);
-            // The side back to g leaves the corner that the turn is about.
-            (next != start).then_some((next, at))
+    /// The facets around corner `v`, counter-clockwise, beginning with `first`.
+    pub(super) fn fan_of(&self, v: u32, first: u32) -> impl Iterator<Item = u32> + '_ {
+        let next = move |&f: &u32| {
+            let Facet { corners, across } = self.facet(f);
+            // The side that comes back to v.
+            let next = if corners[0] == v {
+                across[2]
+            } else if corners[1] == v {
+                across[0]
+            } else {
+                across[1]
+            };
+            (next != first).then_some(next)
         };
-        std::iter::successors(Some((f, i)), turn)
+        std::iter::successors(Some(first), next)
     }
 
     /// Inserts a point; nothing changes when it does not lie outside.

@@ -4,6 +4,7 @@ mod bridge;
 mod cutter;
 mod divide;
 mod error;
+mod hull;
 mod report;
 mod section;
 mod slice;
@@ -16,6 +17,7 @@ mod truncate_vertex;
 mod tests;
 
 pub use error::OpError;
+pub use hull::{Axis, HullParams, HullPart, HullReport, HullStep, Step, Steps, halfspaces, hull};
 pub use report::CutReport;
 pub use slice::{Direction, Keep, Point, SliceParams, slice};
 pub use truncate::{OpContext, Scope};

@@ -23,6 +23,13 @@ pub struct HalfSpace {
     pub offset: f64,
 }
 
+impl HalfSpace {
+    /// How far inside `x` lies, in units of the normal's length: right to an ulp even where the terms cancel.
+    pub fn slack(&self, x: DVec3) -> f64 {
+        if x == DVec3::ZERO { self.offset } else { -excess(self.normal.to_array(), x.to_array(), self.offset) }
+    }
+}
+
 /// What becomes of points where more than three planes meet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
 pub enum Form {
@@ -153,15 +160,10 @@ fn check(half_spaces: &[HalfSpace]) -> Result<(), HalfSpaceError> {
     }
 }
 
-/// How far inside `x` lies, in units of the normal; right to an ulp wherever [`is_well_inside`] holds.
-fn slack(h: &HalfSpace, x: DVec3) -> f64 {
-    if x == DVec3::ZERO { h.offset } else { -excess(h.normal.to_array(), x.to_array(), h.offset) }
-}
-
 /// Whether x lies inside by more than the rounding of the terms.
 fn is_well_inside(h: &HalfSpace, x: DVec3) -> bool {
     let terms = (h.normal * x).abs();
-    slack(h, x) > 1e-14 * (terms.x + terms.y + terms.z + h.offset.abs())
+    h.slack(x) > 1e-14 * (terms.x + terms.y + terms.z + h.offset.abs())
 }
 
 /// A point strictly inside: the one that was named, the origin where that is well inside, else the centre of a largest ball.
@@ -194,7 +196,7 @@ fn exact_intersection(half_spaces: &[HalfSpace], centre: DVec3, simple: bool) ->
     let mut near = vec![DVec3::ZERO; count];
     fill(&mut near, |place| {
         let h = &half_spaces[order[place] as usize];
-        h.normal / slack(h, centre)
+        h.normal / h.slack(centre)
     });
     // A dual point carries the rounding of the slack, one ulp, and of the division, half an ulp.
     let (cloud, scale) = Cloud::new(near, 4.0, PlaneSigns::new(half_spaces, &order));
@@ -307,48 +309,53 @@ pub(super) fn meeting_point([a, b, c]: [DVec3; 3]) -> DVec3 {
 /// The faces of the solid: for each dual point that is a corner the dual faces around it. Also which half-spaces they are of.
 fn polygons(surface: &Surface, faces: &Faces, order: &[u32]) -> (Vec<u32>, Polygons) {
     let starts = fan_starts(surface, order.len());
-    let mut around = Vec::new();
-    let walk = |place: usize, around: &mut Vec<u32>| {
-        around.clear();
-        let f = starts[place];
-        if f != NONE {
-            faces.around(surface, place as u32, f, around);
-        }
-        // Inside a face or an edge of the dual hull: the plane only touches the solid.
-        if around.len() < 3 {
-            around.clear();
-        }
-    };
-    let mut sizes = vec![0_u32; order.len()];
-    if faces.has_merged() {
-        for (place, &i) in order.iter().enumerate() {
-            walk(place, &mut around);
-            sizes[i as usize] = around.len() as u32;
-        }
-    } else {
-        let corners = surface.live().flat_map(|f| surface.facet(f).corners);
-        corners.for_each(|v| sizes[order[v as usize] as usize] += 1);
-    }
-    let half_spaces: Vec<u32> = (0..order.len() as u32).filter(|&i| sizes[i as usize] > 0).collect();
+    let mut sizes =
+        if faces.has_merged() { merged_sizes(surface, faces, &starts) } else { valences(surface, order.len()) };
+    // Runs in the order of the half-spaces: first how long each is, then where it begins.
+    let mut begins = vec![0_u32; order.len()];
+    order.iter().zip(&sizes).for_each(|(&i, &size)| begins[i as usize] = size);
+    let half_spaces: Vec<u32> = (0..order.len() as u32).filter(|&i| begins[i as usize] > 0).collect();
     let mut total = 0;
-    let mut begins = sizes;
-    for size in &mut begins {
-        total += std::mem::replace(size, total);
-    }
-    let mut corners = vec![0; total as usize];
-    for (place, &i) in order.iter().enumerate() {
-        let begin = begins[i as usize] as usize;
-        if faces.has_merged() {
-            walk(place, &mut around);
-            corners[begin..begin + around.len()].copy_from_slice(&around);
-        } else if starts[place] != NONE {
-            let fan = surface.fan_of(place as u32, starts[place]);
-            fan.zip(&mut corners[begin..]).for_each(|(f, corner)| *corner = faces.of_facet(f));
-        }
+    for begin in &mut begins {
+        total += std::mem::replace(begin, total);
     }
     let next = |&i: &u32| begins.get(i as usize + 1).copied().unwrap_or(total);
     let ends = half_spaces.iter().map(next).collect();
+    let mut corners = vec![0; total as usize];
+    let mut around = Vec::new();
+    for (place, &i) in order.iter().enumerate() {
+        let size = std::mem::take(&mut sizes[place]) as usize;
+        let run = &mut corners[begins[i as usize] as usize..][..size];
+        if faces.has_merged() && size > 0 {
+            faces.around(surface, place as u32, starts[place], &mut around);
+            run.copy_from_slice(&around);
+        } else if size > 0 {
+            let fan = surface.fan_of(place as u32, starts[place]);
+            fan.zip(run).for_each(|(f, corner)| *corner = faces.of_facet(f));
+        }
+    }
     (half_spaces, Polygons::from_runs(corners, ends))
+}
+
+/// By place, the number of facets around each point.
+fn valences(surface: &Surface, points: usize) -> Vec<u32> {
+    let mut valences = vec![0; points];
+    surface.live().flat_map(|f| surface.facet(f).corners).for_each(|v| valences[v as usize] += 1);
+    valences
+}
+
+/// By place, the number of dual faces around each point that is a corner of the dual hull; 0 for those inside a dual face or
+/// edge, whose planes only touch the solid.
+fn merged_sizes(surface: &Surface, faces: &Faces, starts: &[u32]) -> Vec<u32> {
+    let mut around = Vec::new();
+    let size = |(place, &f): (usize, &u32)| {
+        around.clear();
+        if f != NONE {
+            faces.around(surface, place as u32, f, &mut around);
+        }
+        if around.len() < 3 { 0 } else { around.len() as u32 }
+    };
+    starts.iter().enumerate().map(size).collect()
 }
 
 /// Contracts what is shorter than rounding. Planes that then span no face any more are left out and the rest is intersected

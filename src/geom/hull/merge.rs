@@ -44,6 +44,41 @@ impl Faces {
         Self { face_of, count: first.len(), first, has_merged }
     }
 
+    /// Joins all neighbours whose corners lie within `bound` of one plane, that of the largest facet among them. Slivers
+    /// without a plane of their own go to a neighbour.
+    pub(super) fn within<S: Signs>(surface: &Surface, cloud: &Cloud<S>, bound: f64) -> Self {
+        let normal = |f: u32| {
+            let [a, b, c] = surface.facet(f).corners.map(|v| cloud.point(v));
+            (b - a).cross(c - a)
+        };
+        let mut by_area: Vec<u32> = surface.live().collect();
+        by_area.sort_by(|&f, &g| normal(g).length_squared().total_cmp(&normal(f).length_squared()));
+        let (mut face_of, mut first, mut has_merged) = (vec![NONE; surface.slots()], Vec::new(), false);
+        let mut stack = Vec::new();
+        for seed in by_area {
+            if face_of[seed as usize] != NONE {
+                continue;
+            }
+            let (upwards, origin) = (normal(seed).normalize_or_zero(), cloud.point(surface.facet(seed).corners[0]));
+            let is_near = |v: u32| (cloud.point(v) - origin).dot(upwards).abs() <= bound;
+            face_of[seed as usize] = first.len() as u32;
+            stack.push(seed);
+            while let Some(f) = stack.pop() {
+                for g in surface.facet(f).across {
+                    // A facet that looks the other way is the back of a solid thinner than the bound.
+                    let fits = || normal(g).dot(upwards) >= -bound && surface.facet(g).corners.into_iter().all(is_near);
+                    if face_of[g as usize] == NONE && fits() {
+                        face_of[g as usize] = first.len() as u32;
+                        has_merged = true;
+                        stack.push(g);
+                    }
+                }
+            }
+            first.push(seed);
+        }
+        Self { face_of, count: first.len(), first, has_merged }
+    }
+
     /// Every facet a face of its own.
     pub(super) fn unmerged(surface: &Surface) -> Self {
         if surface.len() == surface.slots() {

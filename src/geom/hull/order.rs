@@ -27,7 +27,7 @@ pub(super) fn insertion_order(n: usize, direction: impl Fn(usize) -> DVec3 + Syn
     let mut keys = vec![0_u64; n];
     fill(&mut keys, |i| {
         let direction = direction(i);
-        let round = rounds - hash(direction).trailing_zeros().min(rounds);
+        let round = rounds - lateness(direction).min(rounds);
         let (side, u) = on_cube(direction);
         let place = hilbert(ranges[side].cell(u, bits), bits);
         u64::from(round) << 59 | (side as u64) << 56 | u64::from(place) << INDEX_BITS | i as u64
@@ -59,11 +59,9 @@ fn ranges(n: usize, direction: &impl Fn(usize) -> DVec3) -> [Range; 6] {
     let mut ranges = [Range { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] }; 6];
     for i in 0..n {
         let (side, u) = on_cube(direction(i));
-        let range = &mut ranges[side];
-        for k in 0..2 {
-            range.low[k] = range.low[k].min(u[k]);
-            range.high[k] = range.high[k].max(u[k]);
-        }
+        let Range { low, high } = &mut ranges[side];
+        *low = [low[0].min(u[0]), low[1].min(u[1])];
+        *high = [high[0].max(u[0]), high[1].max(u[1])];
     }
     ranges
 }
@@ -103,6 +101,11 @@ fn hilbert([mut x, mut y]: [u32; 2], bits: u32) -> u32 {
     place
 }
 
+/// 0 for the last round, which holds half of the points, 1 for the one before, and so on.
+fn lateness(direction: DVec3) -> u32 {
+    hash(direction).trailing_zeros()
+}
+
 /// The finaliser of splitmix64 (Steele, Lea and Flood 2014), once for each coordinate.
 fn hash(direction: DVec3) -> u64 {
     direction.to_array().into_iter().fold(0, |hash: u64, x| {
@@ -136,7 +139,7 @@ mod tests {
         sorted.sort_unstable();
         assert!(sorted.iter().enumerate().all(|(i, &p)| i == p as usize));
         // The last round holds about half of the points: those whose hash has no zeros at its end.
-        let is_last = |&&i: &&u32| hash(directions[i as usize]).trailing_zeros() == 0;
+        let is_last = |&&i: &&u32| lateness(directions[i as usize]) == 0;
         let last = order.iter().rev().take_while(is_last).count();
         assert!((2300..2700).contains(&last), "{last}");
         assert_eq!(order.iter().filter(is_last).count(), last);

@@ -9,7 +9,7 @@ pub(super) fn fill<T: Send>(out: &mut [T], make: impl Fn(usize) -> T + Sync) {
 }
 
 /// Sorts keys that all differ.
-pub(super) fn sort(keys: &mut Vec<u64>) {
+pub(super) fn sort(keys: &mut [u64]) {
     let share = in_shares(keys, |_, part| part.sort_unstable());
     // Sorted shares are runs that this sort finds and merges.
     if share < keys.len() {

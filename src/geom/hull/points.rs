@@ -2,12 +2,14 @@
 
 use glam::DVec3;
 
+use super::Numbers;
 use super::cloud::{Cloud, PointSigns};
 use super::merge::{Faces, fan_starts};
 use super::order::{MOST_POINTS, insertion_order};
 use super::polytope::Polygons;
 use super::start::{Flat, far_apart};
 use super::surface::{NONE, Surface};
+use crate::geom::RoundingBound;
 use crate::geom::predicate::orient3d;
 
 /// Why points have no hull with a volume. Points are numbered from 0 in the order of the input.
@@ -68,13 +70,14 @@ pub enum HullError {
 
 /// The faces of the convex hull of `points`, as runs of point numbers, counter-clockwise seen from outside.
 ///
-/// Exact on the given numbers: coplanar neighbours are one face, and points inside a face or an edge are no corners. Of equal
+/// Exact on the given numbers: coplanar neighbours are one face, and points inside a face or an edge are no corners. With
+/// [`Numbers::Constructed`] neighbours within [`RoundingBound`] of one plane are one face too, as long as a solid remains. Of equal
 /// points one stands for all. Each face begins at its lowest corner; the faces are in lexicographic order, whatever the order of the input's
 /// insertion.
 ///
 /// # Errors
 /// [`HullError`] when a coordinate is not finite or the points span no volume.
-pub fn convex_hull(points: &[DVec3]) -> Result<Polygons, HullError> {
+pub fn convex_hull(points: &[DVec3], numbers: Numbers) -> Result<Polygons, HullError> {
     let count = points.len();
     if count < 4 {
         return Err(HullError::TooFew { count });
@@ -88,14 +91,33 @@ pub fn convex_hull(points: &[DVec3]) -> Result<Polygons, HullError> {
     let (corners, centre) = start(points).map_err(|flat| refusal(flat, points))?;
     let order = insertion_order(count, |i| points[i] - centre.point);
     let signs = PointSigns { points, order: &order, centre: centre.point };
-    let (cloud, _) = Cloud::new(order.iter().map(|&i| points[i as usize] - centre.point).collect(), 2.0, signs);
+    let (cloud, scale) = Cloud::new(order.iter().map(|&i| points[i as usize] - centre.point).collect(), 2.0, signs);
     let places = corners.map(|c| order.iter().position(|&i| i == c).expect("every point has a place") as u32);
     let mut surface = Surface::tetrahedron(places, centre.is_corner.then_some(places[0]), count);
     for p in (0..cloud.len()).filter(|p| !places.contains(p)) {
         surface.insert(&cloud, p);
     }
-    let faces = Faces::of(&surface, &cloud);
-    Ok(polygons(&surface, &faces, &order))
+    if numbers == Numbers::Constructed {
+        let (low, high) = points.iter().fold((points[0], points[0]), |(l, h), &p| (l.min(p), h.max(p)));
+        let faces = Faces::within(&surface, &cloud, RoundingBound::of_box(low, high).length() * scale);
+        let merged = polygons(&surface, &faces, &order);
+        if is_closed(&merged) {
+            return Ok(merged);
+        }
+    }
+    Ok(polygons(&surface, &Faces::of(&surface, &cloud), &order))
+}
+
+/// Whether every face has an area and every side of it a partner.
+fn is_closed(faces: &Polygons) -> bool {
+    let runs = || faces.iter().flat_map(|run| run.iter().zip(run.iter().cycle().skip(1)));
+    let mut sides: Vec<(u32, u32)> = runs().map(|(&a, &b)| (a, b)).collect();
+    sides.sort_unstable();
+    let is_paired = |w: &(u32, u32)| sides.binary_search(&(w.1, w.0)).is_ok();
+    faces.len() > 3
+        && faces.iter().all(|run| run.len() > 2)
+        && sides.windows(2).all(|w| w[0] != w[1])
+        && sides.iter().all(is_paired)
 }
 
 /// From where the hull is seen.
@@ -153,7 +175,7 @@ fn polygons(surface: &Surface, faces: &Faces, order: &[u32]) -> Polygons {
     for face in 0..faces.len() as u32 {
         faces.rim(surface, face, &mut around);
         let mut rim: Vec<u32> = around.iter().filter(|&&v| is_corner[v as usize]).map(|&v| order[v as usize]).collect();
-        let lowest = (0..rim.len()).min_by_key(|&i| rim[i]).expect("a face has corners");
+        let lowest = (0..rim.len()).min_by_key(|&i| rim[i]).unwrap_or(0);
         rim.rotate_left(lowest);
         rims.push(rim);
     }

@@ -12,6 +12,10 @@ fn v(x: f64, y: f64, z: f64) -> DVec3 {
     DVec3::new(x, y, z)
 }
 
+fn exact_hull(points: &[DVec3]) -> Result<Polygons, HullError> {
+    convex_hull(points, Numbers::Given)
+}
+
 /// A small generator for the tests (xorshift64*).
 struct Random(u64);
 
@@ -93,7 +97,7 @@ fn a_grid_of_points_is_a_cube_with_six_faces() {
     for n in [1, 2, 5] {
         for shift in [DVec3::ZERO, v(1e6, -1e7, 3e5)] {
             let points: Vec<DVec3> = cube_points(n).into_iter().map(|p| p + shift).collect();
-            let hull = convex_hull(&points).expect("a cube");
+            let hull = exact_hull(&points).expect("a cube");
             assert_eq!((hull.len(), hull.corners().len()), (6, 24));
             assert_closed(&hull, 8);
         }
@@ -103,27 +107,27 @@ fn a_grid_of_points_is_a_cube_with_six_faces() {
 #[test]
 fn repeated_points_count_once() {
     let points: Vec<DVec3> = cube_points(1).into_iter().flat_map(|p| [p, p, p]).collect();
-    let hull = convex_hull(&points).expect("a cube");
+    let hull = exact_hull(&points).expect("a cube");
     assert_eq!(hull.len(), 6);
     assert_closed(&hull, 8);
 }
 
 #[test]
 fn points_without_a_volume_are_refused_with_the_reason() {
-    assert_eq!(convex_hull(&[DVec3::ZERO; 3]), Err(HullError::TooFew { count: 3 }));
-    assert!(matches!(convex_hull(&[DVec3::ONE; 9]), Err(HullError::Coincident { count: 9, .. })));
+    assert_eq!(exact_hull(&[DVec3::ZERO; 3]), Err(HullError::TooFew { count: 3 }));
+    assert!(matches!(exact_hull(&[DVec3::ONE; 9]), Err(HullError::Coincident { count: 9, .. })));
     let line: Vec<DVec3> = (0..50).map(|i| v(1.0, 2.0, -3.0) * f64::from(i)).collect();
-    let Err(HullError::Collinear { direction, .. }) = convex_hull(&line) else { panic!("a line") };
+    let Err(HullError::Collinear { direction, .. }) = exact_hull(&line) else { panic!("a line") };
     assert!(direction.cross(v(1.0, 2.0, -3.0)).length() < 1e-14);
     let plane: Vec<DVec3> =
         (0..50).map(|i| v(f64::from(i % 7), f64::from(i), f64::from(i) + f64::from(i % 7))).collect();
-    let error = convex_hull(&plane).expect_err("a plane");
+    let error = exact_hull(&plane).expect_err("a plane");
     assert!(
         matches!(error, HullError::Coplanar { normal, .. } if normal.dot(v(1.0, 1.0, -1.0)).abs() > 1.7),
         "{error}"
     );
     let bad = [v(0.0, 0.0, f64::NAN), DVec3::X, DVec3::Y, DVec3::Z];
-    assert!(matches!(convex_hull(&bad), Err(HullError::NotFinite { point: 0, .. })));
+    assert!(matches!(exact_hull(&bad), Err(HullError::NotFinite { point: 0, .. })));
 }
 
 #[test]
@@ -133,7 +137,7 @@ fn a_sheet_one_ulp_thick_has_a_hull() {
     let mut random = Random(5);
     let mut points: Vec<DVec3> = (0..400).map(|_| v(random.unit(), random.unit(), low)).collect();
     points.extend((0..400).map(|_| v(random.unit(), random.unit(), high)));
-    let hull = convex_hull(&points).expect("two layers");
+    let hull = exact_hull(&points).expect("two layers");
     assert_hull(&points, &hull);
 }
 
@@ -156,6 +160,24 @@ fn assert_hull(points: &[DVec3], hull: &Polygons) {
         let on: Vec<u32> =
             used.iter().copied().filter(|&d| orient3d(at(run[0]), at(run[1]), at(run[2]), at(d)) == 0.0).collect();
         assert_eq!(on.len(), run.len());
+    }
+}
+
+#[test]
+fn faces_flat_up_to_rounding_are_one_when_computed() {
+    let mut random = Random(23);
+    let normal = random.on_sphere();
+    let (x, y) = normal.any_orthonormal_pair();
+    // A turned grid of points and one of its layers moved by less than rounding.
+    let mut points: Vec<DVec3> = cube_points(4).into_iter().map(|p| x * p.x + y * p.y + normal * p.z + 7.0).collect();
+    points[31] += normal * 1e-15;
+    assert!(exact_hull(&points).expect("a cube").len() > 6);
+    let hull = convex_hull(&points, Numbers::Constructed).expect("a cube");
+    assert_eq!((hull.len(), hull.corners().len()), (6, 24));
+    // Thinner than rounding altogether: nothing is joined, so that a solid remains.
+    let sheet: Vec<DVec3> = points.iter().map(|&p| p - normal * (p - 7.0).dot(normal)).collect();
+    if let Ok(exact) = exact_hull(&sheet) {
+        assert_eq!(convex_hull(&sheet, Numbers::Constructed), Ok(exact));
     }
 }
 
@@ -328,7 +350,7 @@ proptest! {
     #[test]
     fn hulls_of_grid_points_are_exact(points in grid_points(), shift in prop::sample::select(vec![0.0, 1e5, 0.1])) {
         let points: Vec<DVec3> = points.into_iter().map(|p| p + shift).collect();
-        match convex_hull(&points) {
+        match exact_hull(&points) {
             Ok(hull) => {
                 assert_hull(&points, &hull);
                 // The hull of the hull's corners is the hull.
@@ -336,7 +358,7 @@ proptest! {
                 used.sort_unstable();
                 used.dedup();
                 let corners: Vec<DVec3> = used.iter().map(|&i| points[i as usize]).collect();
-                let again = convex_hull(&corners).expect("the same hull");
+                let again = exact_hull(&corners).expect("the same hull");
                 let back: Vec<u32> = again.corners().iter().map(|&i| used[i as usize]).collect();
                 prop_assert_eq!(back, hull.corners());
             }
@@ -355,7 +377,7 @@ proptest! {
         let normal = random.on_sphere();
         let (x, y) = normal.any_orthonormal_pair();
         let points: Vec<DVec3> = flat.iter().map(|&[a, b]| x * a + y * b + normal * 0.3).collect();
-        if let Ok(hull) = convex_hull(&points) {
+        if let Ok(hull) = exact_hull(&points) {
             assert_hull(&points, &hull);
         }
     }
@@ -367,7 +389,7 @@ proptest! {
         let planes = tangent(normals.clone());
         match intersect(&planes, &Intersect::default()) {
             Ok(p) => {
-                let hull = convex_hull(&normals).expect("bounded, so the normals span space");
+                let hull = exact_hull(&normals).expect("bounded, so the normals span space");
                 let mut corners = hull.corners().to_vec();
                 corners.sort_unstable();
                 corners.dedup();

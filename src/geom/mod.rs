@@ -2,6 +2,7 @@
 
 mod fit;
 mod frame;
+pub mod hull;
 mod meet;
 mod meet_three;
 mod plane;

@@ -8,6 +8,7 @@ mod format;
 pub mod layout_json;
 pub mod output;
 pub mod pieces_json;
+pub mod planes_csv;
 mod read;
 pub mod report_csv;
 pub mod report_json;

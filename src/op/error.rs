@@ -1,6 +1,7 @@
 //! What a caller of an operator can mend.
 
-use crate::mesh::{EdgeId, FaceId, VertexId};
+use crate::geom::hull::{HalfSpaceError, HullError};
+use crate::mesh::{BuildError, EdgeId, FaceId, VertexId};
 use crate::select::SelectError;
 
 /// Why an operator refused; no mesh was made.
@@ -92,6 +93,57 @@ pub enum OpError {
         /// How many.
         holes: usize,
     },
+    /// Too many of something, or none.
+    #[error("there can be 1 to {limit} {what}, not {count}")]
+    CountOutOfRange {
+        /// What is counted.
+        what: &'static str,
+        /// What was given.
+        count: u32,
+        /// The most that is allowed.
+        limit: u32,
+    },
+    /// The concavity is not in (0, 1].
+    #[error("the concavity is {concavity}, but it must be above 0 (convex parts only) and at most 1 (one part)")]
+    ConcavityOutOfRange {
+        /// What was given.
+        concavity: f64,
+    },
+    /// Two parameters that do not go together.
+    #[error("{first} and {second} do not go together; leave one of them out")]
+    Exclude {
+        /// One of them.
+        first: &'static str,
+        /// The other.
+        second: &'static str,
+    },
+    /// A parameter that means something only with another.
+    #[error("{what} means something only together with {needed}; set {needed} or leave {what} out")]
+    Requires {
+        /// The parameter.
+        what: &'static str,
+        /// What it needs.
+        needed: &'static str,
+    },
+    /// Points span no volume.
+    #[error("{part}: {reason}")]
+    NoHull {
+        /// The part of the model.
+        part: String,
+        /// Why it has no hull.
+        reason: HullError,
+    },
+    /// Half-spaces bound no solid.
+    #[error("{part}: {reason}")]
+    HalfSpaces {
+        /// The part of the model.
+        part: String,
+        /// Why not.
+        reason: HalfSpaceError,
+    },
+    /// A hull has more elements than a mesh can hold.
+    #[error("the hull cannot be built: {0}")]
+    Build(#[from] BuildError),
     /// The user asked to stop.
     #[error("stopped before the end; nothing was written")]
     Cancelled,

@@ -5,6 +5,7 @@ mod cutter;
 mod divide;
 mod error;
 mod flat;
+mod hull;
 mod report;
 mod resolve;
 mod section;
@@ -21,6 +22,7 @@ mod tests;
 
 pub use cutter::Capping;
 pub use error::OpError;
+pub use hull::{Axis, HullParams, HullPart, HullReport, HullStep, Step, Steps, halfspaces, hull};
 pub use report::CutReport;
 pub use resolve::{ResolveParams, ResolveReport, resolve};
 pub use slice::{Direction, Keep, Point, SliceParams, slice, slice_both};

@@ -5,7 +5,6 @@
 //! order, each beginning at its lowest vertex; the other families say theirs. The vertices of all but boxes count as
 //! computed, not given ([`Mesh::is_given`]), because their coordinates are rounded from irrational numbers.
 
-mod hull;
 mod name;
 mod random;
 mod round;

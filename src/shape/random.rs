@@ -2,9 +2,8 @@
 
 use glam::DVec3;
 
-use super::hull;
 use crate::geom::Plane;
-use crate::geom::predicate::orient3d;
+use crate::geom::hull::{Form, HalfSpace, Intersect, Polytope, intersect};
 use crate::mesh::{FaceId, Mesh, VertexId};
 
 /// The intersection of `n` half-spaces whose planes touch the unit sphere at uniformly random points.
@@ -18,32 +17,32 @@ use crate::mesh::{FaceId, Mesh, VertexId};
 pub fn random_tangent_polytope(n: usize, seed: u64) -> Mesh {
     assert!(n >= 4, "a solid has at least 4 faces, not {n}");
     let mut random = SplitMix(seed);
+    let options = Intersect { form: Form::Simple, interior: Some(DVec3::ZERO), ..Intersect::default() };
     // The planes enclose the sphere when the hull of the touching points holds the centre: nearly always but for small n.
     loop {
         let points: Vec<DVec3> = (0..n).map(|_| random.on_sphere()).collect();
-        if let Some(mesh) = hull::triangles(&points).and_then(|triangles| dual(&points, &triangles)) {
+        let tangent = |&p: &DVec3| HalfSpace { normal: p, offset: p.length_squared() };
+        let half_spaces: Vec<HalfSpace> = points.iter().map(tangent).collect();
+        let polytope = intersect(&half_spaces, &options).ok().filter(|polytope| polytope.faces.len() == n);
+        if let Some(mesh) = polytope.and_then(|polytope| tangent_mesh(&points, &polytope)) {
             return mesh;
         }
     }
 }
 
-/// The polytope whose faces touch the sphere at `points`: its vertices are the triangles of their hull.
-fn dual(points: &[DVec3], triangles: &[[usize; 3]]) -> Option<Mesh> {
-    let holds_centre = |t: &[usize; 3]| orient3d(points[t[0]], points[t[1]], points[t[2]], DVec3::ZERO) > 0.0;
-    if !triangles.iter().all(holds_centre) {
-        return None;
-    }
-    let mut number = vec![usize::MAX; triangles.len()];
-    let mut positions = Vec::with_capacity(triangles.len());
-    let mut faces = fans(points.len(), triangles);
-    for corner in faces.iter_mut().flatten() {
-        let t = *corner;
-        if number[t] == usize::MAX {
-            number[t] = positions.len();
-            positions.push(meeting_point(triangles[t].map(|v| points[v])));
+/// The mesh of a polytope of which every half-space has a face, with its vertices renumbered.
+fn tangent_mesh(points: &[DVec3], polytope: &Polytope) -> Option<Mesh> {
+    let mut number = vec![usize::MAX; polytope.vertices.len()];
+    let mut positions = Vec::with_capacity(number.len());
+    let mut renumbered = |&v: &u32| {
+        let number = &mut number[v as usize];
+        if *number == usize::MAX {
+            *number = positions.len();
+            positions.push(polytope.vertices[v as usize]);
         }
-        *corner = number[t];
-    }
+        *number
+    };
+    let faces: Vec<Vec<usize>> = polytope.faces.iter().map(|run| run.iter().map(&mut renumbered).collect()).collect();
     let count = positions.len();
     let mut mesh = Mesh::from_faces(positions, faces).ok()?;
     for v in (0..count).map(VertexId::new) {
@@ -53,38 +52,6 @@ fn dual(points: &[DVec3], triangles: &[[usize; 3]]) -> Option<Mesh> {
         mesh.set_plane(FaceId::new(i), Plane::new(p, p).expect("points on the sphere are unit vectors"));
     }
     Some(mesh)
-}
-
-/// For each point the triangles around it, counter-clockwise, beginning with the lowest.
-fn fans(n: usize, triangles: &[[usize; 3]]) -> Vec<Vec<usize>> {
-    // (entered from, left to, triangle) for each corner of each point.
-    let mut corners: Vec<Vec<(usize, usize, usize)>> = vec![Vec::new(); n];
-    for (t, vertices) in triangles.iter().enumerate() {
-        for i in 0..3 {
-            corners[vertices[i]].push((vertices[(i + 1) % 3], vertices[(i + 2) % 3], t));
-        }
-    }
-    let walk = |around: &Vec<(usize, usize, usize)>| {
-        let mut fan = Vec::with_capacity(around.len());
-        let mut next = around[0].0;
-        for _ in 0..around.len() {
-            let &(_, to, t) = around.iter().find(|corner| corner.0 == next).expect("the hull is closed");
-            fan.push(t);
-            next = to;
-        }
-        fan
-    };
-    corners.iter().map(walk).collect()
-}
-
-/// Where the three planes p · (x − p) = 0 meet, with the residual solved for once more, twice.
-fn meeting_point([a, b, c]: [DVec3; 3]) -> DVec3 {
-    let (bc, ca, ab) = (b.cross(c), c.cross(a), a.cross(b));
-    let determinant = a.dot(bc);
-    let step = |x: DVec3| (bc * a.dot(a - x) + ca * b.dot(b - x) + ab * c.dot(c - x)) / determinant;
-    let start = step(DVec3::ZERO);
-    let better = start + step(start);
-    better + step(better)
 }
 
 /// The splitmix64 generator (Steele, Lea and Flood 2014).

@@ -1,0 +1,150 @@
+//! Dual hulls against qhull, run in the same call on the same planes: `cargo bench --bench dual_hull`.
+//!
+//! Planes tangent to a sphere and to a 10:3:1 ellipsoid at random points. Prints CPU seconds of both, the ratio, the counts and
+//! the peak memory. qhull's time is the one that it reports for the hull alone, without reading or writing. Without qhull
+//! (Debian: `qhull-bin`) only our own numbers are printed and the comparison is named as missing.
+
+#![allow(clippy::print_stdout, reason = "a bench prints")]
+
+use std::fmt::Write as _;
+use std::process::{Command, Stdio};
+use std::time::Instant;
+
+use glam::DVec3;
+use kerfold::geom::hull::{Form, HalfSpace, Intersect, Polytope, intersect};
+
+/// What the project promises: how many times faster than qhull at each size.
+const BARS: [(usize, f64); 3] = [(10_000, 10.0), (100_000, 10.0), (1_000_000, 15.0)];
+/// The most memory that a million planes may take, in MB.
+const MOST_MEGABYTES: f64 = 250.0;
+
+fn main() {
+    // Each case runs in a process of its own, so that its peak memory is its own.
+    let args: Vec<String> = std::env::args().collect();
+    if let Some(i) = args.iter().position(|a| a == "--case") {
+        let n = args[i + 2].parse().expect("a number of planes");
+        return run_case(&args[i + 1], n);
+    }
+    let qhull = qhull_version();
+    match &qhull {
+        Some(version) => println!("peer: {version}"),
+        None => println!("peer: qhull is not installed (Debian: qhull-bin); no comparison is made"),
+    }
+    println!(
+        "{:<10} {:>8} {:>9} {:>9} {:>9} {:>7} {:>6} {:>8}  counts",
+        "shape", "planes", "wall s", "CPU s", "qhull s", "ratio", "bar", "MB"
+    );
+    for shape in ["sphere", "ellipsoid"] {
+        for (n, bar) in BARS {
+            let ours = own_process(shape, n);
+            let theirs = qhull.as_ref().map(|_| run_qhull(&planes(shape, n)));
+            let [wall, cpu, megabytes] = ours.numbers;
+            let ratio = theirs.map_or("-".to_owned(), |t| format!("{:.1}", t / cpu));
+            let missed = theirs.is_some_and(|t| t / cpu < bar) || (n == 1_000_000 && megabytes > MOST_MEGABYTES);
+            let theirs = theirs.map_or("-".to_owned(), |t| format!("{t:.3}"));
+            let verdict = if missed { "MISSED" } else { "" };
+            println!(
+                "{shape:<10} {n:>8} {wall:>9.4} {cpu:>9.4} {theirs:>9} {ratio:>7} {bar:>6} {megabytes:>8.0}  {} {verdict}",
+                ours.counts
+            );
+        }
+    }
+}
+
+struct Ours {
+    /// Wall seconds, CPU seconds, peak megabytes.
+    numbers: [f64; 3],
+    counts: String,
+}
+
+fn own_process(shape: &str, n: usize) -> Ours {
+    let program = std::env::current_exe().expect("this program has a path");
+    let output = Command::new(program).args(["--case", shape, &n.to_string()]).output().expect("it runs again");
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    let words: Vec<&str> = text.split_whitespace().collect();
+    assert!(output.status.success() && words.len() > 3, "the case failed: {}", String::from_utf8_lossy(&output.stderr));
+    Ours { numbers: [0, 1, 2].map(|i| words[i].parse().expect("a number")), counts: words[3..].join(" ") }
+}
+
+fn run_case(shape: &str, n: usize) {
+    let planes = planes(shape, n);
+    let repeats = (1_000_000 / n).clamp(3, 20);
+    let (mut wall, mut cpu, mut polytope) = (f64::INFINITY, f64::INFINITY, Polytope::default());
+    for _ in 0..repeats {
+        drop(std::mem::take(&mut polytope));
+        let (start, cpu_start) = (Instant::now(), cpu_seconds());
+        let options = Intersect { form: Form::Simple, ..Intersect::default() };
+        polytope = intersect(&planes, &options).expect("bounded");
+        wall = wall.min(start.elapsed().as_secs_f64());
+        cpu = cpu.min(cpu_seconds() - cpu_start);
+    }
+    let counts = [polytope.faces.len(), polytope.edge_count(), polytope.vertices.len()];
+    assert_eq!(counts, [n, 3 * n - 6, 2 * n - 4], "the counts are wrong");
+    println!("{wall} {cpu} {} F {} E {} V {}", peak_megabytes(), counts[0], counts[1], counts[2]);
+}
+
+/// CPU seconds of this process, all threads: on Linux from the scheduler's own count in nanoseconds, else not a number.
+fn cpu_seconds() -> f64 {
+    let Ok(tasks) = std::fs::read_dir("/proc/self/task") else { return f64::NAN };
+    let _ = tasks;
+    let text = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    // After the name in brackets: state is the first field, user and system ticks the 12th and 13th; 100 ticks a second.
+    let rest = text.rsplit(") ").next().unwrap_or_default();
+    let fields: Vec<f64> = rest.split(' ').filter_map(|w| w.parse().ok()).collect();
+    fields.get(10).zip(fields.get(11)).map_or(f64::NAN, |(user, system)| (user + system) / 100.0)
+}
+
+fn peak_megabytes() -> f64 {
+    let text = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = text.lines().find(|line| line.starts_with("VmHWM:"));
+    let kilobytes: Option<f64> =
+        line.and_then(|line| line.split_whitespace().nth(1)).and_then(|word| word.parse().ok());
+    kilobytes.map_or(f64::NAN, |k| k / 1024.0)
+}
+
+fn planes(shape: &str, n: usize) -> Vec<HalfSpace> {
+    let axes = if shape == "ellipsoid" { DVec3::new(10.0, 3.0, 1.0) } else { DVec3::ONE };
+    let mut state = 0x9e37_79b9_7f4a_7c15_u64;
+    let mut signed = move || {
+        state ^= state >> 12;
+        state ^= state << 25;
+        state ^= state >> 27;
+        (state.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    };
+    let mut on_sphere = move || loop {
+        let (u, v) = (signed(), signed());
+        let s = u * u + v * v;
+        if s < 1.0 {
+            let radius = 2.0 * (1.0 - s).sqrt();
+            return DVec3::new(u * radius, v * radius, 1.0 - 2.0 * s);
+        }
+    };
+    // The tangent plane at axes·u has the normal u / axes and the offset 1, scaled to unit length.
+    (0..n)
+        .map(|_| {
+            let normal = on_sphere() / axes;
+            HalfSpace { normal: normal.normalize(), offset: 1.0 / normal.length() }
+        })
+        .collect()
+}
+
+fn qhull_version() -> Option<String> {
+    let output = Command::new("qhull").arg("-V").stdin(Stdio::null()).output().ok()?;
+    Some(String::from_utf8_lossy(&output.stdout).trim().to_owned())
+}
+
+/// The CPU seconds that qhull reports for the intersection about the origin.
+fn run_qhull(planes: &[HalfSpace]) -> f64 {
+    let mut input = format!("4\n{}\n", planes.len());
+    for HalfSpace { normal: n, offset } in planes {
+        writeln!(input, "{:?} {:?} {:?} {:?}", n.x, n.y, n.z, -offset).expect("a string grows");
+    }
+    let path = std::env::temp_dir().join(format!("kerfold-bench-{}.txt", std::process::id()));
+    std::fs::write(&path, input).expect("the temporary folder is writable");
+    let output = Command::new("qhull").args(["H0,0,0", "s", "TI"]).arg(&path).output().expect("qhull runs");
+    std::fs::remove_file(&path).expect("the file was there");
+    let text = String::from_utf8_lossy(&output.stderr);
+    let line = text.lines().find(|line| line.contains("CPU seconds to compute"));
+    let seconds = line.and_then(|line| line.split_whitespace().last()).and_then(|word| word.parse().ok());
+    seconds.unwrap_or_else(|| panic!("qhull does not tell its time: {text}"))
+}

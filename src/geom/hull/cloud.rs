@@ -1,0 +1,177 @@
+//! The points of a hull: rounded coordinates for speed, given numbers for the truth.
+
+use glam::DVec3;
+
+use super::HalfSpace;
+use super::determinant::sign_of_determinant;
+use crate::geom::Side;
+use crate::geom::predicate::orient3d;
+
+/// Exact signs of the points behind a cloud. Points are named by their place in the order of insertion.
+pub(super) trait Signs: Sync {
+    /// The side of `p` with respect to the plane through a, b, c: [`Side::Normal`] where they run counter-clockwise.
+    fn height(&self, corners: [u32; 3], p: u32) -> Side;
+
+    /// The side of `p` with respect to the plane through the centre, a and b: [`Side::Normal`] when a, b, p run
+    /// counter-clockwise seen from outside.
+    fn turn(&self, a: u32, b: u32, p: u32) -> Side;
+
+    /// Whether the three points lie on one line.
+    fn are_collinear(&self, corners: [u32; 3]) -> bool;
+}
+
+/// Points about a centre, scaled so that no coordinate exceeds 1, in the order of insertion.
+pub(super) struct Cloud<S> {
+    points: Vec<DVec3>,
+    /// How far a rounded coordinate may be from the true one.
+    noise: f64,
+    pub(super) signs: S,
+}
+
+impl<S: Signs> Cloud<S> {
+    /// `points` carry a relative error of at most `roundings` half ulps in each coordinate. They are scaled by a power of two.
+    pub(super) fn new(mut points: Vec<DVec3>, roundings: f64, signs: S) -> (Self, f64) {
+        let reach = points.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+        let scale = inverse_power_of_two(reach) * 0.5;
+        if scale != 1.0 {
+            points.iter_mut().for_each(|p| *p *= scale);
+        }
+        (Self { points, noise: roundings * f64::EPSILON / 2.0, signs }, scale)
+    }
+
+    pub(super) fn points(&self) -> &[DVec3] {
+        &self.points
+    }
+
+    pub(super) fn len(&self) -> u32 {
+        self.points.len() as u32
+    }
+
+    pub(super) fn point(&self, p: u32) -> DVec3 {
+        self.points[p as usize]
+    }
+
+    /// On which side of the plane through three points, counter-clockwise from its normal side, p lies; exact.
+    #[inline]
+    pub(super) fn height(&self, corners: [u32; 3], p: u32) -> Side {
+        let o = self.point(p);
+        let [a, b, c] = corners.map(|v| self.point(v) - o);
+        let below = a.dot(b.cross(c));
+        let m = a.abs().max(b.abs()).max(c.abs()).max_element();
+        // Each entry is off by at most 2·noise + ε/2·m; six products of three entries, then the roundings of the sums.
+        let bound = m * m * (37.0 * self.noise + 6.5e-15 * m);
+        if below > bound {
+            Side::Reverse
+        } else if below < -bound {
+            Side::Normal
+        } else {
+            self.signs.height(corners, p)
+        }
+    }
+
+    /// The volume spanned by a, b and p from the centre, and the most that it can be wrong by.
+    #[inline]
+    pub(super) fn rounded_turn(&self, a: u32, b: u32, target: DVec3) -> f64 {
+        self.point(a).cross(self.point(b)).dot(target)
+    }
+
+    /// The bound of the error of [`Self::rounded_turn`].
+    pub(super) fn turn_bound(&self) -> f64 {
+        19.0 * self.noise + 4e-15
+    }
+}
+
+/// Points as given, seen from a centre that is a point too.
+pub(super) struct PointSigns<'a> {
+    pub points: &'a [DVec3],
+    pub order: &'a [u32],
+    pub centre: DVec3,
+}
+
+impl PointSigns<'_> {
+    fn at(&self, place: u32) -> DVec3 {
+        self.points[self.order[place as usize] as usize]
+    }
+}
+
+impl Signs for PointSigns<'_> {
+    fn height(&self, corners: [u32; 3], p: u32) -> Side {
+        let [a, b, c] = corners.map(|v| self.at(v));
+        Side::of(-orient3d(a, b, c, self.at(p)))
+    }
+
+    fn turn(&self, a: u32, b: u32, p: u32) -> Side {
+        Side::of(orient3d(self.at(a), self.at(b), self.at(p), self.centre))
+    }
+
+    fn are_collinear(&self, corners: [u32; 3]) -> bool {
+        are_collinear(corners.map(|v| self.at(v)))
+    }
+}
+
+/// Whether three points lie on one line, exactly: they do when they do along all three axes.
+pub(super) fn are_collinear(points: [DVec3; 3]) -> bool {
+    (0..3).all(|axis| {
+        let [a, b, c] = points.map(|p| glam::DVec2::new(p[axis], p[(axis + 1) % 3]));
+        crate::geom::predicate::orient2d(a, b, c) == 0.0
+    })
+}
+
+/// Planes as points of the dual: n·x ≤ d about a centre c is the point n / (d − n·c).
+///
+/// With slacks d − n·c above zero, which is checked before, the sign of four dual points is the sign of the determinant of
+/// their rows (n, d): the centre drops out, so the signs are those of the given numbers.
+pub(super) struct PlaneSigns<'a> {
+    half_spaces: &'a [HalfSpace],
+    order: &'a [u32],
+    /// Power of two that brings the offsets to about 1.
+    offset_scale: f64,
+}
+
+impl<'a> PlaneSigns<'a> {
+    pub(super) fn new(half_spaces: &'a [HalfSpace], order: &'a [u32]) -> Self {
+        let most = half_spaces.iter().map(|h| h.offset.abs()).fold(0.0, f64::max);
+        Self { half_spaces, order, offset_scale: inverse_power_of_two(most) }
+    }
+
+    /// The numbers of a plane, scaled by powers of two, which change no sign.
+    fn row(&self, place: u32) -> [f64; 4] {
+        let HalfSpace { normal, offset } = self.half_spaces[self.order[place as usize] as usize];
+        let scale = inverse_power_of_two(normal.abs().max_element());
+        let n = normal * scale;
+        [n.x, n.y, n.z, offset * self.offset_scale * scale]
+    }
+}
+
+impl Signs for PlaneSigns<'_> {
+    fn height(&self, [a, b, c]: [u32; 3], p: u32) -> Side {
+        // Rows that differ by the ones in the last column: the determinant is minus the volume.
+        match sign_of_determinant([a, b, c, p].map(|v| self.row(v))) {
+            Side::Normal => Side::Reverse,
+            Side::On => Side::On,
+            Side::Reverse => Side::Normal,
+        }
+    }
+
+    fn turn(&self, a: u32, b: u32, p: u32) -> Side {
+        let [a, b, p] = [a, b, p].map(|v| {
+            let [x, y, z, _] = self.row(v);
+            DVec3::new(x, y, z)
+        });
+        Side::of(orient3d(a, b, p, DVec3::ZERO))
+    }
+
+    fn are_collinear(&self, corners: [u32; 3]) -> bool {
+        let rows = corners.map(|v| self.row(v));
+        [[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]].into_iter().all(|columns| {
+            let [a, b, c] = rows.map(|row| DVec3::from_array(columns.map(|k| row[k])));
+            orient3d(a, b, c, DVec3::ZERO) == 0.0
+        })
+    }
+}
+
+/// The power of two that brings `x` into [1, 2); 1 for zero.
+pub(super) fn inverse_power_of_two(x: f64) -> f64 {
+    let exponent = x.to_bits() >> 52 & 0x7ff;
+    if x == 0.0 { 1.0 } else { f64::from_bits((2046 - exponent.clamp(1, 2045)) << 52) }
+}

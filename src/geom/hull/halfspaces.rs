@@ -1,0 +1,377 @@
+//! The intersection of half-spaces, by the hull of their dual points.
+
+use glam::DVec3;
+
+use super::cloud::{Cloud, PlaneSigns};
+use super::contract::contract;
+use super::determinant::excess;
+use super::interior::{Centre, deepest_point};
+use super::merge::{Faces, fan_starts};
+use super::order::{MOST_POINTS, insertion_order};
+use super::parallel::fill;
+use super::polytope::{Polygons, Polytope};
+use super::split::split;
+use super::start::{Flat, enclose_centre, far_apart};
+use super::surface::{NONE, Surface};
+
+/// A half-space: all x with normal · x ≤ offset.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HalfSpace {
+    /// The outward normal, of any length but zero.
+    pub normal: DVec3,
+    /// normal · x on the plane.
+    pub offset: f64,
+}
+
+impl HalfSpace {
+    /// How far inside `x` lies, in units of the normal's length: right to an ulp even where the terms cancel.
+    pub fn slack(&self, x: DVec3) -> f64 {
+        if x == DVec3::ZERO { self.offset } else { -excess(self.normal.to_array(), x.to_array(), self.offset) }
+    }
+}
+
+/// What becomes of points where more than three planes meet.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
+pub enum Form {
+    /// One vertex, with as many edges as faces meet there.
+    #[default]
+    Merged,
+    /// Vertices of valence 3 only, as if the planes had been moved by infinitely little: n faces, 3n − 6 edges and 2n − 4
+    /// vertices, some of them at one point.
+    Simple,
+}
+
+/// Whether the numbers of the planes are meant to the last digit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
+pub enum Numbers {
+    /// As given: exact signs alone decide where planes meet.
+    #[default]
+    Given,
+    /// Computed, with rounding: vertices nearer to each other than [`crate::geom::RoundingBound`] are one, and planes that cut off
+    /// less than that only touch.
+    Constructed,
+}
+
+/// How to intersect half-spaces.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Intersect {
+    /// Form of the result.
+    pub form: Form,
+    /// What the numbers stand for.
+    pub numbers: Numbers,
+    /// A point inside, where one is known; else one is found.
+    pub interior: Option<DVec3>,
+}
+
+/// Why half-spaces do not bound a solid. Half-spaces are numbered from 0 in the order of the input.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum HalfSpaceError {
+    /// More than can be numbered.
+    #[error("{count} half-spaces are more than can be intersected ({MOST_POINTS})")]
+    TooMany {
+        /// How many there are.
+        count: usize,
+    },
+    /// A number is NaN or infinite.
+    #[error("half-space {half_space} has a number that is not finite")]
+    NotFinite {
+        /// Which one.
+        half_space: usize,
+    },
+    /// A normal without direction.
+    #[error("half-space {half_space} has the normal (0, 0, 0); give it a direction")]
+    NoDirection {
+        /// Which one.
+        half_space: usize,
+    },
+    /// Nothing lies in all half-spaces.
+    #[error(
+        "the half-spaces have no point in common: {} exclude each other, by {gap:.6e}; move one of them outwards",
+        list(half_spaces)
+    )]
+    Infeasible {
+        /// A few half-spaces that exclude each other, ascending.
+        half_spaces: Vec<usize>,
+        /// How far each of them must move at least before they meet.
+        gap: f64,
+    },
+    /// The common part has no thickness, or one below the rounding of its coordinates.
+    #[error(
+        "the half-spaces leave nothing with a volume: between {} there is no room; move one of them outwards",
+        list(half_spaces)
+    )]
+    NoVolume {
+        /// The half-spaces that leave no room between them, ascending.
+        half_spaces: Vec<usize>,
+    },
+    /// The common part reaches to infinity.
+    #[error(
+        "the half-spaces leave the direction ({:.4}, {:.4}, {:.4}) open; add a half-space that closes it, or a box",
+        direction.x, direction.y, direction.z
+    )]
+    Unbounded {
+        /// A unit vector along which one can go for ever.
+        direction: DVec3,
+    },
+}
+
+fn list(half_spaces: &[usize]) -> String {
+    let numbers: Vec<String> = half_spaces.iter().map(usize::to_string).collect();
+    match numbers.split_last() {
+        Some((last, rest)) if !rest.is_empty() => format!("half-spaces {} and {last}", rest.join(", ")),
+        _ => format!("half-space {}", numbers.join("")),
+    }
+}
+
+/// Intersects half-spaces to a solid.
+///
+/// Planes that contribute no face (redundant ones, those that touch at a vertex or along an edge, repeated ones but for the
+/// first inserted) are left out. Vertices are solved on residuals about a point inside, so that they lie on their planes to
+/// rounding at any scale and anywhere.
+///
+/// # Errors
+/// [`HalfSpaceError`]: nothing in common, no volume, an open direction, or numbers that are none.
+pub fn intersect(half_spaces: &[HalfSpace], options: &Intersect) -> Result<Polytope, HalfSpaceError> {
+    check(half_spaces)?;
+    let centre = inside(half_spaces, options.interior)?;
+    let polytope = exact_intersection(half_spaces, centre, options.form == Form::Simple)?;
+    match (options.numbers, options.form) {
+        (Numbers::Given, Form::Merged) => Ok(polytope),
+        (Numbers::Given, Form::Simple) => Ok(split(polytope)),
+        (Numbers::Constructed, form) => {
+            let merged = contract_all(half_spaces, centre, polytope)?;
+            Ok(if form == Form::Simple { split(merged) } else { merged })
+        }
+    }
+}
+
+fn check(half_spaces: &[HalfSpace]) -> Result<(), HalfSpaceError> {
+    let count = half_spaces.len();
+    if count >= MOST_POINTS {
+        return Err(HalfSpaceError::TooMany { count });
+    }
+    if let Some(half_space) = half_spaces.iter().position(|h| !(h.normal.is_finite() && h.offset.is_finite())) {
+        return Err(HalfSpaceError::NotFinite { half_space });
+    }
+    match half_spaces.iter().position(|h| h.normal == DVec3::ZERO) {
+        Some(half_space) => Err(HalfSpaceError::NoDirection { half_space }),
+        None => Ok(()),
+    }
+}
+
+/// Whether x lies inside by more than the rounding of the terms.
+fn is_well_inside(h: &HalfSpace, x: DVec3) -> bool {
+    let terms = (h.normal * x).abs();
+    h.slack(x) > 1e-14 * (terms.x + terms.y + terms.z + h.offset.abs())
+}
+
+/// A point strictly inside: the one that was named, the origin where that is well inside, else the centre of a largest ball.
+fn inside(half_spaces: &[HalfSpace], named: Option<DVec3>) -> Result<DVec3, HalfSpaceError> {
+    let is_inside = |x: DVec3| half_spaces.iter().all(|h| is_well_inside(h, x));
+    if let Some(x) = named.filter(|&x| x.is_finite() && is_inside(x)) {
+        return Ok(x);
+    }
+    let distances = half_spaces.iter().map(|h| h.offset / h.normal.length());
+    let (least, most) = distances.fold((f64::INFINITY, 0.0), |(l, m): (f64, f64), d| (l.min(d), m.max(d)));
+    // Dual points of very different size would leave much to exact arithmetic.
+    if least > most / 64.0 && is_inside(DVec3::ZERO) {
+        return Ok(DVec3::ZERO);
+    }
+    let Centre { point, radius, touching } = deepest_point(half_spaces);
+    if is_inside(point) {
+        Ok(point)
+    } else if radius < -1e-12 * most.max(-least) {
+        Err(HalfSpaceError::Infeasible { half_spaces: touching, gap: -radius })
+    } else {
+        Err(HalfSpaceError::NoVolume { half_spaces: touching })
+    }
+}
+
+/// The intersection by exact signs alone, vertices where more than three planes meet merged. When only the simple form is
+/// wanted, nothing needs to be merged unless exact zeros came up on the way.
+fn exact_intersection(half_spaces: &[HalfSpace], centre: DVec3, simple: bool) -> Result<Polytope, HalfSpaceError> {
+    let count = half_spaces.len();
+    let order = insertion_order(count, |i| half_spaces[i].normal);
+    let mut near = vec![DVec3::ZERO; count];
+    fill(&mut near, |place| {
+        let h = &half_spaces[order[place] as usize];
+        h.normal / h.slack(centre)
+    });
+    // A dual point carries the rounding of the slack, one ulp, and of the division, half an ulp.
+    let (cloud, scale) = Cloud::new(near, 4.0, PlaneSigns::new(half_spaces, &order));
+    let surface = dual_hull(&cloud)?;
+    let faces = if simple && !surface.has_zeros() { Faces::unmerged(&surface) } else { Faces::of(&surface, &cloud) };
+    let vertices = vertices(&surface, &faces, cloud.points(), scale, centre);
+    drop(cloud);
+    let (half_spaces, faces) = polygons(&surface, &faces, &order);
+    Ok(Polytope { vertices, half_spaces, faces, interior: centre })
+}
+
+/// The hull of the dual points, with the centre inside.
+fn dual_hull(cloud: &Cloud<PlaneSigns<'_>>) -> Result<Surface, HalfSpaceError> {
+    let open = |flat| HalfSpaceError::Unbounded { direction: open_direction(flat, cloud.points()) };
+    if cloud.len() < 4 {
+        return Err(open(few(cloud.points())));
+    }
+    let start = far_apart(cloud, 0).map_err(open)?;
+    let mut surface = Surface::tetrahedron(start, None, cloud.len() as usize);
+    let mut inserted = enclose_centre(cloud, &mut surface).map_err(open)?;
+    inserted.extend(start);
+    inserted.sort_unstable();
+    let mut done = inserted.into_iter().peekable();
+    for p in 0..cloud.len() {
+        if done.next_if_eq(&p).is_none() {
+            surface.insert(cloud, p);
+        }
+    }
+    Ok(surface)
+}
+
+fn few(points: &[DVec3]) -> Flat {
+    match *points {
+        [a, b, c] => Flat::Plane((b - a).cross(c - a)),
+        [a, b] => Flat::Line(b - a),
+        _ => Flat::Point,
+    }
+}
+
+/// A unit vector u with n·u ≤ 0 for all normals n: along it no plane is ever met.
+fn open_direction(flat: Flat, dual_points: &[DVec3]) -> DVec3 {
+    let Some(&q) = dual_points.first() else { return DVec3::X };
+    let direction = match flat {
+        Flat::OneSided(normal) => normal,
+        Flat::Plane(normal) if normal.dot(q) > 0.0 => -normal,
+        Flat::Plane(normal) => normal,
+        Flat::Line(along) => match along.try_normalize() {
+            Some(along) => along * along.dot(q) - q,
+            None => -q,
+        },
+        Flat::Point => -q,
+    };
+    // Where the line of dual points passes through the centre any direction across it is open.
+    let fallback = || q.try_normalize().map_or(DVec3::X, |q| q.any_orthonormal_vector());
+    direction.try_normalize().unwrap_or_else(fallback) + DVec3::ZERO
+}
+
+/// The meeting point of the planes of each face of the dual hull.
+fn vertices(surface: &Surface, faces: &Faces, dual: &[DVec3], scale: f64, centre: DVec3) -> Vec<DVec3> {
+    let mut vertices = vec![DVec3::ZERO; faces.len()];
+    fill(&mut vertices, |face| {
+        let facet = surface.facet(faces.first(face as u32));
+        let is_alone = !faces.has_merged() || facet.across.iter().all(|&g| faces.of_facet(g) != face as u32);
+        let triple =
+            if is_alone { facet.corners.map(|v| dual[v as usize]) } else { widest(surface, faces, face, dual) };
+        centre + meeting_point(triple) * scale
+    });
+    vertices
+}
+
+/// Of the dual points of a face three that span much of it.
+fn widest(surface: &Surface, faces: &Faces, face: usize, dual: &[DVec3]) -> [DVec3; 3] {
+    let mut rim = Vec::new();
+    faces.rim(surface, face as u32, &mut rim);
+    let points: Vec<DVec3> = rim.iter().map(|&v| dual[v as usize]).collect();
+    widest_triple(&points)
+}
+
+/// The first point, the one farthest from it, and the one farthest from the line of the two; counter-clockwise order is not
+/// kept.
+pub(super) fn widest_triple(points: &[DVec3]) -> [DVec3; 3] {
+    let far = |measure: &dyn Fn(DVec3) -> f64| {
+        points.iter().copied().max_by(|&p, &q| measure(p).total_cmp(&measure(q))).unwrap_or_default()
+    };
+    let a = points.first().copied().unwrap_or_default();
+    let b = far(&|p| p.distance_squared(a));
+    let c = far(&|p| (b - a).cross(p - a).length_squared());
+    [a, b, c]
+}
+
+/// Where q·y = 1 for three dual points, with the residuals solved for again: y lies on the planes to rounding, however flat
+/// they meet.
+pub(super) fn meeting_point([a, b, c]: [DVec3; 3]) -> DVec3 {
+    let (bc, ca, ab) = (b.cross(c), c.cross(a), a.cross(b));
+    let normal = (b - a).cross(c - a);
+    let inverse = 1.0 / normal.dot(a);
+    let mut best = normal * inverse;
+    for _ in 0..3 {
+        let residuals = DVec3::new(1.0 - a.dot(best), 1.0 - b.dot(best), 1.0 - c.dot(best));
+        let better = best + (bc * residuals.x + ca * residuals.y + ab * residuals.z) * inverse;
+        // Terms of this size leave no more to gain.
+        if residuals.abs().max_element() <= f64::EPSILON || !better.is_finite() {
+            break;
+        }
+        best = better;
+    }
+    best
+}
+
+/// The faces of the solid: for each dual point that is a corner the dual faces around it. Also which half-spaces they are of.
+fn polygons(surface: &Surface, faces: &Faces, order: &[u32]) -> (Vec<u32>, Polygons) {
+    let starts = fan_starts(surface, order.len());
+    let mut sizes =
+        if faces.has_merged() { merged_sizes(surface, faces, &starts) } else { valences(surface, order.len()) };
+    // Runs in the order of the half-spaces: first how long each is, then where it begins.
+    let mut begins = vec![0_u32; order.len()];
+    order.iter().zip(&sizes).for_each(|(&i, &size)| begins[i as usize] = size);
+    let half_spaces: Vec<u32> = (0..order.len() as u32).filter(|&i| begins[i as usize] > 0).collect();
+    let mut total = 0;
+    for begin in &mut begins {
+        total += std::mem::replace(begin, total);
+    }
+    let next = |&i: &u32| begins.get(i as usize + 1).copied().unwrap_or(total);
+    let ends = half_spaces.iter().map(next).collect();
+    let mut corners = vec![0; total as usize];
+    let mut around = Vec::new();
+    for (place, &i) in order.iter().enumerate() {
+        let size = std::mem::take(&mut sizes[place]) as usize;
+        let run = &mut corners[begins[i as usize] as usize..][..size];
+        if faces.has_merged() && size > 0 {
+            faces.around(surface, place as u32, starts[place], &mut around);
+            run.copy_from_slice(&around);
+        } else if size > 0 {
+            let fan = surface.fan_of(place as u32, starts[place]);
+            fan.zip(run).for_each(|(f, corner)| *corner = faces.of_facet(f));
+        }
+    }
+    (half_spaces, Polygons::from_runs(corners, ends))
+}
+
+/// By place, the number of facets around each point.
+fn valences(surface: &Surface, points: usize) -> Vec<u32> {
+    let mut valences = vec![0; points];
+    surface.live().flat_map(|f| surface.facet(f).corners).for_each(|v| valences[v as usize] += 1);
+    valences
+}
+
+/// By place, the number of dual faces around each point that is a corner of the dual hull; 0 for those inside a dual face or
+/// edge, whose planes only touch the solid.
+fn merged_sizes(surface: &Surface, faces: &Faces, starts: &[u32]) -> Vec<u32> {
+    let mut around = Vec::new();
+    let size = |(place, &f): (usize, &u32)| {
+        around.clear();
+        if f != NONE {
+            faces.around(surface, place as u32, f, &mut around);
+        }
+        if around.len() < 3 { 0 } else { around.len() as u32 }
+    };
+    starts.iter().enumerate().map(size).collect()
+}
+
+/// Contracts what is shorter than rounding. Planes that then span no face any more are left out and the rest is intersected
+/// anew, so that a sliver never stays.
+fn contract_all(half_spaces: &[HalfSpace], centre: DVec3, first: Polytope) -> Result<Polytope, HalfSpaceError> {
+    let mut polytope = first;
+    loop {
+        let (merged, slivers) = contract(&polytope, half_spaces);
+        if slivers.is_empty() || polytope.half_spaces.len() < slivers.len() + 4 {
+            return Ok(merged);
+        }
+        let kept: Vec<u32> = polytope.half_spaces.iter().copied().filter(|i| !slivers.contains(i)).collect();
+        let fewer: Vec<HalfSpace> = kept.iter().map(|&i| half_spaces[i as usize]).collect();
+        polytope = exact_intersection(&fewer, centre, false)?;
+        for i in &mut polytope.half_spaces {
+            *i = kept[*i as usize];
+        }
+    }
+}

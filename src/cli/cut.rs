@@ -6,6 +6,7 @@ use clap::{Args, Subcommand};
 
 use super::error::CliError;
 use super::input::Input;
+use super::output::beside;
 use super::terminal::Terminal;
 use super::{Console, Outcome};
 use crate::mesh::Mesh;
@@ -85,17 +86,6 @@ fn both_parts(cut: &CutOf<SliceParams>, console: &Console) -> Result<Outcome, Cl
         }
     }
     Ok(Outcome::Clean)
-}
-
-/// `dir/half.obj` becomes `dir/half-normal.obj`.
-fn beside(path: &Path, side: &str) -> PathBuf {
-    let mut name = path.file_stem().unwrap_or_default().to_owned();
-    name.push(format!("-{side}"));
-    if let Some(extension) = path.extension() {
-        name.push(".");
-        name.push(extension);
-    }
-    path.with_file_name(name)
 }
 
 type Operator<T> = fn(&Mesh, &T, &OpContext<'_>) -> Result<(Mesh, CutReport), OpError>;

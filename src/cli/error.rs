@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use crate::check::CheckError;
 use crate::io::IoError;
 use crate::io::pieces_json::PiecesJsonError;
+use crate::io::planes_csv::PlanesError;
 use crate::op::OpError;
 use crate::picture::PictureError;
 use crate::recipe::{RecipeError, StepError, StepFailure};
@@ -17,6 +18,8 @@ use crate::shape::ShapeError;
 pub(super) enum CliError {
     #[error(transparent)]
     Io(#[from] IoError),
+    #[error(transparent)]
+    Planes(#[from] PlanesError),
     #[error(transparent)]
     Shape(#[from] ShapeError),
     #[error(transparent)]

@@ -7,6 +7,7 @@ mod check;
 mod cut;
 mod dform;
 mod error;
+mod hull;
 mod info;
 mod input;
 mod manual;
@@ -45,6 +46,7 @@ enum Verb {
     Info(info::InfoArgs),
     Check(check::CheckArgs),
     Cut(cut::CutArgs),
+    Hull(hull::HullArgs),
     Unfold(unfold::UnfoldArgs),
     Seams(seams::SeamsArgs),
     Dform(dform::DformArgs),
@@ -77,6 +79,7 @@ pub fn run() -> ExitCode {
         Verb::Info(args) => info::run(&args, &console),
         Verb::Check(args) => check::run(&args, &console),
         Verb::Cut(args) => cut::run(&args, &console),
+        Verb::Hull(args) => hull::run(&args, &console),
         Verb::Unfold(args) => unfold::run(&args, &console),
         Verb::Seams(args) => seams::run(&args, &console),
         Verb::Dform(args) => dform::run(&args, &console),

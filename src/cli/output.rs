@@ -72,6 +72,17 @@ impl Console {
     }
 }
 
+/// `dir/half.obj` becomes `dir/half-normal.obj`.
+pub(super) fn beside(path: &Path, what: &str) -> PathBuf {
+    let mut name = path.file_stem().unwrap_or_default().to_owned();
+    name.push(format!("-{what}"));
+    if let Some(extension) = path.extension() {
+        name.push(".");
+        name.push(extension);
+    }
+    path.with_file_name(name)
+}
+
 /// Counts and size of a model in one line.
 pub(super) fn model_text(mesh: &Mesh) -> String {
     let extent = size(mesh);

@@ -6,7 +6,9 @@ use super::{DformParams, FabricateParams, Fabrication, Recipe, Step, StepError, 
 use crate::check::{CheckParams, Report, check};
 use crate::io::{ReadMesh, read_mesh};
 use crate::mesh::{Mesh, SplitVertex};
-use crate::op::{CutReport, OpContext, OpError, resolve, slice, truncate_edges, truncate_faces, truncate_vertices};
+use crate::op::{
+    CutReport, OpContext, OpError, hull, resolve, slice, truncate_edges, truncate_faces, truncate_vertices,
+};
 use crate::picture::RenderParams;
 use crate::progress::Progress;
 use crate::select::{Made, Selection};
@@ -88,6 +90,11 @@ impl Job {
                 self.cut("face", |mesh, context| truncate_faces(mesh, params, context), progress)?
             }
             Step::CutPlane(params) => self.cut("plane", |mesh, context| slice(mesh, params, context), progress)?,
+            Step::Hull(params) => {
+                let (mesh, report) = hull(self.mesh()?, params, &OpContext { made: None, progress })?;
+                self.notes.extend(report.notes());
+                (self.mesh, self.made) = (Some(mesh), None);
+            }
             Step::Resolve(params) => {
                 let context = OpContext { made: self.made.as_ref(), progress };
                 let (mesh, report) = resolve(self.mesh()?, params, &context)?;

@@ -29,7 +29,7 @@ pub use seam_choice::SeamChoice;
 
 use crate::check::CheckParams;
 use crate::io::ReadOptions;
-use crate::op::{ResolveParams, SliceParams, TruncateEdge, TruncateFace, TruncateVertex};
+use crate::op::{HullParams, ResolveParams, SliceParams, TruncateEdge, TruncateFace, TruncateVertex};
 use crate::picture::RenderParams;
 use crate::shape::SolidParams;
 use crate::sheet::SheetParams;
@@ -72,6 +72,8 @@ pub enum Step {
     CutFace(TruncateFace),
     /// `cut = "plane"`.
     CutPlane(SliceParams),
+    /// `hull = "convex"` or `hull = "dual"`.
+    Hull(HullParams),
     /// `resolve = "all"`: splits vertices of valence above three.
     Resolve(ResolveParams),
     /// `check = "glass"`: limits for the report.
@@ -106,6 +108,7 @@ impl Step {
             Self::CutEdge(_) => "cut edge",
             Self::CutFace(_) => "cut face",
             Self::CutPlane(_) => "cut plane",
+            Self::Hull(_) => "hull",
             Self::Resolve(_) => "resolve",
             Self::Check(_) => "check",
             Self::Unfold { .. } => "unfold",

@@ -13,7 +13,7 @@ use toml::de::{DeTable, DeValue};
 use super::error::{Position, RecipeError};
 use super::{DformParams, FabricateParams, ReadStep, Recipe, Step};
 use crate::check::CheckParams;
-use crate::op::{ResolveParams, SliceParams, TruncateEdge, TruncateFace, TruncateVertex};
+use crate::op::{HullParams, ResolveParams, SliceParams, TruncateEdge, TruncateFace, TruncateVertex};
 use crate::picture::RenderParams;
 use crate::shape::SolidParams;
 use crate::sheet::SheetParams;
@@ -21,10 +21,11 @@ use crate::unfold::UnfoldParams;
 use crate::units::nearest_word;
 
 /// The keys that say what a step does, with the field of its parameters that the value goes to.
-const VERBS: [(&str, &str); 8] = [
+const VERBS: [(&str, &str); 9] = [
     ("solid", "name"),
     ("read", "path"),
     ("cut", ""),
+    ("hull", "dual"),
     ("resolve", "select"),
     ("check", "profile"),
     ("unfold", "pieces"),
@@ -138,6 +139,7 @@ impl Source<'_> {
         Ok(match (verb.key, kind.as_str()) {
             ("solid", _) => Step::Solid(fields.read1::<SolidParams>()?),
             ("read", _) => Step::Read(fields.read1::<ReadStep>()?),
+            ("hull", _) => Step::Hull(fields.read1::<HullParams>()?),
             ("resolve", _) => Step::Resolve(fields.read1::<ResolveParams>()?),
             ("check", _) => Step::Check(fields.read1::<CheckParams>()?),
             ("render", _) => Step::Render(fields.read1::<RenderParams>()?),
@@ -196,6 +198,12 @@ impl StepFields<'_> {
         VERBS.iter().find(|v| v.0 == self.verb.key).map_or("", |v| v.1)
     }
 
+    fn value_text<'t>(&'t self, entry: &Entry<'_>, span: &Range<usize>) -> &'t str {
+        let text = &self.source.text[span.clone()];
+        let word = HULLS.iter().find(|(word, _)| entry.key == "hull" && *word == text);
+        word.map_or(text, |(_, switch)| switch)
+    }
+
     /// Reads one parameter struct from those entries that are its fields. Each value is read from its own text, so that an
     /// error inside it can be placed.
     fn read<T: Args + DeserializeOwned>(&self) -> Result<T, RecipeError> {
@@ -209,7 +217,7 @@ impl StepFields<'_> {
             }
             let span = entry.value.span();
             let start = document.len();
-            document += &format!("{field} = {}\n", &self.source.text[span.clone()]);
+            document += &format!("{field} = {}\n", self.value_text(entry, &span));
             places.push((start..document.len(), span.start));
         }
         let deserializer = toml::Deserializer::parse(&document).map_err(|e| self.source.syntax(&e))?;
@@ -222,6 +230,9 @@ impl StepFields<'_> {
         })
     }
 }
+
+/// `hull` takes a word for what is a switch on the command line.
+const HULLS: [(&str, &str); 2] = [("\"convex\"", "false"), ("\"dual\"", "true")];
 
 /// The names of a parameter struct's fields, as its command-line definition has them.
 fn field_names<T: Args>() -> Vec<String> {

@@ -119,6 +119,17 @@ fn made_and_strip_mean_what_the_last_step_made() {
 }
 
 #[test]
+fn a_hull_is_convex_or_dual() {
+    let faces = |kind: &str| {
+        let text =
+            format!("[[step]]\nsolid = \"octahedron\"\n[[step]]\nhull = \"{kind}\"\nno_box = {}", kind == "dual");
+        run(&text).expect("a hull").mesh().expect("a mesh").face_count()
+    };
+    assert_eq!((faces("convex"), faces("dual")), (8, 6));
+    assert!(message("[[step]]\nhull = \"round\"").starts_with("line 2, column 8: "));
+}
+
+#[test]
 fn an_unfold_step_has_lists_of_edges_to_keep_and_to_cut() {
     let job = run("[[step]]\nsolid = \"cube\"\n[[step]]\nunfold = \"one\"\nkeep = \"0\"\ncut = \"3\"").expect("a net");
     let (fabrication, _) = job.fabrication.as_ref().expect("pieces");

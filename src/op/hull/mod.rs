@@ -38,6 +38,26 @@ pub struct HullReport {
     pub steps: Vec<HullStep>,
 }
 
+impl HullReport {
+    /// What the user should know, in words.
+    pub fn notes(&self) -> Vec<String> {
+        let mut notes: Vec<String> = Vec::new();
+        for part in &self.parts {
+            let idle = part.without_face.len();
+            if idle > 0 {
+                notes.push(format!("{}: {idle} of {} half-spaces contribute no face", part.name, part.planes));
+            }
+        }
+        if self.empty_clusters > 0 {
+            notes.push(format!("{} clusters hold no point", self.empty_clusters));
+        }
+        if !self.not_three_valent.is_empty() {
+            notes.push(format!("{} vertices have other than three edges", self.not_three_valent.len()));
+        }
+        notes
+    }
+}
+
 /// One convex part of a hull.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct HullPart {

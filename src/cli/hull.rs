@@ -1,0 +1,58 @@
+//! `kerfold hull`
+
+use std::path::{Path, PathBuf};
+
+use super::error::CliError;
+use super::output::beside;
+use super::terminal::Terminal;
+use super::{Console, Outcome};
+use crate::io::output::write_file;
+use crate::io::planes_csv::read_planes;
+use crate::io::{ReadOptions, read_mesh};
+use crate::mesh::Mesh;
+use crate::op::{HullParams, HullReport, OpContext, halfspaces, hull};
+use crate::picture::{RenderParams, render_model};
+
+/// Make the convex hull of a mesh, its dual (one plane through each corner of the hull), or the solid that half-spaces bound
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples: kerfold hull spot.obj --dual -o faceted.obj\n          \
+    kerfold hull --planes planes.csv -o crystal.obj     (nx,ny,nz,d on each line: n·x <= d)")]
+pub(super) struct HullArgs {
+    /// The mesh whose vertices count: OBJ, PLY, STL or OFF; `-` reads OBJ from standard input
+    #[arg(value_name = "IN", required_unless_present = "planes", conflicts_with = "planes")]
+    input: Option<PathBuf>,
+    #[command(flatten)]
+    options: ReadOptions,
+    /// Half-spaces instead of a mesh: nx,ny,nz,d on each line for n·x <= d
+    #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["dual", "no_box", "clusters", "by_group", "parts", "steps"])]
+    planes: Option<PathBuf>,
+    #[command(flatten)]
+    hull: HullParams,
+    /// The mesh to write: OBJ, PLY, STL or OFF; `-` writes OBJ to standard output. With --steps a picture of each step is
+    /// written beside it, OUT-after-20.png
+    #[arg(short, long, value_name = "OUT")]
+    output: PathBuf,
+}
+
+pub(super) fn run(args: &HullArgs, console: &Console) -> Result<Outcome, CliError> {
+    let (mesh, report, mut notes) = make(args, console)?;
+    notes.extend(report.notes());
+    console.write_model(&args.output, &mesh, &notes)?;
+    for step in &report.steps {
+        let path = beside(&args.output, &format!("after-{}", step.planes)).with_extension("png");
+        write_file(&path, &render_model(&step.mesh, &RenderParams::default())?.to_png())?;
+        console.notes(&[format!("wrote {}", path.display())]);
+    }
+    Ok(Outcome::Clean)
+}
+
+fn make(args: &HullArgs, console: &Console) -> Result<(Mesh, HullReport, Vec<String>), CliError> {
+    if let Some(file) = &args.planes {
+        let (mesh, report) = halfspaces(&read_planes(file)?.half_spaces, &args.hull)?;
+        return Ok((mesh, report, Vec::new()));
+    }
+    let read = read_mesh(args.input.as_deref().unwrap_or(Path::new("-")), &args.options)?;
+    let progress = Terminal::new(console.quiet);
+    let (mesh, report) = hull(&read.mesh, &args.hull, &OpContext { made: None, progress: &progress })?;
+    Ok((mesh, report, read.notes.iter().map(ToString::to_string).collect()))
+}

@@ -76,6 +76,7 @@ const DOORS: &[(&str, &[&str])] = &[
     ("robust", &["src/geom/predicate.rs", "src/geom/hull"]),
     ("spade", &["src/geom/triangulate.rs", "src/op/bridge.rs"]),
     ("batsat", &["src/seam/sat.rs"]),
+    ("parry3d_f64", &["src/op/hull/convex_parts.rs"]),
     ("i_overlay", &["src/sheet/kerf.rs"]),
     ("tobj", &["src/io/obj", "src/io/read/obj"]),
     ("svg", &["src/io/svg"]),

@@ -15,8 +15,8 @@ use crate::picture::{RenderParams, render_model};
 
 /// Make the convex hull of a mesh, its dual (one plane through each corner of the hull), or the solid that half-spaces bound
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Examples: kerfold hull spot.obj --dual -o faceted.obj\n          \
-    kerfold hull --planes planes.csv -o crystal.obj     (nx,ny,nz,d on each line: n·x <= d)")]
+#[command(after_help = "Example: kerfold hull spot.obj --dual -o faceted.obj\n\
+    Example: kerfold hull --planes planes.csv -o crystal.obj")]
 pub(super) struct HullArgs {
     /// The mesh whose vertices count: OBJ, PLY, STL or OFF; `-` reads OBJ from standard input
     #[arg(value_name = "IN", required_unless_present = "planes", conflicts_with = "planes")]

@@ -187,6 +187,12 @@ pub enum IoError {
         /// The vertex, counted from 0 among the vertices that are written.
         vertex: usize,
     },
+    /// A coordinate does not fit the single precision of glTF.
+    #[error("{name} is too far out for GLB, which holds numbers up to 3e38; write OBJ or PLY")]
+    TooFarForGlb {
+        /// The name of the node that holds it.
+        name: String,
+    },
 }
 
 impl IoError {

@@ -8,6 +8,7 @@ use super::format::MeshFormat;
 use super::output;
 use crate::mesh::Mesh;
 
+pub mod glb;
 mod obj;
 mod off;
 mod ply;

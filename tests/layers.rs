@@ -35,7 +35,7 @@ const ROOMS: &[Room] = &[
     room(2, "measure", &["geom", "mesh"]),
     room(2, "shape", &["geom", "mesh", "units"]),
     room(2, "seam", &["geom", "mesh", "measure", "progress"]),
-    room(2, "select", &["geom", "units", "mesh", "measure", "seam"]),
+    room(2, "select", &["geom", "units", "mesh", "measure", "seam", "progress"]),
     room(3, "check", &["geom", "units", "mesh", "measure"]),
     room(3, "op", &["geom", "units", "mesh", "measure", "shape", "select", "progress"]),
     room(3, "unfold", &["geom", "units", "mesh", "measure", "seam", "select", "net", "progress"]),

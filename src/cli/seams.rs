@@ -5,9 +5,11 @@ use serde_json::json;
 use super::error::CliError;
 use super::input::Input;
 use super::output::{command_line, model_text, short};
+use super::terminal::Terminal;
 use super::{Console, Outcome};
 use crate::measure::edge_length;
 use crate::mesh::{EdgeId, Mesh};
+use crate::progress::Progress;
 use crate::seam::{SeamError, fold_sum, hamiltonian_folds, least_matching, piece_count, seam_cycles, table};
 
 /// List the ways to divide a closed 3-valent mesh by closed seams, up to its symmetry
@@ -56,7 +58,7 @@ impl Row {
 pub(super) fn run(args: &SeamsArgs, console: &Console) -> Result<Outcome, CliError> {
     let read = args.input.read()?;
     let mesh = &read.mesh;
-    let (rows, why) = rows(mesh, args.limit)?;
+    let (rows, why) = rows(mesh, args.limit, &Terminal::new(console.quiet))?;
     let notes: Vec<String> = read.notes.iter().map(ToString::to_string).chain(why).collect();
     if console.json {
         let rows: Vec<_> = rows.iter().map(row_json).collect();
@@ -70,8 +72,8 @@ pub(super) fn run(args: &SeamsArgs, console: &Console) -> Result<Outcome, CliErr
 }
 
 /// The whole table, or what can be told of a mesh with too many matchings, and why.
-fn rows(mesh: &Mesh, limit: usize) -> Result<(Vec<Row>, Option<String>), SeamError> {
-    let too_many = match table(mesh, limit) {
+fn rows(mesh: &Mesh, limit: usize, progress: &dyn Progress) -> Result<(Vec<Row>, Option<String>), SeamError> {
+    let too_many = match table(mesh, limit, progress) {
         Ok(rows) => {
             let row = |r: crate::seam::MatchingRow| {
                 Row::new(mesh, format!("matching:{}", r.index), r.folds, Some(r.orbit_size))
@@ -81,9 +83,9 @@ fn rows(mesh: &Mesh, limit: usize) -> Result<(Vec<Row>, Option<String>), SeamErr
         Err(error @ SeamError::TooMany { .. }) => error,
         Err(error) => return Err(error),
     };
-    let mut rows = vec![Row::new(mesh, "matching".to_owned(), least_matching(mesh)?, None)];
+    let mut rows = vec![Row::new(mesh, "matching".to_owned(), least_matching(mesh, progress)?, None)];
     let mut why = too_many.to_string();
-    match hamiltonian_folds(mesh) {
+    match hamiltonian_folds(mesh, progress) {
         Ok(folds) => rows.push(Row::new(mesh, "hamiltonian".to_owned(), folds, None)),
         Err(error) => why += &format!("; {error}"),
     }

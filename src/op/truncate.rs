@@ -53,7 +53,7 @@ impl Default for OpContext<'_> {
 impl OpContext<'_> {
     /// The context of a selection on `mesh`.
     pub(super) fn select<'a>(&'a self, mesh: &'a Mesh) -> Context<'a> {
-        Context { mesh, made: self.made }
+        Context { mesh, made: self.made, progress: self.progress }
     }
 }
 

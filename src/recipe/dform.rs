@@ -129,7 +129,7 @@ pub struct CarvedDform {
 /// # Errors
 /// [`StepFailure::Seam`] when the mesh is open, not 3-valent, or has no such row; [`StepFailure::Op`] when it cannot be cut so.
 pub fn carve_dform(mesh: &Mesh, params: &DformParams, progress: &dyn Progress) -> Result<CarvedDform, StepFailure> {
-    let (folds, mut notes) = choose(mesh, params.matching)?;
+    let (folds, mut notes) = choose(mesh, params.matching, progress)?;
     notes.push(format!(
         "{} folds with a fold sum of {:.2} rad·mm, {} closed seams, {} pieces before carving",
         folds.len(),
@@ -149,17 +149,21 @@ pub fn carve_dform(mesh: &Mesh, params: &DformParams, progress: &dyn Progress) -
     Ok(CarvedDform { mesh, made: report.made, notes })
 }
 
-fn choose(mesh: &Mesh, choice: MatchingChoice) -> Result<(Vec<EdgeId>, Vec<String>), SeamError> {
+fn choose(
+    mesh: &Mesh,
+    choice: MatchingChoice,
+    progress: &dyn Progress,
+) -> Result<(Vec<EdgeId>, Vec<String>), SeamError> {
     match choice {
-        MatchingChoice::Least => Ok((least_matching(mesh)?, Vec::new())),
-        MatchingChoice::Row(row) => Ok((matching(mesh, row)?, Vec::new())),
-        MatchingChoice::TwoPieces => match hamiltonian_folds(mesh) {
+        MatchingChoice::Least => Ok((least_matching(mesh, progress)?, Vec::new())),
+        MatchingChoice::Row(row) => Ok((matching(mesh, row, progress)?, Vec::new())),
+        MatchingChoice::TwoPieces => match hamiltonian_folds(mesh, progress) {
             Ok(folds) => Ok((folds, Vec::new())),
             Err(
                 why @ (SeamError::NoHamiltonian { .. }
                 | SeamError::SearchStopped { .. }
                 | SeamError::SeveralComponents { .. }),
-            ) => Ok((least_matching(mesh)?, vec![format!("the least matching was taken: {why}")])),
+            ) => Ok((least_matching(mesh, progress)?, vec![format!("the least matching was taken: {why}")])),
             Err(error) => Err(error),
         },
     }

@@ -5,6 +5,7 @@
 
 use crate::measure::{edge_length, fold_angle};
 use crate::mesh::{EdgeId, EdgeMap, Mesh};
+use crate::progress::Progress;
 use crate::seam::{least_matching_by, piece_count};
 
 /// A D-form folds far less than it is seamed: the mean seam must turn at least this many times as much as the mean fold.
@@ -14,12 +15,12 @@ const ONE_DULL_EDGE: f64 = 0.8;
 
 /// The folds of a D-form, or `None` when the mesh is none. Of two ways the one with fewer pieces: the dullest perfect
 /// matching, and all edges below the angle that gives the most vertices exactly one dull edge.
-pub(super) fn folds(mesh: &Mesh) -> Option<Vec<EdgeId>> {
+pub(super) fn folds(mesh: &Mesh, progress: &dyn Progress) -> Option<Vec<EdgeId>> {
     if !mesh.is_closed() || mesh.vertices().any(|v| mesh.valence(v) != 3) {
         return None;
     }
     let angle = |e: EdgeId| fold_angle(mesh, e).unwrap_or(0.0).abs();
-    let matching = least_matching_by(mesh, angle).ok();
+    let matching = least_matching_by(mesh, angle, progress).ok();
     let found = matching.into_iter().chain(dull_edges(mesh, angle)).filter(|folds| contrast(mesh, folds) > CONTRAST);
     found.min_by_key(|folds| piece_count(mesh, folds))
 }

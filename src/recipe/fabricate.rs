@@ -70,8 +70,9 @@ pub fn fabricate(
     source: &Source<'_>,
     progress: &dyn Progress,
 ) -> Result<Fabrication, StepFailure> {
-    let keep = selected(mesh, made, choice.keep.as_ref())?;
-    let (mut seams, words) = choose_seams(mesh, made, source, params, choice)?;
+    let context = Context { mesh, made, progress };
+    let keep = selected(&context, choice.keep.as_ref())?;
+    let (mut seams, words) = choose_seams(&context, source, params, choice)?;
     let mut params = params.clone();
     let mut divided = 0;
     loop {
@@ -101,15 +102,15 @@ pub fn fabricate(
 }
 
 fn choose_seams(
-    mesh: &Mesh,
-    made: Option<&Made>,
+    context: &Context<'_>,
     source: &Source<'_>,
     params: &UnfoldParams,
     choice: &FabricateParams,
 ) -> Result<(Seams, &'static str), StepFailure> {
-    let [keep, cut] = [&choice.keep, &choice.cut].map(|list| selected(mesh, made, list.as_ref()));
+    let (mesh, made) = (context.mesh, context.made);
+    let [keep, cut] = [&choice.keep, &choice.cut].map(|list| selected(context, list.as_ref()));
     let (keep, cut) = (keep?, cut?);
-    if let Some((seams, words)) = given_seams(mesh, made, source, choice, [&keep, &cut])? {
+    if let Some((seams, words)) = given_seams(context, source, choice, [&keep, &cut])? {
         check_seams(mesh, &seams)?;
         return Ok((seams, words));
     }
@@ -124,7 +125,7 @@ fn choose_seams(
         return Ok((Seams::Folds(made.strip.clone()), "the strips that the last cut made fold, all other edges open"));
     }
     if params.pieces == PiecesMode::Auto
-        && let Some(folds) = dull_folds::folds(mesh)
+        && let Some(folds) = dull_folds::folds(mesh, context.progress)
     {
         return Ok((Seams::Folds(folds), "the model is a D-form: its dull edges fold, all others open"));
     }
@@ -133,36 +134,34 @@ fn choose_seams(
 
 /// The seams that the user gave, in one way or the other.
 fn given_seams(
-    mesh: &Mesh,
-    made: Option<&Made>,
+    context: &Context<'_>,
     source: &Source<'_>,
     choice: &FabricateParams,
     [keep, cut]: [&[EdgeId]; 2],
 ) -> Result<Option<(Seams, &'static str)>, StepFailure> {
-    let context = Context { mesh, made };
     let open = |mut edges: Vec<EdgeId>| {
         edges.extend(cut);
         Seams::Open(edges)
     };
     if let Some(seams) = &choice.seams {
-        let edges = seams.edges(&context, source.split_vertices)?;
+        let edges = seams.edges(context, source.split_vertices)?;
         return Ok(Some((open(edges), "the edges that were selected open")));
     }
     if let Some(folds) = &choice.folds {
-        let mut edges = folds.edges(&context)?;
+        let mut edges = folds.edges(context)?;
         edges.extend(keep);
         edges.retain(|e| !cut.contains(e));
         return Ok(Some((Seams::Folds(edges), "all edges but the selected folds open")));
     }
-    Ok(match Seams::marked(mesh) {
+    Ok(match Seams::marked(context.mesh) {
         Seams::Open(marked) => Some((open(marked), "the seams that the file marks open")),
         _ => None,
     })
 }
 
 /// The edges of a list that may be missing.
-fn selected(mesh: &Mesh, made: Option<&Made>, list: Option<&Selection>) -> Result<Vec<EdgeId>, StepFailure> {
-    Ok(list.map_or(Ok(Vec::new()), |list| list.edges(&Context { mesh, made }))?)
+fn selected(context: &Context<'_>, list: Option<&Selection>) -> Result<Vec<EdgeId>, StepFailure> {
+    Ok(list.map_or(Ok(Vec::new()), |list| list.edges(context))?)
 }
 
 fn strips_reach_every_face(mesh: &Mesh, strip: &[EdgeId]) -> bool {

@@ -8,10 +8,13 @@ use super::weight::{fold_sum, quantised};
 use super::{SeamError, piece_count, seam_cycles};
 use crate::measure::edge_length;
 use crate::mesh::{EdgeId, Mesh};
+use crate::progress::Progress;
 
 /// How many matchings [`matching`] lists at most before it gives up. Numbers grow fast: 9 for a cube, 36 for a
 /// dodecahedron, 12 500 for a soccer ball.
 pub const MATCHING_LIMIT: usize = 200_000;
+/// Matchings listed between two questions whether to go on.
+const LISTED_AT_ONCE: usize = 256;
 
 /// All perfect matchings of a closed 3-valent mesh, one after the other, symmetric ones too. The order is always the same
 /// but means nothing. Each step is quick in small meshes; the number of matchings grows exponentially with the size.
@@ -110,21 +113,27 @@ pub struct MatchingRow {
 /// lexicographically least folds. `orbit_size` sums up to the number of all perfect matchings.
 ///
 /// # Errors
-/// [`SeamError::Empty`], [`SeamError::Open`], [`SeamError::Valence`], [`SeamError::NoMatching`], and
-/// [`SeamError::TooMany`] when there are more than `limit` matchings (symmetric ones counted).
-pub fn table(mesh: &Mesh, limit: usize) -> Result<Vec<MatchingRow>, SeamError> {
+/// [`SeamError::Empty`], [`SeamError::Open`], [`SeamError::Valence`], [`SeamError::NoMatching`],
+/// [`SeamError::Cancelled`], and [`SeamError::TooMany`] when there are more than `limit` matchings (symmetric ones counted).
+pub fn table(mesh: &Mesh, limit: usize, progress: &dyn Progress) -> Result<Vec<MatchingRow>, SeamError> {
     let mut matchings = Matchings::new(mesh)?;
     let mut all = Vec::new();
     while let Some(mut folds) = matchings.advance() {
         if all.len() == limit {
             return Err(SeamError::TooMany { limit });
         }
+        if all.len() % LISTED_AT_ONCE == 0 {
+            if progress.is_cancelled() {
+                return Err(SeamError::Cancelled);
+            }
+            progress.report("listing matchings", all.len(), 0);
+        }
         folds.sort_unstable();
         all.push(folds);
     }
     if all.is_empty() {
         // The solver tells why.
-        super::least_matching(mesh)?;
+        super::least_matching(mesh, progress)?;
     }
     all.sort_unstable();
     let graph = &matchings.graph;
@@ -144,8 +153,8 @@ pub fn table(mesh: &Mesh, limit: usize) -> Result<Vec<MatchingRow>, SeamError> {
 ///
 /// # Errors
 /// As [`table`] with [`MATCHING_LIMIT`], and [`SeamError::NoSuchMatching`].
-pub fn matching(mesh: &Mesh, index: usize) -> Result<Vec<EdgeId>, SeamError> {
-    let mut rows = table(mesh, MATCHING_LIMIT)?;
+pub fn matching(mesh: &Mesh, index: usize, progress: &dyn Progress) -> Result<Vec<EdgeId>, SeamError> {
+    let mut rows = table(mesh, MATCHING_LIMIT, progress)?;
     if index >= rows.len() {
         return Err(SeamError::NoSuchMatching { index, count: rows.len() });
     }
@@ -190,10 +199,11 @@ fn orbits<'a>(all: &'a [Vec<u32>], symmetries: &[Vec<u32>]) -> Vec<(&'a [u32], u
 mod tests {
     use super::super::{fixtures, is_perfect_matching, least_matching};
     use super::*;
+    use crate::progress::Silent;
 
     /// How many matchings leave how many pieces.
     fn pieces(mesh: &Mesh) -> Vec<(usize, usize)> {
-        let rows = table(mesh, MATCHING_LIMIT).expect("matchings");
+        let rows = table(mesh, MATCHING_LIMIT, &Silent).expect("matchings");
         let mut counts = std::collections::BTreeMap::new();
         for row in &rows {
             assert!(is_perfect_matching(mesh, &row.folds));
@@ -220,7 +230,7 @@ mod tests {
     #[test]
     fn symmetric_matchings_are_one_row() {
         let sizes = |mesh: &Mesh| {
-            table(mesh, 1000).expect("matchings").iter().map(|r| (r.pieces, r.orbit_size)).collect::<Vec<_>>()
+            table(mesh, 1000, &Silent).expect("matchings").iter().map(|r| (r.pieces, r.orbit_size)).collect::<Vec<_>>()
         };
         assert_eq!(sizes(&fixtures::tetrahedron()), [(2, 3)]);
         assert_eq!(sizes(&fixtures::cube()), [(2, 6), (3, 3)]);
@@ -240,18 +250,19 @@ mod tests {
         for v in brick.vertices() {
             turned.set_position(v, turn * brick.position(v) * 1000.0 + glam::DVec3::splat(77.0), true);
         }
-        let folds = |mesh: &Mesh| table(mesh, 1000).expect("rows").into_iter().map(|r| r.folds).collect::<Vec<_>>();
+        let folds =
+            |mesh: &Mesh| table(mesh, 1000, &Silent).expect("rows").into_iter().map(|r| r.folds).collect::<Vec<_>>();
         assert_eq!(folds(&brick), folds(&turned));
-        let first = &table(&brick, 1000).expect("rows")[0];
-        assert_eq!(matching(&brick, 0).expect("a row"), first.folds);
+        let first = &table(&brick, 1000, &Silent).expect("rows")[0];
+        assert_eq!(matching(&brick, 0, &Silent).expect("a row"), first.folds);
     }
 
     #[test]
     fn the_least_of_all_is_what_the_solver_finds() {
         for mesh in [fixtures::cube(), fixtures::random_convex(14, 3), fixtures::prism(7, 3.0), fixtures::tutte()] {
-            let rows = table(&mesh, MATCHING_LIMIT).expect("rows");
+            let rows = table(&mesh, MATCHING_LIMIT, &Silent).expect("rows");
             let least = rows.iter().map(|r| r.fold_sum).fold(f64::INFINITY, f64::min);
-            let found = fold_sum(&mesh, &least_matching(&mesh).expect("a matching"));
+            let found = fold_sum(&mesh, &least_matching(&mesh, &Silent).expect("a matching"));
             assert!((found - least).abs() <= 1e-9 * least, "{found} {least}");
         }
     }
@@ -259,7 +270,7 @@ mod tests {
     #[test]
     fn a_torus_counts_pieces_by_faces() {
         let torus = fixtures::hexagon_torus(3, 2);
-        let rows = table(&torus, MATCHING_LIMIT).expect("rows");
+        let rows = table(&torus, MATCHING_LIMIT, &Silent).expect("rows");
         assert!(rows.iter().any(|r| r.pieces == 1), "a seam that does not separate leaves one piece");
         assert!(rows.iter().any(|r| r.pieces != r.seam_cycles + 1));
     }
@@ -267,8 +278,8 @@ mod tests {
     #[test]
     fn what_cannot_be_is_said() {
         let cube = fixtures::cube();
-        assert_eq!(table(&cube, 8), Err(SeamError::TooMany { limit: 8 }));
-        assert_eq!(table(&cube, 9).expect("nine").len(), 2);
-        assert_eq!(matching(&cube, 2), Err(SeamError::NoSuchMatching { index: 2, count: 2 }));
+        assert_eq!(table(&cube, 8, &Silent), Err(SeamError::TooMany { limit: 8 }));
+        assert_eq!(table(&cube, 9, &Silent).expect("nine").len(), 2);
+        assert_eq!(matching(&cube, 2, &Silent), Err(SeamError::NoSuchMatching { index: 2, count: 2 }));
     }
 }

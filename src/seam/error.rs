@@ -83,6 +83,9 @@ pub enum SeamError {
         /// How that was shown.
         proof: NoHamiltonian,
     },
+    /// The user cancelled before there was anything to return.
+    #[error("stopped on request, before a choice of folds was found")]
+    Cancelled,
     /// The search for a two-piece seam used up its work.
     #[error(
         "no two-piece seam was found with {conflicts} conflicts, nor was it shown that there is none; take `matching`, or \

@@ -7,11 +7,14 @@ use super::graph::Graph;
 use super::two_piece::{NoHamiltonian, TwoPieceSearch, connected};
 use super::weight::{fold_weight, quantised};
 use crate::mesh::{EdgeId, EdgeMap, Mesh};
+use crate::progress::Progress;
 
 /// Up to this many vertices all matchings are listed, if they are not more than [`LISTED_MATCHINGS`].
 const LISTED_VERTICES: usize = 64;
 /// See [`LISTED_VERTICES`].
 const LISTED_MATCHINGS: usize = 20_000;
+/// Matchings listed between two questions whether to go on.
+const LISTED_AT_ONCE: usize = 256;
 /// Conflicts that the search for a first seam may meet.
 const CONFLICTS: u64 = 1_000_000;
 
@@ -25,28 +28,35 @@ const CONFLICTS: u64 = 1_000_000;
 ///
 /// # Errors
 /// As [`super::least_matching`]; [`SeamError::SeveralComponents`]; [`SeamError::NoHamiltonian`] with a proof;
-/// [`SeamError::SearchStopped`] when a million conflicts were not enough to tell.
-pub fn hamiltonian_folds(mesh: &Mesh) -> Result<Vec<EdgeId>, SeamError> {
+/// [`SeamError::SearchStopped`] when a million conflicts were not enough to tell; [`SeamError::Cancelled`] before a seam was
+/// found. Cancelled later, it returns the best so far.
+pub fn hamiltonian_folds(mesh: &Mesh, progress: &dyn Progress) -> Result<Vec<EdgeId>, SeamError> {
     let graph = connected(mesh)?;
     let weights: Vec<f64> = graph.edge_ids.iter().map(|&e| fold_weight(mesh, e)).collect();
     let weights = quantised(&weights, graph.vertex_ids.len());
-    if let Some(result) = listed(mesh, &graph, &weights) {
+    if let Some(result) = listed(mesh, &graph, &weights, progress) {
         return result;
     }
-    let mut search = TwoPieceSearch::new(mesh)?;
-    match search.next_within(CONFLICTS) {
+    let mut search = TwoPieceSearch::new(mesh, progress)?;
+    match search.next_within(CONFLICTS, progress) {
         Some(folds) => {
             let mut factor = Factor::new(&graph, &weights, search.numbers(&folds));
-            factor.save();
+            factor.save(progress);
             Ok(graph.ids(factor.folds()))
         }
+        None if progress.is_cancelled() => Err(SeamError::Cancelled),
         None if search.is_exhausted() => Err(SeamError::NoHamiltonian { proof: search.proof() }),
         None => Err(SeamError::SearchStopped { conflicts: CONFLICTS }),
     }
 }
 
 /// The exact answer of small meshes; `None` when there is too much to list.
-fn listed(mesh: &Mesh, graph: &Graph, weights: &[i64]) -> Option<Result<Vec<EdgeId>, SeamError>> {
+fn listed(
+    mesh: &Mesh,
+    graph: &Graph,
+    weights: &[i64],
+    progress: &dyn Progress,
+) -> Option<Result<Vec<EdgeId>, SeamError>> {
     if graph.vertex_ids.len() > LISTED_VERTICES {
         return None;
     }
@@ -55,6 +65,9 @@ fn listed(mesh: &Mesh, graph: &Graph, weights: &[i64]) -> Option<Result<Vec<Edge
     let mut best: Option<(i64, Vec<EdgeId>)> = None;
     let (mut matchings, mut fewest_cycles) = (0, usize::MAX);
     for folds in Matchings::new(mesh).ok()? {
+        if matchings % LISTED_AT_ONCE == 0 && progress.is_cancelled() {
+            return Some(Err(SeamError::Cancelled));
+        }
         matchings += 1;
         if matchings > LISTED_MATCHINGS {
             return None;
@@ -68,7 +81,7 @@ fn listed(mesh: &Mesh, graph: &Graph, weights: &[i64]) -> Option<Result<Vec<Edge
     }
     Some(match best {
         Some((_, folds)) => Ok(folds),
-        None if matchings == 0 => super::least_matching(mesh),
+        None if matchings == 0 => super::least_matching(mesh, progress),
         None => Err(SeamError::NoHamiltonian { proof: NoHamiltonian::Listed { matchings, fewest_cycles } }),
     })
 }
@@ -88,9 +101,9 @@ mod tests {
     #[test]
     fn small_meshes_get_the_least_of_all() {
         for mesh in [fixtures::cube(), fixtures::dodecahedron(), fixtures::random_convex(14, 9)] {
-            let folds = hamiltonian_folds(&mesh).expect("two pieces");
+            let folds = hamiltonian_folds(&mesh, &Silent).expect("two pieces");
             assert_two_pieces(&mesh, &folds);
-            let rows = table(&mesh, MATCHING_LIMIT).expect("rows");
+            let rows = table(&mesh, MATCHING_LIMIT, &Silent).expect("rows");
             let least = rows.iter().find(|r| r.pieces == 2).expect("two pieces come first").fold_sum;
             assert!((fold_sum(&mesh, &folds) - least).abs() < 1e-9 * least);
         }
@@ -106,7 +119,7 @@ mod tests {
             (fixtures::prism(6, 1.0), 8),
             (fixtures::tutte(), 0),
         ] {
-            let mut search = TwoPieceSearch::new(&mesh).expect("a search");
+            let mut search = TwoPieceSearch::new(&mesh, &Silent).expect("a search");
             let mut found = std::collections::BTreeSet::new();
             while let Some(folds) = search.next_candidate(&Silent) {
                 assert_two_pieces(&mesh, &folds);
@@ -121,8 +134,8 @@ mod tests {
     fn no_two_pieces_of_tuttes_graph_and_the_proof() {
         let tutte = fixtures::tutte();
         let proof = NoHamiltonian::Listed { matchings: 960, fewest_cycles: 2 };
-        assert_eq!(hamiltonian_folds(&tutte), Err(SeamError::NoHamiltonian { proof }));
-        let mut search = TwoPieceSearch::new(&tutte).expect("a search");
+        assert_eq!(hamiltonian_folds(&tutte, &Silent), Err(SeamError::NoHamiltonian { proof }));
+        let mut search = TwoPieceSearch::new(&tutte, &Silent).expect("a search");
         assert_eq!(search.next_candidate(&Silent), None);
         let NoHamiltonian::Contradiction { cycles, forbidden: 0, .. } = search.proof() else {
             panic!("a contradiction")
@@ -131,7 +144,7 @@ mod tests {
         // Too large to list: every vertex cut off does not bring a Hamiltonian cycle back.
         let larger = fixtures::truncated(&tutte, 0.3);
         assert!(matches!(
-            hamiltonian_folds(&larger),
+            hamiltonian_folds(&larger, &Silent),
             Err(SeamError::NoHamiltonian { proof: NoHamiltonian::Contradiction { .. } })
         ));
     }
@@ -139,7 +152,7 @@ mod tests {
     #[test]
     fn learnt_rules_hold() {
         let mesh = fixtures::random_convex(60, 4);
-        let mut search = TwoPieceSearch::new(&mesh).expect("a search");
+        let mut search = TwoPieceSearch::new(&mesh, &Silent).expect("a search");
         let mut rules: Vec<Vec<EdgeId>> = Vec::new();
         for _ in 0..30 {
             let folds = search.next_candidate(&Silent).expect("a candidate");
@@ -157,10 +170,10 @@ mod tests {
     #[test]
     fn large_meshes_get_a_good_seam_always_the_same() {
         let mesh = fixtures::random_convex(250, 7);
-        let folds = hamiltonian_folds(&mesh).expect("two pieces");
+        let folds = hamiltonian_folds(&mesh, &Silent).expect("two pieces");
         assert_two_pieces(&mesh, &folds);
-        assert_eq!(hamiltonian_folds(&mesh), Ok(folds.clone()));
-        let least = fold_sum(&mesh, &least_matching(&mesh).expect("a matching"));
+        assert_eq!(hamiltonian_folds(&mesh, &Silent), Ok(folds.clone()));
+        let least = fold_sum(&mesh, &least_matching(&mesh, &Silent).expect("a matching"));
         let sum = fold_sum(&mesh, &folds);
         assert!(least <= sum && sum < 1.25 * least, "{sum} against the bound {least}");
     }
@@ -174,7 +187,7 @@ mod tests {
                 true
             }
         }
-        let mut search = TwoPieceSearch::new(&fixtures::cube()).expect("a search");
+        let mut search = TwoPieceSearch::new(&fixtures::cube(), &Silent).expect("a search");
         assert!(search.next_candidate(&Cancelled).is_none() && !search.is_exhausted());
         assert!(search.next_candidate(&Silent).is_some());
     }
@@ -185,7 +198,7 @@ mod tests {
         for seed in 0..5 {
             let mesh = fixtures::random_convex(1000, seed);
             let start = std::time::Instant::now();
-            let mut search = TwoPieceSearch::new(&mesh).expect("a search");
+            let mut search = TwoPieceSearch::new(&mesh, &Silent).expect("a search");
             let mut folds = search.next_candidate(&Silent).expect("two pieces");
             assert!(start.elapsed().as_secs_f64() < 1.0, "{:?}", start.elapsed());
             // As an unfolder does: hundreds of short fold paths forbidden.
@@ -199,7 +212,7 @@ mod tests {
             assert!(start.elapsed().as_secs_f64() < 3.0, "{:?}", start.elapsed());
         }
         let start = std::time::Instant::now();
-        assert!(TwoPieceSearch::new(&fixtures::tutte()).expect("a search").next_candidate(&Silent).is_none());
+        assert!(TwoPieceSearch::new(&fixtures::tutte(), &Silent).expect("a search").next_candidate(&Silent).is_none());
         assert!(start.elapsed().as_secs_f64() < 1.0, "{:?}", start.elapsed());
     }
 }

@@ -1,6 +1,7 @@
 //! Joining closed seams into one at a small cost, and making one closed seam cheaper.
 
 use super::exchange::{Exchange, Factor};
+use crate::progress::Progress;
 
 /// Folds exchanged at once, at most, to join closed seams: short paths first, long ones for the few seams left over.
 const JOINED: [usize; 5] = [6, 9, 12, 15, 18];
@@ -14,16 +15,21 @@ const REJOINED: usize = 4;
 const STEPS_PER_VERTEX: usize = 10_000;
 
 impl Factor<'_> {
-    /// Joins closed seams by exchanges, the cheapest first, as long as that is possible. Says whether one is left.
-    pub fn join(&mut self) -> bool {
-        JOINED.into_iter().any(|folds| self.join_by(folds))
+    /// Joins closed seams by exchanges, the cheapest first, as long as that is possible and the user does not cancel. Says
+    /// whether one is left.
+    pub fn join(&mut self, progress: &dyn Progress) -> bool {
+        JOINED.into_iter().any(|folds| self.join_by(folds, progress))
     }
 
-    fn join_by(&mut self, folds: usize) -> bool {
+    fn join_by(&mut self, folds: usize, progress: &dyn Progress) -> bool {
         loop {
             let (labels, count) = self.labels();
+            progress.report("joining closed seams", 0, count - 1);
             if count == 1 {
                 return true;
+            }
+            if progress.is_cancelled() {
+                return false;
             }
             if folds > JOINED[0] && self.crossing(&labels).count() << (folds - 1) > PATHS {
                 return false;
@@ -79,13 +85,18 @@ impl Factor<'_> {
     }
 
     /// Makes the folds of one closed seam cheaper, as long as exchanges do that and leave one closed seam; when an exchange
-    /// splits it, the cheapest way to join the parts is tried, if both together still save.
-    pub fn save(&mut self) {
+    /// splits it, the cheapest way to join the parts is tried, if both together still save. Stops where it is when the user
+    /// cancels.
+    pub fn save(&mut self, progress: &dyn Progress) {
         let end = self.steps + STEPS_PER_VERTEX * self.graph.vertex_ids.len();
         let mut improved = true;
         while improved {
             improved = false;
             for e in 0..self.is_fold.len() as u32 {
+                if progress.is_cancelled() {
+                    return;
+                }
+                progress.report("making the seam cheaper", self.steps, end);
                 while self.is_fold[e as usize] && self.steps < end && self.save_from(e) {
                     improved = true;
                 }

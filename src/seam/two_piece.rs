@@ -11,6 +11,8 @@ use crate::progress::Progress;
 
 /// After so many conflicts the search asks whether it should go on.
 const CHUNK: u64 = 2_000;
+/// What the user is told that the search does.
+const SEARCH: &str = "looking for a seam of two pieces";
 /// How far around a closed seam folds are chosen anew at first, in edges.
 const NEAR: usize = 2;
 /// How far at most.
@@ -34,7 +36,7 @@ const TRIES: usize = 100;
 /// # use kerfold::{progress::Silent, seam::TwoPieceSearch};
 /// # fn overlapping(_: &[kerfold::mesh::EdgeId]) -> Option<Vec<kerfold::mesh::EdgeId>> { None }
 /// # fn run(mesh: &kerfold::mesh::Mesh) -> Result<(), kerfold::seam::SeamError> {
-/// let mut search = TwoPieceSearch::new(mesh)?;
+/// let mut search = TwoPieceSearch::new(mesh, &Silent)?;
 /// while let Some(folds) = search.next_candidate(&Silent) {
 ///     // The folds between two faces that overlap cannot all be folds.
 ///     let Some(path) = overlapping(&folds) else { break };
@@ -96,12 +98,12 @@ impl TwoPieceSearch {
     ///
     /// # Errors
     /// As [`super::least_matching`], and [`SeamError::SeveralComponents`].
-    pub fn new(mesh: &Mesh) -> Result<Self, SeamError> {
+    pub fn new(mesh: &Mesh, progress: &dyn Progress) -> Result<Self, SeamError> {
         let graph = connected(mesh)?;
         let weights: Vec<f64> = graph.edge_ids.iter().map(|&e| fold_weight(mesh, e)).collect();
         let weights = quantised(&weights, graph.vertex_ids.len());
-        let mut factor = Factor::new(&graph, &weights, least_folds(&graph, &weights)?);
-        factor.join();
+        let mut factor = Factor::new(&graph, &weights, least_folds(&graph, &weights, progress)?);
+        factor.join(progress);
         let start = factor.is_fold;
         let mut number = EdgeMap::filled(mesh.edge_slots(), None);
         (0u32..).zip(&graph.edge_ids).for_each(|(i, &e)| number[e] = Some(i));
@@ -116,7 +118,7 @@ impl TwoPieceSearch {
         }
         let proof = NoHamiltonian::Contradiction { cycles: 0, forbidden: 0, conflicts: 0 };
         let mut search = Self { graph, weights, number, sat, last: None, is_exhausted: false, proof };
-        search.approach(start);
+        search.approach(start, progress);
         search.forbid_seams_around_faces(mesh);
         Ok(search)
     }
@@ -124,11 +126,12 @@ impl TwoPieceSearch {
     /// Sets the solver on its way: what it tries first is a choice of folds near the given one with as few closed seams as
     /// can be had cheaply. Seam after seam is joined with others by choosing folds anew around it, in a growing
     /// neighbourhood, while all other folds stay.
-    fn approach(&mut self, mut is_fold: Vec<bool>) {
+    fn approach(&mut self, mut is_fold: Vec<bool>, progress: &dyn Progress) {
         let mut radius = NEAR;
         while radius <= FAR {
             let (component, count) = self.seam_components(&is_fold);
-            if count == 1 {
+            progress.report("joining closed seams", 0, count - 1);
+            if count == 1 || progress.is_cancelled() {
                 break;
             }
             let near = self.neighbourhood(&component, count, radius);
@@ -203,8 +206,8 @@ impl TwoPieceSearch {
     /// `None` when there are no more ([`Self::is_exhausted`]) or when the user cancelled.
     pub fn next_candidate(&mut self, progress: &dyn Progress) -> Option<Vec<EdgeId>> {
         while !self.is_exhausted && !progress.is_cancelled() {
-            progress.report("looking for a seam of two pieces", self.sat.conflicts() as usize, 0);
-            if let Some(folds) = self.next_within(CHUNK) {
+            progress.report(SEARCH, self.sat.conflicts() as usize, 0);
+            if let Some(folds) = self.next_within(CHUNK, progress) {
                 return Some(folds);
             }
         }
@@ -212,15 +215,15 @@ impl TwoPieceSearch {
     }
 
     /// As [`Self::next_candidate`], but gives up after about that many more conflicts.
-    pub(super) fn next_within(&mut self, conflicts: u64) -> Option<Vec<EdgeId>> {
+    pub(super) fn next_within(&mut self, conflicts: u64, progress: &dyn Progress) -> Option<Vec<EdgeId>> {
         if let Some(last) = self.last.take() {
             self.sat.add_clause(last.into_iter().map(|e| (e, false)));
         }
         let end = self.sat.conflicts().saturating_add(conflicts);
         let mut joins = 0;
-        while !self.is_exhausted && self.sat.conflicts() < end {
-            match self.sat.solve(&[], end - self.sat.conflicts()) {
-                Answer::Stopped => return None,
+        while !self.is_exhausted && self.sat.conflicts() < end && !progress.is_cancelled() {
+            match self.sat.solve(&[], CHUNK.min(end - self.sat.conflicts())) {
+                Answer::Stopped => progress.report(SEARCH, self.sat.conflicts() as usize, 0),
                 Answer::No => self.is_exhausted = true,
                 Answer::Yes => {
                     let is_fold = self.answer();
@@ -231,7 +234,7 @@ impl TwoPieceSearch {
                     self.forbid_short_seams(&component, count);
                     if joins < JOINS {
                         joins += 1;
-                        if let Some(joined) = self.joined(&is_fold) {
+                        if let Some(joined) = self.joined(&is_fold, progress) {
                             return Some(self.found(joined));
                         }
                     }
@@ -243,10 +246,10 @@ impl TwoPieceSearch {
 
     /// Joins the closed seams of an answer by exchanges. The rules of the caller are not known there, so the solver has to
     /// agree; it also begins there the next time.
-    fn joined(&mut self, is_fold: &[bool]) -> Option<Vec<bool>> {
+    fn joined(&mut self, is_fold: &[bool], progress: &dyn Progress) -> Option<Vec<bool>> {
         let edges = 0..is_fold.len() as u32;
         let mut factor = Factor::new(&self.graph, &self.weights, edges.filter(|&e| is_fold[e as usize]));
-        if !factor.join() {
+        if !factor.join(progress) {
             return None;
         }
         let folds = factor.folds();

@@ -13,6 +13,7 @@ use crate::geom::predicate::side_of_plane;
 use crate::geom::{RoundingBound, Side};
 use crate::measure::fold_angle;
 use crate::mesh::{EdgeId, FaceId, Mesh, VertexId};
+use crate::progress::Progress;
 use crate::units::nearest_word;
 
 /// Measured angles carry rounding: two that differ by less, in degrees, count as equal. A hundred times what a model a
@@ -24,7 +25,7 @@ type Marks = Vec<bool>;
 
 /// The numbers of the elements that fit, ascending; never empty.
 pub(super) fn evaluate(expr: &Expr, context: &Context<'_>, kind: ElementKind) -> Result<Vec<usize>, SelectError> {
-    let evaluation = Evaluation { mesh: context.mesh, made: context.made, kind };
+    let evaluation = Evaluation { mesh: context.mesh, made: context.made, progress: context.progress, kind };
     let marks = evaluation.expr(expr)?;
     let chosen: Vec<usize> = (0..marks.len()).filter(|&i| marks[i]).collect();
     if chosen.is_empty() {
@@ -47,6 +48,7 @@ fn serves(atom: &Atom) -> &'static [ElementKind] {
 struct Evaluation<'a> {
     mesh: &'a Mesh,
     made: Option<&'a Made>,
+    progress: &'a dyn Progress,
     kind: ElementKind,
 }
 
@@ -122,7 +124,7 @@ impl Evaluation<'_> {
                 self.listed(made.strip.iter().map(|e| e.index()))
             }
             Atom::Folds(which) => {
-                let folds = seams::folds(mesh, which);
+                let folds = seams::folds(mesh, which, self.progress);
                 let folds = folds.map_err(|source| SelectError::Seams { atom: atom.to_string(), source })?;
                 self.listed(folds.iter().map(|e| e.index()))
             }

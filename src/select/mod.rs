@@ -39,6 +39,7 @@ use std::str::FromStr;
 use serde::{Deserialize, Deserializer, de};
 
 use crate::mesh::{EdgeId, FaceId, Mesh, VertexId};
+use crate::progress::{Progress, Silent};
 use expr::{Atom, Expr};
 
 /// A parsed selection: read by [`str::parse`], written by [`fmt::Display`]; in a recipe a text, an id, or a list of ids.
@@ -46,12 +47,14 @@ use expr::{Atom, Expr};
 pub struct Selection(Expr);
 
 /// What a selection is evaluated on.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub struct Context<'a> {
     /// The mesh as it is now.
     pub mesh: &'a Mesh,
     /// What the last step made, for `made` and `strip`.
     pub made: Option<&'a Made>,
+    /// Progress and Ctrl-C; choosing folds on a large mesh takes a while.
+    pub progress: &'a dyn Progress,
 }
 
 /// What an operator made, in ids of the mesh that it returned.
@@ -70,7 +73,7 @@ pub struct Made {
 impl<'a> Context<'a> {
     /// A mesh on which no step was done yet.
     pub fn of(mesh: &'a Mesh) -> Self {
-        Self { mesh, made: None }
+        Self { mesh, made: None, progress: &Silent }
     }
 }
 

@@ -1,6 +1,7 @@
 //! The edge selections that come from seams: the one place that calls that module.
 
 use crate::mesh::{EdgeId, Mesh};
+use crate::progress::Progress;
 use crate::seam::{self, SeamError};
 
 /// A choice of folds, one at every vertex.
@@ -15,10 +16,10 @@ pub(super) enum Folds {
 }
 
 /// The folds on the mesh as it is now.
-pub(super) fn folds(mesh: &Mesh, which: Folds) -> Result<Vec<EdgeId>, SeamError> {
+pub(super) fn folds(mesh: &Mesh, which: Folds, progress: &dyn Progress) -> Result<Vec<EdgeId>, SeamError> {
     match which {
-        Folds::Least => seam::least_matching(mesh),
-        Folds::Number(k) => seam::matching(mesh, k),
-        Folds::TwoPieces => seam::hamiltonian_folds(mesh),
+        Folds::Least => seam::least_matching(mesh, progress),
+        Folds::Number(k) => seam::matching(mesh, k, progress),
+        Folds::TwoPieces => seam::hamiltonian_folds(mesh, progress),
     }
 }

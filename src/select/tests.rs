@@ -1,4 +1,5 @@
 use super::*;
+use crate::progress::Silent;
 use crate::shape;
 use glam::DVec3;
 use proptest::prelude::*;
@@ -139,7 +140,7 @@ fn made_and_strip_are_what_the_last_step_made() {
         strip: vec![EdgeId::new(4)],
         faces: Vec::new(),
     };
-    let context = Context { mesh: &mesh, made: Some(&made) };
+    let context = Context { made: Some(&made), ..Context::of(&mesh) };
     assert_eq!(select("made").vertices(&context).expect("one still exists"), [VertexId::new(5)]);
     assert_eq!(select("made").edges(&context).expect("two"), [2, 4].map(EdgeId::new));
     assert_eq!(select("made & !strip").edges(&context).expect("one"), [EdgeId::new(2)]);
@@ -157,7 +158,7 @@ fn seam_selections_reach_the_seams() {
         ("matching:2", seams::Folds::Number(2)),
         ("hamiltonian", seams::Folds::TwoPieces),
     ] {
-        match (select(text).edges(&Context::of(&mesh)), seams::folds(&mesh, folds)) {
+        match (select(text).edges(&Context::of(&mesh)), seams::folds(&mesh, folds, &Silent)) {
             (Ok(chosen), Ok(folds)) => assert_eq!(chosen.len(), folds.len(), "{text}"),
             (Err(SelectError::Seams { atom, source }), Err(error)) => {
                 assert_eq!((atom.as_str(), source), (text, error))

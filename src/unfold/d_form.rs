@@ -31,7 +31,7 @@ pub(super) fn two_pieces<'a>(
     if !is_cubic(mesh) || !is_sphere || !seams.is_searched() {
         return Ok(None);
     }
-    let Ok(mut search) = TwoPieceSearch::new(mesh) else { return Ok(None) };
+    let Ok(mut search) = TwoPieceSearch::new(mesh, progress) else { return Ok(None) };
     constrain(&mut search, mesh, seams);
     let effort = params.effort.max(1) as usize;
     let (mut best, mut found, mut overlapping): (Option<(f64, Layout)>, usize, usize) = (None, 0, 0);
@@ -111,7 +111,7 @@ pub(super) fn strips<'a>(
     let mut weight = strip_weights(mesh, seams);
     let mut best: Option<Layout> = None;
     for round in 0..=params.effort {
-        let folds = least_matching_by(mesh, |e| weight[e]).ok()?;
+        let folds = least_matching_by(mesh, |e| weight[e], progress).ok()?;
         let mut layout = lay(dual, mesh, &folds);
         for &pair in &layout.overlaps {
             let sharpest = path(&layout, pair).into_iter().max_by(|&a, &b| weight[a].total_cmp(&weight[b]));

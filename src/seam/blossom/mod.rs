@@ -28,6 +28,7 @@ mod tests;
 pub(super) use tests::Random;
 
 use super::graph::Graph;
+use crate::progress::Progress;
 use solver::Solver;
 
 /// Why there is no perfect matching: without these vertices more odd parts are left than vertices were removed.
@@ -39,13 +40,26 @@ pub(super) struct Barrier {
     pub odd_parts: usize,
 }
 
+/// Why no matching was returned.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Unmatched {
+    /// There is none.
+    Barrier(Barrier),
+    /// The user cancelled; half a matching is of no use.
+    Cancelled,
+}
+
 /// The edges of the perfect matching with the least sum of weights, in the order of their lower ends.
 ///
 /// # Errors
-/// A [`Barrier`] when there is no perfect matching.
-pub(super) fn least_perfect_matching(graph: &Graph, weights: &[i64]) -> Result<Vec<u32>, Barrier> {
+/// [`Unmatched`].
+pub(super) fn least_perfect_matching(
+    graph: &Graph,
+    weights: &[i64],
+    progress: &dyn Progress,
+) -> Result<Vec<u32>, Unmatched> {
     let mut solver = Solver::new(graph, weights);
-    solver.run()?;
+    solver.run(progress)?;
     Ok(solver.matching())
 }
 

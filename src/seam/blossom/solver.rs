@@ -4,14 +4,17 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use super::super::graph::Graph;
-use super::Barrier;
 use super::node::{Link, NONE, Node, State};
+use super::{Barrier, Unmatched};
+use crate::progress::Progress;
 
 /// An event: its time, and an edge (below the number of edges) or a blossom (the node's number on top of that).
 type Event = Reverse<(i64, u32)>;
 
 /// When an edge is not in the queue.
 const NEVER: i64 = i64::MAX;
+/// Between two questions whether to go on, in events.
+const EVENTS: usize = 4096;
 
 /// The state of the search.
 pub(super) struct Solver<'a> {
@@ -100,8 +103,8 @@ impl<'a> Solver<'a> {
     /// Searches until every vertex is matched.
     ///
     /// # Errors
-    /// The barrier when that cannot be.
-    pub fn run(&mut self) -> Result<(), Barrier> {
+    /// The barrier when that cannot be, or that the user cancelled.
+    pub fn run(&mut self, progress: &dyn Progress) -> Result<(), Unmatched> {
         let roots: Vec<u32> = (0..self.graph.vertex_count()).filter(|&v| !self.node(v).mate.is_some()).collect();
         self.trees = roots.len();
         for &v in &roots {
@@ -110,8 +113,16 @@ impl<'a> Solver<'a> {
         for &v in &roots {
             self.watch(v);
         }
+        let mut events = 0;
         while self.trees > 0 {
-            let Some(Reverse((time, what))) = self.queue.pop() else { return Err(self.barrier()) };
+            if events % EVENTS == 0 {
+                if progress.is_cancelled() {
+                    return Err(Unmatched::Cancelled);
+                }
+                progress.report("matching folds", roots.len() - self.trees, roots.len());
+            }
+            events += 1;
+            let Some(Reverse((time, what))) = self.queue.pop() else { return Err(Unmatched::Barrier(self.barrier())) };
             self.now = time;
             let edges = self.weights.len() as u32;
             if what < edges { self.edge_event(what) } else { self.blossom_event(what - edges) }

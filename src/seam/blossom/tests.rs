@@ -1,4 +1,5 @@
 use super::*;
+use crate::progress::Silent;
 
 /// A small generator of pseudo-random numbers (SplitMix64).
 pub(in crate::seam) struct Random(pub u64);
@@ -62,7 +63,7 @@ fn assert_optimal(graph: &Graph, weights: &[i64], matching: &[u32], certificate:
 
 fn assert_solved(graph: &Graph, weights: &[i64]) -> Vec<u32> {
     let mut solver = Solver::new(graph, weights);
-    solver.run().expect("a perfect matching");
+    solver.run(&Silent).expect("a perfect matching");
     let matching = solver.matching();
     assert_optimal(graph, weights, &matching, &solver.certificate());
     matching
@@ -132,7 +133,9 @@ fn small_graphs_agree_with_trying_everything() {
                 solved += 1;
             }
             None => {
-                assert_barrier(&graph, &least_perfect_matching(&graph, &weights).expect_err("no perfect matching"));
+                let unmatched = least_perfect_matching(&graph, &weights, &Silent).expect_err("no perfect matching");
+                let Unmatched::Barrier(barrier) = unmatched else { panic!("{unmatched:?}") };
+                assert_barrier(&graph, &barrier);
                 refused += 1;
             }
         }
@@ -202,7 +205,7 @@ fn a_hundred_thousand_edges() {
         for (name, graph) in [("wall", brick_wall(183, 182, 6)), ("random", random_cubic(66_666, &mut random))] {
             let weights: Vec<i64> = graph.ends.iter().map(|_| random.below(range) as i64).collect();
             let start = std::time::Instant::now();
-            let result = least_perfect_matching(&graph, &weights);
+            let result = least_perfect_matching(&graph, &weights, &Silent);
             let edges = graph.ends.len();
             assert!(start.elapsed().as_secs() < 5, "{name} {range} {edges}: {:?} {}", start.elapsed(), result.is_ok());
         }

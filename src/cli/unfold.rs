@@ -36,7 +36,7 @@ pub(super) fn run(args: &UnfoldArgs, console: &Console) -> Result<Outcome, CliEr
     let source = Source { scale: read.scale, split_vertices: &read.splits };
     let fabrication = fabricate(&read.mesh, None, (&args.unfold, &args.choice, &args.sheet), &source, &progress)?;
     let command = command_line();
-    let written = Console::write_folder(&args.output, fabrication_outputs(&fabrication, &args.sheet, &command))?;
+    let written = Console::write_folder(&args.output, fabrication_outputs(&fabrication, &args.sheet, &command)?)?;
     let notes: Vec<String> = read.notes.iter().map(ToString::to_string).chain(fabrication.notes()).collect();
     if console.json {
         let summary = json!({ "command": command, "written": written, "notes": notes, "fabrication": summary_json(&fabrication) });

@@ -3,16 +3,21 @@
 //! [`read_mesh`] reads OBJ, PLY, STL and OFF, [`write_mesh`] writes them; `-` is standard input or output and means OBJ.
 //! Everything that kerfold writes goes through [`output`], so that a file is whole or not there.
 
+pub mod dxf;
 mod error;
 mod format;
 pub mod layout_json;
+pub mod lbrn2;
+mod number;
 pub mod output;
+pub mod pdf;
 pub mod pieces_json;
 pub mod planes_csv;
 mod read;
 pub mod report_csv;
 pub mod report_json;
 pub mod report_text;
+pub mod sheet_files;
 pub mod svg;
 mod write;
 

@@ -5,7 +5,7 @@ use super::{Fabrication, Job, StepFailure};
 use crate::io::layout_json::write_layout_json;
 use crate::io::pieces_json::write_pieces_json;
 use crate::io::report_json::check_json;
-use crate::io::svg::write_svg;
+use crate::io::sheet_files::sheet_files;
 use crate::io::{MeshFormat, WriteOptions, mesh_bytes};
 use crate::net::EdgeLabel;
 use crate::picture::{PictureError, Polyline, StrokeLayer, Strokes, render_model, render_sheet};
@@ -27,7 +27,7 @@ pub fn job_outputs(job: &Job, command: &str) -> Result<Vec<Output>, StepFailure>
         ("report.json".to_owned(), check_json(&job.report()?, command).into_bytes()),
     ];
     if let Some((fabrication, sheet)) = &job.fabrication {
-        outputs.extend(fabrication_outputs(fabrication, sheet, command));
+        outputs.extend(fabrication_outputs(fabrication, sheet, command)?);
         for drawing in &fabrication.sheets.drawings {
             let picture = sheet_picture(drawing, job.render.width)?;
             outputs.push((format!("{}.png", drawing.file_stem()), picture));
@@ -37,18 +37,22 @@ pub fn job_outputs(job: &Job, command: &str) -> Result<Vec<Output>, StepFailure>
 }
 
 /// Pieces, layout and sheets; the pieces only when no sheets were asked for.
-pub fn fabrication_outputs(fabrication: &Fabrication, sheet: &SheetParams, command: &str) -> Vec<Output> {
+///
+/// # Errors
+/// [`StepFailure`] when a sheet cannot be tiled.
+pub fn fabrication_outputs(
+    fabrication: &Fabrication,
+    sheet: &SheetParams,
+    command: &str,
+) -> Result<Vec<Output>, StepFailure> {
     let mut outputs = vec![("pieces.json".to_owned(), write_pieces_json(&fabrication.net, command).into_bytes())];
     if !fabrication.sheets.drawings.is_empty() {
         let layout = write_layout_json(&fabrication.sheets.layout, command);
         outputs.push(("layout.json".to_owned(), layout.into_bytes()));
         outputs.push(("assembly.txt".to_owned(), assembly_text(fabrication, command).into_bytes()));
     }
-    for drawing in &fabrication.sheets.drawings {
-        let svg = write_svg(drawing, sheet.preset, command);
-        outputs.push((format!("{}.svg", drawing.file_stem()), svg.into_bytes()));
-    }
-    outputs
+    outputs.extend(sheet_files(&fabrication.sheets.drawings, sheet, command)?);
+    Ok(outputs)
 }
 
 /// A PNG of a sheet, in the colours of the default preset.

@@ -89,12 +89,12 @@ pub(crate) fn draw(
 fn draw_cuts(drawing: &mut Drawing, shape: &CutShape, placed: &Placed) {
     let id = shape.piece;
     let stroke = |points: &[DVec2], closed| vec![Stroke { points: placed.apply_all(points), closed }];
-    drawing.add(MarkKind::Outline, id.to_string(), stroke(&shape.outline, true));
+    drawing.add(MarkKind::Outline, id.to_string(), Some(id), stroke(&shape.outline, true));
     for (i, hole) in shape.holes.iter().enumerate() {
-        drawing.add(MarkKind::Hole, format!("{id}-hole-{}", i + 1), stroke(hole, true));
+        drawing.add(MarkKind::Hole, format!("{id}-hole-{}", i + 1), Some(id), stroke(hole, true));
     }
     for (i, slit) in shape.slits.iter().enumerate() {
-        drawing.add(MarkKind::Slit, format!("{id}-slit-{}", i + 1), stroke(slit, false));
+        drawing.add(MarkKind::Slit, format!("{id}-slit-{}", i + 1), Some(id), stroke(slit, false));
     }
 }
 
@@ -119,7 +119,7 @@ fn draw_folds(
             (ScoreStyle::Valleys, MarkKind::ValleyFold) => ScoreStyle::Dashed,
             _ => style,
         };
-        drawing.add(kind, fold.id.to_string(), score_strokes(a, b, style));
+        drawing.add(kind, fold.id.to_string(), Some(placed.piece), score_strokes(a, b, style));
     }
 }
 
@@ -131,7 +131,7 @@ fn draw_flap_folds<'a>(
 ) {
     for fold in folds {
         let [a, b] = fold.segment.map(|p| placed.apply(p));
-        drawing.add(MarkKind::FlapFold, format!("{}-flap", fold.id), score_strokes(a, b, style));
+        drawing.add(MarkKind::FlapFold, format!("{}-flap", fold.id), Some(placed.piece), score_strokes(a, b, style));
     }
 }
 
@@ -197,7 +197,7 @@ impl Lettering<'_> {
         report.unmarked_angles += lettered.unmarked_angles;
         for (kind, id, label) in lettered.labels {
             let open = |points: &Vec<DVec2>| Stroke { points: self.placed.apply_all(points), closed: false };
-            drawing.add(kind, id, label.strokes.iter().map(open).collect());
+            drawing.add(kind, id, Some(self.piece.id), label.strokes.iter().map(open).collect());
         }
         Ok(())
     }
@@ -355,7 +355,7 @@ fn draw_info(drawing: &mut Drawing, stock: &Stock, params: &SheetParams) -> Resu
         let mut strokes = vec![Stroke { points: corners.to_vec(), closed: true }];
         let text = lettering(&format!("{side} MM"), side / 20.0)?;
         strokes.extend(text_strokes(text.strokes, low + DVec2::splat(side / 20.0)));
-        drawing.add(MarkKind::Reference, "reference".to_owned(), strokes);
+        drawing.add(MarkKind::Reference, "reference".to_owned(), None, strokes);
     }
     let short = |value: f64| (value * 1e4).round() / 1e4;
     let (width, height, kerf) = (short(stock.size.x), short(stock.size.y), short(params.kerf.mm()));
@@ -364,7 +364,7 @@ fn draw_info(drawing: &mut Drawing, stock: &Stock, params: &SheetParams) -> Resu
     let fits = text.high.x + 2.0 * stock.margin <= stock.size.x;
     if stock.margin >= 2.0 && fits {
         let strokes = text_strokes(text.strokes, DVec2::new(stock.margin, stock.margin / 4.0 + 0.25 * -text.low.y));
-        drawing.add(MarkKind::Note, "note".to_owned(), strokes);
+        drawing.add(MarkKind::Note, "note".to_owned(), None, strokes);
     }
     Ok(())
 }

@@ -3,12 +3,15 @@
 use glam::DVec2;
 
 use super::layout::{Sheet, SheetId};
+use crate::net::PieceId;
 
 /// One sheet as lines: origin bottom left, y up, in mm.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drawing {
     /// The sheet.
     pub sheet: SheetId,
+    /// The part, where it shows only one.
+    pub part: Option<PieceId>,
     /// Along x.
     pub width: f64,
     /// Along y.
@@ -78,6 +81,8 @@ pub struct Mark {
     pub id: String,
     /// What it means.
     pub kind: MarkKind,
+    /// The piece that it is on, if on any.
+    pub piece: Option<PieceId>,
     /// Its lines; cuts have exactly one, letters and dashes several.
     pub strokes: Vec<Stroke>,
 }
@@ -150,12 +155,12 @@ impl Stroke {
 impl Drawing {
     pub(crate) fn new(sheet: &Sheet) -> Self {
         let layers = LayerKind::ALL.map(|kind| Layer { kind, marks: Vec::new() }).to_vec();
-        Self { sheet: sheet.id, width: sheet.width, height: sheet.height, layers }
+        Self { sheet: sheet.id, part: None, width: sheet.width, height: sheet.height, layers }
     }
 
-    /// The name of its file without the ending: `sheet-01`.
+    /// The name of its file without the ending: `sheet-01`; of a part `P01`.
     pub fn file_stem(&self) -> String {
-        format!("sheet-{:02}", self.sheet.0 + 1)
+        self.part.map_or_else(|| format!("sheet-{:02}", self.sheet.0 + 1), |part| part.to_string())
     }
 
     /// All marks in working order.
@@ -177,8 +182,8 @@ impl Drawing {
         self.marks().filter(|m| wanted(m.kind.layer())).flat_map(|m| &m.strokes).map(Stroke::length).sum()
     }
 
-    pub(crate) fn add(&mut self, kind: MarkKind, id: String, strokes: Vec<Stroke>) {
+    pub(crate) fn add(&mut self, kind: MarkKind, id: String, piece: Option<PieceId>, strokes: Vec<Stroke>) {
         let layer = self.layers.iter_mut().find(|l| l.kind == kind.layer());
-        layer.expect("a drawing has all layers").marks.push(Mark { id, kind, strokes });
+        layer.expect("a drawing has all layers").marks.push(Mark { id, kind, piece, strokes });
     }
 }

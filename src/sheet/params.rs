@@ -8,6 +8,7 @@ use glam::DVec2;
 use serde::{Deserialize, Deserializer};
 
 use super::error::SheetError;
+use super::files::{Colours, Formats, Paper, PartFiles, Style};
 use super::joint::{FlapSide, Joint};
 use crate::units::{Angle, Length, UnitError, parse_number};
 
@@ -37,6 +38,18 @@ pub struct SheetParams {
     #[arg(long, value_enum, default_value = "red-cut")]
     #[serde(default)]
     pub preset: Preset,
+    /// File formats of the sheets: svg, dxf, pdf, lbrn2, separated by commas
+    #[arg(long, value_name = "LIST", default_value = "svg")]
+    #[serde(default)]
+    pub format: Formats,
+    /// Also print every sheet at true size on several pages of this paper, as one PDF
+    #[arg(long, value_enum, value_name = "PAPER")]
+    #[serde(default)]
+    pub tile: Option<Paper>,
+    /// Whether every part gets files of its own besides the sheets
+    #[arg(long, value_enum, default_value = "off")]
+    #[serde(default)]
+    pub part_files: PartFiles,
     /// What is engraved: nothing, the names of the pieces, or these and the numbers of the seams
     #[arg(long, value_enum, default_value = "all")]
     #[serde(default)]
@@ -107,6 +120,9 @@ impl Default for SheetParams {
             spacing: default_spacing(),
             kerf: Length::default(),
             preset: Preset::default(),
+            format: Formats::default(),
+            tile: None,
+            part_files: PartFiles::default(),
             labels: Labels::default(),
             score: ScoreStyle::default(),
             angles: Angles::default(),
@@ -289,6 +305,11 @@ impl Stock {
 }
 
 impl SheetParams {
+    /// The colours and widths of lines.
+    pub fn style(&self) -> Style {
+        Style { preset: self.preset, colours: Colours::default() }
+    }
+
     /// Checks all numbers; nothing for `sheet = none`.
     ///
     /// # Errors

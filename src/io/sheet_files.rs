@@ -1,0 +1,47 @@
+//! All files of a set of sheets, as names and bytes: in every format that was asked for, tiled, and part by part.
+
+use super::dxf::write_dxf;
+use super::lbrn2::write_lbrn2;
+use super::pdf::tiles::write_tiles;
+use super::pdf::write_pdf;
+use super::svg::write_svg;
+use crate::sheet::{Drawing, PartFiles, SheetError, SheetFormat, SheetParams};
+
+/// The bytes of one drawing in one format.
+pub fn sheet_bytes(drawing: &Drawing, format: SheetFormat, params: &SheetParams, command: &str) -> Vec<u8> {
+    match format {
+        SheetFormat::Svg => write_svg(drawing, params.style(), command).into_bytes(),
+        SheetFormat::Dxf => write_dxf(drawing, command).into_bytes(),
+        SheetFormat::Pdf => write_pdf(drawing, params.style(), command),
+        SheetFormat::Lbrn2 => write_lbrn2(drawing, |_| None, command).into_bytes(),
+    }
+}
+
+/// Names and bytes of all files: `sheet-01.svg`, `sheet-01-a4.pdf`, `P01.dxf`, ….
+///
+/// # Errors
+/// [`SheetError::NoGlyph`] as [`write_tiles`].
+pub fn sheet_files(
+    drawings: &[Drawing],
+    params: &SheetParams,
+    command: &str,
+) -> Result<Vec<(String, Vec<u8>)>, SheetError> {
+    let mut files = Vec::new();
+    let mut add = |drawing: &Drawing| {
+        for format in params.format.iter() {
+            let name = format!("{}.{}", drawing.file_stem(), format.extension());
+            files.push((name, sheet_bytes(drawing, format, params, command)));
+        }
+    };
+    drawings.iter().for_each(&mut add);
+    if params.part_files == PartFiles::On {
+        drawings.iter().flat_map(Drawing::parts).for_each(|part| add(&part));
+    }
+    if let Some(paper) = params.tile {
+        for drawing in drawings {
+            let bytes = write_tiles(drawing, paper, params.style(), command)?;
+            files.push((format!("{}-{}.pdf", drawing.file_stem(), paper.name()), bytes));
+        }
+    }
+    Ok(files)
+}

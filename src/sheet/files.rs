@@ -1,0 +1,238 @@
+//! Which files are written for a sheet, and in which colours.
+
+use std::fmt;
+use std::str::FromStr;
+
+use clap::ValueEnum;
+use glam::DVec2;
+use serde::{Deserialize, Deserializer};
+
+use super::drawing::LayerKind;
+use super::params::Preset;
+
+/// A format of sheet files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, ValueEnum)]
+pub enum SheetFormat {
+    /// Scalable Vector Graphics, millimetres.
+    Svg,
+    /// AutoCAD drawing exchange, R2000, millimetres.
+    Dxf,
+    /// Portable Document Format, one page as large as the sheet.
+    Pdf,
+    /// LightBurn project.
+    Lbrn2,
+}
+
+impl SheetFormat {
+    /// All formats.
+    pub const ALL: [Self; 4] = [Self::Svg, Self::Dxf, Self::Pdf, Self::Lbrn2];
+
+    /// The ending of the files, without a dot.
+    pub const fn extension(self) -> &'static str {
+        match self {
+            Self::Svg => "svg",
+            Self::Dxf => "dxf",
+            Self::Pdf => "pdf",
+            Self::Lbrn2 => "lbrn2",
+        }
+    }
+}
+
+/// One or more formats, each once, in the order of [`SheetFormat::ALL`]. Typed as `svg,dxf`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Formats(Vec<SheetFormat>);
+
+/// A word that names no format.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("`{word}` is no format of sheets; use one or more of svg, dxf, pdf, lbrn2, as in svg,dxf")]
+pub struct FormatsError {
+    /// What was typed.
+    pub word: String,
+}
+
+impl Formats {
+    /// The formats.
+    pub fn iter(&self) -> impl Iterator<Item = SheetFormat> + '_ {
+        self.0.iter().copied()
+    }
+}
+
+impl Default for Formats {
+    fn default() -> Self {
+        Self(vec![SheetFormat::Svg])
+    }
+}
+
+impl FromIterator<SheetFormat> for Formats {
+    fn from_iter<I: IntoIterator<Item = SheetFormat>>(formats: I) -> Self {
+        let mut formats: Vec<SheetFormat> = formats.into_iter().collect();
+        formats.sort();
+        formats.dedup();
+        Self(formats)
+    }
+}
+
+impl FromStr for Formats {
+    type Err = FormatsError;
+    fn from_str(text: &str) -> Result<Self, FormatsError> {
+        let read = |word: &str| {
+            let word = word.trim();
+            let found = SheetFormat::ALL.into_iter().find(|f| f.extension().eq_ignore_ascii_case(word));
+            found.ok_or_else(|| FormatsError { word: word.to_owned() })
+        };
+        text.split(',').map(read).collect()
+    }
+}
+
+impl fmt::Display for Formats {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0.iter().map(|f| f.extension()).collect::<Vec<_>>().join(","))
+    }
+}
+
+impl<'de> Deserialize<'de> for Formats {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        String::deserialize(deserializer)?.parse().map_err(serde::de::Error::custom)
+    }
+}
+
+/// Paper that a sheet is printed on in tiles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Paper {
+    /// 210 × 297 mm.
+    A4,
+    /// 297 × 420 mm.
+    A3,
+    /// 8.5 × 11 in.
+    Letter,
+}
+
+impl Paper {
+    /// Width and height in mm, upright.
+    pub const fn mm(self) -> DVec2 {
+        match self {
+            Self::A4 => DVec2::new(210.0, 297.0),
+            Self::A3 => DVec2::new(297.0, 420.0),
+            Self::Letter => DVec2::new(215.9, 279.4),
+        }
+    }
+
+    /// Its name in file names.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::A4 => "a4",
+            Self::A3 => "a3",
+            Self::Letter => "letter",
+        }
+    }
+}
+
+/// Whether every part gets files of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PartFiles {
+    /// Sheets only.
+    #[default]
+    Off,
+    /// Besides the sheets one file per part in every format, for shops that nest themselves.
+    On,
+}
+
+/// A colour, red, green and blue.
+pub type Rgb = [u8; 3];
+
+/// Colours of the operations that take the place of the preset's.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Colours {
+    /// Outlines.
+    pub cut_outer: Option<Rgb>,
+    /// Holes and slits.
+    pub cut_inner: Option<Rgb>,
+    /// Folds.
+    pub score: Option<Rgb>,
+    /// Lettering.
+    pub engrave: Option<Rgb>,
+}
+
+/// How lines look in a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Style {
+    /// Colours and widths.
+    pub preset: Preset,
+    /// What a material changes of them.
+    pub colours: Colours,
+}
+
+/// How one layer is drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pen {
+    /// Its colour.
+    pub colour: Rgb,
+    /// Stroke width in mm, at most 0.1.
+    pub width: f64,
+}
+
+impl From<Preset> for Style {
+    fn from(preset: Preset) -> Self {
+        Self { preset, colours: Colours::default() }
+    }
+}
+
+/// Red, blue and black as most machines sort them.
+const RED: Rgb = [255, 0, 0];
+const BLUE: Rgb = [0, 0, 255];
+const BLACK: Rgb = [0, 0, 0];
+const GREEN: Rgb = [0, 255, 0];
+const GREY: Rgb = [128, 128, 128];
+
+impl Style {
+    /// The pen of a layer. Strokes are hairlines, never above 0.1 mm: wider ones are taken for areas to engrave.
+    pub fn pen(&self, layer: LayerKind) -> Pen {
+        // In the order of `LayerKind::ALL`: engrave, score, inner cuts, outer cuts, info.
+        let (colours, width) = match self.preset {
+            Preset::RedCut | Preset::Glowforge | Preset::Epilog => ([BLACK, BLUE, RED, RED, GREY], 0.0254),
+            Preset::Boxes => ([GREEN, GREEN, BLUE, BLACK, GREY], 0.1),
+            // C03, C02, C01, C00 and T1 of its palette; T1 is a tool layer, which is never run.
+            Preset::Lightburn => ([[0, 0xE0, 0], RED, BLUE, BLACK, [0xF3, 0x69, 0x26]], 0.0254),
+            // Black means a filled area there; single strokes are line engraving, and so red.
+            Preset::Ponoko => ([RED, RED, BLUE, BLUE, GREY], 0.01),
+        };
+        let (at, own) = match layer {
+            LayerKind::Engrave => (0, self.colours.engrave),
+            LayerKind::Score => (1, self.colours.score),
+            LayerKind::CutInner => (2, self.colours.cut_inner),
+            LayerKind::CutOuter => (3, self.colours.cut_outer),
+            LayerKind::Info => (4, None),
+        };
+        Pen { colour: own.unwrap_or(colours[at]), width }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn formats_are_read_once_each_and_strangers_named() {
+        let formats: Formats = "pdf, svg,PDF".parse().expect("formats");
+        assert_eq!(formats.to_string(), "svg,pdf");
+        for (bad, word) in [("", "``"), ("svg,png", "`png`"), ("svg,", "``")] {
+            let text = bad.parse::<Formats>().expect_err(bad).to_string();
+            assert!(text.contains(word) && text.contains("lbrn2"), "{text}");
+        }
+    }
+
+    #[test]
+    fn no_stroke_is_wide_and_a_material_has_the_last_word() {
+        for preset in Preset::value_variants() {
+            for layer in LayerKind::ALL {
+                assert!(Style::from(*preset).pen(layer).width <= 0.1);
+            }
+        }
+        let own = Colours { score: Some([1, 2, 3]), ..Colours::default() };
+        let style = Style { preset: Preset::Boxes, colours: own };
+        assert_eq!(style.pen(LayerKind::Score).colour, [1, 2, 3]);
+        assert_eq!(style.pen(LayerKind::CutOuter).colour, BLACK);
+    }
+}

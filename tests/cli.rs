@@ -97,6 +97,8 @@ const READERS: &[(&[&str], &str)] = &[
     (&["cut", "edge", "IN", "--select", "0", "--offset", "0.2", "-o", "OUT"], "out.ply"),
     (&["cut", "face", "IN", "--select", "0", "-o", "OUT"], "out.off"),
     (&["cut", "plane", "IN", "--normal", "z", "--point", "0,0,0", "-o", "OUT"], "out.stl"),
+    (&["hull", "IN", "-o", "OUT"], "hull.ply"),
+    (&["hull", "IN", "--dual", "--steps", "1,all", "-o", "OUT"], "dual.obj"),
     (&["unfold", "IN", "--sheet", "600x400", "-o", "OUT"], "out"),
     (&["seams", "IN"], ""),
     (&["dform", "IN", "--rounds", "1", "-o", "OUT"], "out"),
@@ -104,8 +106,11 @@ const READERS: &[(&[&str], &str)] = &[
 ];
 
 /// Verbs that need no mesh but write something.
-const MAKERS: &[(&[&str], &str)] =
-    &[(&["solid", "dodecahedron", "--size", "100mm", "-o", "OUT"], "out.obj"), (&["man", "-o", "OUT"], "man")];
+const MAKERS: &[(&[&str], &str)] = &[
+    (&["solid", "dodecahedron", "--size", "100mm", "-o", "OUT"], "out.obj"),
+    (&["hull", "--planes", "fixtures/planes/octahedron.csv", "-o", "OUT"], "crystal.obj"),
+    (&["man", "-o", "OUT"], "man"),
+];
 
 fn fill<'a>(arguments: &[&'a str], input: &'a str, output: &'a str) -> Vec<&'a str> {
     let filled = arguments.iter().map(|&a| match a {
@@ -162,6 +167,29 @@ fn bad_input_is_exit_code_2_with_one_line_and_no_file() {
         }
     }
     assert_eq!(folder.contents(), [], "nothing may be written");
+}
+
+#[test]
+fn planes_that_bound_nothing_are_refused_with_place_and_reason() {
+    let folder = Folder::new("planes");
+    let output = folder.path("out.obj");
+    let walls = "1,0,0,1\n-1,0,0,1\n0,1,0,1\n0,-1,0,1\n";
+    for (name, text, messages) in [
+        ("empty.csv", String::new(), &["there are no half-spaces"][..]),
+        ("word.csv", format!("{walls}0, 0, up, 1\n"), &["word.csv:5:7: `up` is not a number"]),
+        ("open.csv", format!("{walls}0,0,1,1\n"), &["the direction (0.0000, 0.0000, -1.0000) open"]),
+        ("apart.csv", format!("# box\n{walls}0,0,1,1\n0,0,-1,-2\n"), &["exclude each other", "on the lines 6, 7"]),
+        ("flat.csv", format!("{walls}0,0,1,1\n0,0,-1,-1\n"), &["no room", "on the lines 5, 6"]),
+    ] {
+        let file = folder.path(name);
+        fs::write(&file, text).expect("a file");
+        let ran = run(&["hull", "--planes", &file, "-o", &output]);
+        assert_eq!((ran.code, ran.out.as_str()), (Some(2), ""), "{name}");
+        assert!(messages.iter().all(|m| ran.err.contains(m)), "{name}: {}", ran.err);
+        assert!(!Path::new(&output).exists(), "{name}");
+    }
+    let missing = run(&["hull", "--planes", &folder.path("none.csv"), "-o", &output]);
+    assert!(missing.code == Some(2) && missing.err.contains("none.csv"), "{}", missing.err);
 }
 
 #[test]

@@ -6,7 +6,6 @@ use std::path::PathBuf;
 use crate::check::CheckError;
 use crate::io::IoError;
 use crate::io::pieces_json::PiecesJsonError;
-use crate::io::planes_csv::PlanesError;
 use crate::op::OpError;
 use crate::picture::PictureError;
 use crate::recipe::{RecipeError, StepError, StepFailure};
@@ -18,8 +17,6 @@ use crate::shape::ShapeError;
 pub(super) enum CliError {
     #[error(transparent)]
     Io(#[from] IoError),
-    #[error(transparent)]
-    Planes(#[from] PlanesError),
     #[error(transparent)]
     Shape(#[from] ShapeError),
     #[error(transparent)]
@@ -52,6 +49,10 @@ pub(super) enum CliError {
         "two meshes cannot go to standard output; name a file with -o, and -reverse and -normal are put to its name"
     )]
     TwoToStdout,
+    #[error(
+        "pictures of the steps cannot go to standard output; name a file with -o, and -after-20.png is put to its name"
+    )]
+    PicturesToStdout,
     #[error("writing to standard output: {0}")]
     Stdout(io::Error),
 }

@@ -3,15 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use super::error::CliError;
-use super::output::beside;
 use super::terminal::Terminal;
 use super::{Console, Outcome};
 use crate::io::output::write_file;
-use crate::io::planes_csv::read_planes;
 use crate::io::{ReadOptions, read_mesh};
 use crate::mesh::Mesh;
-use crate::op::{HullParams, HullReport, OpContext, halfspaces, hull};
+use crate::op::{HullParams, HullReport, HullStep, OpContext, hull};
 use crate::picture::{RenderParams, render_model};
+use crate::recipe::solid_of_planes;
 
 /// Make the convex hull of a mesh, its dual (one plane through each corner of the hull), or the solid that half-spaces bound
 #[derive(Debug, clap::Args)]
@@ -35,20 +34,30 @@ pub(super) struct HullArgs {
 }
 
 pub(super) fn run(args: &HullArgs, console: &Console) -> Result<Outcome, CliError> {
+    let has_pictures = args.hull.steps.is_some();
+    if has_pictures && args.output == Path::new("-") {
+        return Err(CliError::PicturesToStdout);
+    }
     let (mesh, report, mut notes) = make(args, console)?;
     notes.extend(report.notes());
-    console.write_model(&args.output, &mesh, &notes)?;
-    for step in &report.steps {
-        let path = beside(&args.output, &format!("after-{}", step.planes)).with_extension("png");
-        write_file(&path, &render_model(&step.mesh, &RenderParams::default())?.to_png())?;
-        console.notes(&[format!("wrote {}", path.display())]);
+    // Drawn before anything is written, so that a picture that fails leaves no file.
+    let stem = args.output.file_stem().unwrap_or_default().to_string_lossy();
+    let picture = |step: &HullStep| -> Result<(PathBuf, Vec<u8>), CliError> {
+        let path = args.output.with_file_name(step.file_name(&stem));
+        Ok((path, render_model(&step.mesh, &RenderParams::default())?.to_png()))
+    };
+    let pictures: Vec<(PathBuf, Vec<u8>)> = report.steps.iter().map(picture).collect::<Result<_, _>>()?;
+    for (path, bytes) in &pictures {
+        write_file(path, bytes)?;
+        notes.push(format!("wrote {}", path.display()));
     }
+    console.write_model(&args.output, &mesh, &notes)?;
     Ok(Outcome::Clean)
 }
 
 fn make(args: &HullArgs, console: &Console) -> Result<(Mesh, HullReport, Vec<String>), CliError> {
     if let Some(file) = &args.planes {
-        let (mesh, report) = halfspaces(&read_planes(file)?.half_spaces, &args.hull)?;
+        let (mesh, report) = solid_of_planes(file, &args.hull)?;
         return Ok((mesh, report, Vec::new()));
     }
     let read = read_mesh(args.input.as_deref().unwrap_or(Path::new("-")), &args.options)?;

@@ -4,6 +4,7 @@ use std::fmt;
 
 use crate::check::CheckError;
 use crate::io::IoError;
+use crate::io::planes_csv::PlanesError;
 use crate::op::OpError;
 use crate::picture::PictureError;
 use crate::seam::SeamError;
@@ -107,6 +108,9 @@ pub enum StepFailure {
     /// A file could not be read.
     #[error(transparent)]
     Io(#[from] IoError),
+    /// A file holds no half-spaces, or they bound no solid.
+    #[error(transparent)]
+    Planes(#[from] PlanesError),
     /// A solid could not be made.
     #[error(transparent)]
     Shape(#[from] ShapeError),

@@ -2,12 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{DformParams, FabricateParams, Fabrication, Recipe, Step, StepError, StepFailure, carve_dform, fabricate};
+use super::{
+    DformParams, FabricateParams, Fabrication, Recipe, Step, StepError, StepFailure, carve_dform, fabricate,
+    solid_of_planes,
+};
 use crate::check::{CheckParams, Report, check};
 use crate::io::{ReadMesh, read_mesh};
 use crate::mesh::{Mesh, SplitVertex};
 use crate::op::{
-    CutReport, OpContext, OpError, hull, resolve, slice, truncate_edges, truncate_faces, truncate_vertices,
+    CutReport, HullParams, HullStep, OpContext, OpError, hull, resolve, slice, truncate_edges, truncate_faces,
+    truncate_vertices,
 };
 use crate::picture::RenderParams;
 use crate::progress::Progress;
@@ -25,6 +29,8 @@ pub struct Job {
     pub notes: Vec<String>,
     /// How the picture of the model looks.
     pub render: RenderParams,
+    /// The dual hull on its way, as the last hull was asked for.
+    pub hull_steps: Vec<HullStep>,
     /// Limits for the report.
     pub check: CheckParams,
     /// Whether the recipe asked for a check, so that findings count.
@@ -80,6 +86,12 @@ impl Job {
                 mesh.compact();
                 self.start(mesh)?;
             }
+            Step::Planes(planes) => {
+                let params = HullParams { simple: planes.simple, ..HullParams::default() };
+                let (mesh, report) = solid_of_planes(&folder.join(&planes.path), &params)?;
+                self.notes.extend(report.notes());
+                self.start(mesh)?;
+            }
             Step::CutVertex(params) => {
                 self.cut("vertex", |mesh, context| truncate_vertices(mesh, params, context), progress)?
             }
@@ -93,6 +105,7 @@ impl Job {
             Step::Hull(params) => {
                 let (mesh, report) = hull(self.mesh()?, params, &OpContext { made: None, progress })?;
                 self.notes.extend(report.notes());
+                self.hull_steps = report.steps;
                 (self.mesh, self.made) = (Some(mesh), None);
             }
             Step::Resolve(params) => {

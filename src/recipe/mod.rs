@@ -11,6 +11,7 @@ mod fabricate;
 mod job;
 mod outputs;
 mod parse;
+mod planes;
 mod seam_choice;
 
 #[cfg(test)]
@@ -25,6 +26,7 @@ pub use error::{Position, RecipeError, StepError, StepFailure};
 pub use fabricate::{FabricateParams, Fabrication, fabricate};
 pub use job::Job;
 pub use outputs::{fabrication_outputs, job_outputs, sheet_picture};
+pub use planes::{PlanesStep, solid_of_planes};
 pub use seam_choice::SeamChoice;
 
 use crate::check::CheckParams;
@@ -64,6 +66,8 @@ pub enum Step {
     Solid(SolidParams),
     /// `read = "model.obj"`: a mesh file.
     Read(ReadStep),
+    /// `planes = "planes.csv"`: the solid that half-spaces bound.
+    Planes(PlanesStep),
     /// `cut = "vertex"`.
     CutVertex(TruncateVertex),
     /// `cut = "edge"`.
@@ -104,6 +108,7 @@ impl Step {
         match self {
             Self::Solid(_) => "solid",
             Self::Read(_) => "read",
+            Self::Planes(_) => "planes",
             Self::CutVertex(_) => "cut vertex",
             Self::CutEdge(_) => "cut edge",
             Self::CutFace(_) => "cut face",

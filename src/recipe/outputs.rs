@@ -14,7 +14,7 @@ use crate::sheet::{Drawing, Fallback, JointReport, LayerKind, SheetParams};
 /// A file to be written: its name in the folder, and its bytes.
 pub type Output = (String, Vec<u8>);
 
-/// The files of a whole recipe: model, picture, report, and if it was unfolded pieces, layout, sheets and their pictures.
+/// The files of a whole recipe: model, picture, report, the steps of a hull where asked for, and if it was unfolded pieces, layout, sheets and their pictures.
 ///
 /// # Errors
 /// [`StepFailure`] when the model cannot be written, checked or drawn.
@@ -26,6 +26,9 @@ pub fn job_outputs(job: &Job, command: &str) -> Result<Vec<Output>, StepFailure>
         ("model.png".to_owned(), render_model(mesh, &job.render)?.to_png()),
         ("report.json".to_owned(), check_json(&job.report()?, command).into_bytes()),
     ];
+    for step in &job.hull_steps {
+        outputs.push((step.file_name("model"), render_model(&step.mesh, &job.render)?.to_png()));
+    }
     if let Some((fabrication, sheet)) = &job.fabrication {
         outputs.extend(fabrication_outputs(fabrication, sheet, command)?);
         for drawing in &fabrication.sheets.drawings {

@@ -11,7 +11,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::{Position, RecipeError};
-use super::{DformParams, FabricateParams, ReadStep, Recipe, Step};
+use super::{DformParams, FabricateParams, PlanesStep, ReadStep, Recipe, Step};
 use crate::check::CheckParams;
 use crate::op::{HullParams, ResolveParams, SliceParams, TruncateEdge, TruncateFace, TruncateVertex};
 use crate::picture::RenderParams;
@@ -21,9 +21,10 @@ use crate::unfold::UnfoldParams;
 use crate::units::nearest_word;
 
 /// The keys that say what a step does, with the field of its parameters that the value goes to.
-const VERBS: [(&str, &str); 9] = [
+const VERBS: [(&str, &str); 10] = [
     ("solid", "name"),
     ("read", "path"),
+    ("planes", "path"),
     ("cut", ""),
     ("hull", "dual"),
     ("resolve", "select"),
@@ -139,6 +140,7 @@ impl Source<'_> {
         Ok(match (verb.key, kind.as_str()) {
             ("solid", _) => Step::Solid(fields.read1::<SolidParams>()?),
             ("read", _) => Step::Read(fields.read1::<ReadStep>()?),
+            ("planes", _) => Step::Planes(fields.read1::<PlanesStep>()?),
             ("hull", _) => Step::Hull(fields.read1::<HullParams>()?),
             ("resolve", _) => Step::Resolve(fields.read1::<ResolveParams>()?),
             ("check", _) => Step::Check(fields.read1::<CheckParams>()?),

@@ -130,6 +130,19 @@ fn a_hull_is_convex_or_dual() {
 }
 
 #[test]
+fn half_spaces_and_steps_of_a_hull_in_a_recipe() {
+    let planes = "[[step]]\nplanes = \"fixtures/planes/octahedron.csv\"\n";
+    let job = run(planes).expect("an octahedron");
+    assert_eq!(job.mesh().expect("a mesh").face_count(), 8);
+    let job =
+        run(&format!("{planes}simple = true\n[[step]]\nhull = \"dual\"\nsteps = [0, 2, \"all\"]")).expect("a dual");
+    let names: Vec<String> = job_outputs(&job, "test").expect("files").into_iter().map(|output| output.0).collect();
+    assert!(names.contains(&"model-after-0.png".to_owned()) && names.contains(&"model-after-2.png".to_owned()));
+    let error = run("[[step]]\nplanes = \"nowhere.csv\"").err().expect("no file").to_string();
+    assert!(error.contains("nowhere.csv"), "{error}");
+}
+
+#[test]
 fn an_unfold_step_has_lists_of_edges_to_keep_and_to_cut() {
     let job = run("[[step]]\nsolid = \"cube\"\n[[step]]\nunfold = \"one\"\nkeep = \"0\"\ncut = \"3\"").expect("a net");
     let (fabrication, _) = job.fabrication.as_ref().expect("pieces");

@@ -25,6 +25,8 @@ pub(super) struct Cloud<S> {
     points: Vec<DVec3>,
     /// How far a rounded coordinate may be from the true one.
     noise: f64,
+    /// The most that [`Self::height`]'s rounded volume can be wrong by, wherever the points lie.
+    height_bound: f64,
     pub(super) signs: S,
 }
 
@@ -36,7 +38,8 @@ impl<S: Signs> Cloud<S> {
         if scale != 1.0 {
             points.iter_mut().for_each(|p| *p *= scale);
         }
-        (Self { points, noise: roundings * f64::EPSILON / 2.0, signs }, scale)
+        let noise = roundings * f64::EPSILON / 2.0;
+        (Self { points, noise, height_bound: height_bound(2.0, noise), signs }, scale)
     }
 
     pub(super) fn points(&self) -> &[DVec3] {
@@ -54,12 +57,23 @@ impl<S: Signs> Cloud<S> {
     /// On which side of the plane through three points, counter-clockwise from its normal side, p lies; exact.
     #[inline]
     pub(super) fn height(&self, corners: [u32; 3], p: u32) -> Side {
-        let o = self.point(p);
-        let [a, b, c] = corners.map(|v| self.point(v) - o);
+        self.height_of(self.point(p), corners, p)
+    }
+
+    /// The same for who has the point p at hand.
+    #[inline]
+    pub(super) fn height_of(&self, target: DVec3, corners: [u32; 3], p: u32) -> Side {
+        let [a, b, c] = corners.map(|v| self.point(v) - target);
         let below = a.dot(b.cross(c));
-        let m = a.abs().max(b.abs()).max(c.abs()).max_element();
-        // Each entry is off by at most 2·noise + ε/2·m; six products of three entries, then the roundings of the sums.
-        let bound = m * m * (37.0 * self.noise + 6.5e-15 * m);
+        if below.abs() > self.height_bound { Side::of(-below) } else { self.small_height(corners, p, below) }
+    }
+
+    /// The same for a volume that only a closer look can tell from zero.
+    #[inline(never)]
+    fn small_height(&self, corners: [u32; 3], p: u32, below: f64) -> Side {
+        let o = self.point(p);
+        let [a, b, c] = corners.map(|v| (self.point(v) - o).abs());
+        let bound = height_bound(a.max(b).max(c).max_element(), self.noise);
         if below > bound {
             Side::Reverse
         } else if below < -bound {
@@ -69,16 +83,16 @@ impl<S: Signs> Cloud<S> {
         }
     }
 
-    /// The volume spanned by a, b and p from the centre, and the most that it can be wrong by.
-    #[inline]
-    pub(super) fn rounded_turn(&self, a: u32, b: u32, target: DVec3) -> f64 {
-        self.point(a).cross(self.point(b)).dot(target)
-    }
-
-    /// The bound of the error of [`Self::rounded_turn`].
+    /// The most that a·(b × c) of three points can be wrong by.
     pub(super) fn turn_bound(&self) -> f64 {
         19.0 * self.noise + 4e-15
     }
+}
+
+/// The most that the rounded volume of three differences of points can be wrong by, with no entry above `m`: each entry is off
+/// by at most 2·noise + ε/2·m; six products of three entries, then the roundings of the sums.
+fn height_bound(m: f64, noise: f64) -> f64 {
+    m * m * (37.0 * noise + 6.5e-15 * m)
 }
 
 /// Points as given, seen from a centre that is a point too.

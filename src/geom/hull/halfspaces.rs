@@ -5,10 +5,11 @@ use glam::DVec3;
 use super::cloud::{Cloud, PlaneSigns};
 use super::contract::contract;
 use super::determinant::excess;
+use super::grow::grow;
 use super::interior::{Centre, deepest_point};
 use super::merge::{Faces, fan_starts};
-use super::order::{MOST_POINTS, insertion_order};
-use super::parallel::fill;
+use super::order::{MOST_POINTS, Order, insertion_order};
+use super::parallel::{each, fill, fill_runs, share_of};
 use super::polytope::{Polygons, Polytope};
 use super::split::split;
 use super::start::{Flat, enclose_centre, far_apart};
@@ -116,6 +117,17 @@ pub enum HalfSpaceError {
     },
 }
 
+impl HalfSpaceError {
+    /// The half-spaces concerned, where there are some to name.
+    pub fn half_spaces(&self) -> &[usize] {
+        match self {
+            Self::NotFinite { half_space } | Self::NoDirection { half_space } => std::slice::from_ref(half_space),
+            Self::Infeasible { half_spaces, .. } | Self::NoVolume { half_spaces } => half_spaces,
+            Self::TooMany { .. } | Self::Unbounded { .. } => &[],
+        }
+    }
+}
+
 fn list(half_spaces: &[usize]) -> String {
     let numbers: Vec<String> = half_spaces.iter().map(usize::to_string).collect();
     match numbers.split_last() {
@@ -162,6 +174,9 @@ fn check(half_spaces: &[HalfSpace]) -> Result<(), HalfSpaceError> {
 
 /// Whether x lies inside by more than the rounding of the terms.
 fn is_well_inside(h: &HalfSpace, x: DVec3) -> bool {
+    if x == DVec3::ZERO {
+        return h.offset > 0.0;
+    }
     let terms = (h.normal * x).abs();
     h.slack(x) > 1e-14 * (terms.x + terms.y + terms.z + h.offset.abs())
 }
@@ -195,21 +210,21 @@ fn exact_intersection(half_spaces: &[HalfSpace], centre: DVec3, simple: bool) ->
     let order = insertion_order(count, |i| half_spaces[i].normal);
     let mut near = vec![DVec3::ZERO; count];
     fill(&mut near, |place| {
-        let h = &half_spaces[order[place] as usize];
+        let h = &half_spaces[order.points[place] as usize];
         h.normal / h.slack(centre)
     });
     // A dual point carries the rounding of the slack, one ulp, and of the division, half an ulp.
-    let (cloud, scale) = Cloud::new(near, 4.0, PlaneSigns::new(half_spaces, &order));
-    let surface = dual_hull(&cloud)?;
+    let (cloud, scale) = Cloud::new(near, 4.0, PlaneSigns::new(half_spaces, &order.points));
+    let surface = dual_hull(&cloud, &order)?;
     let faces = if simple && !surface.has_zeros() { Faces::unmerged(&surface) } else { Faces::of(&surface, &cloud) };
     let vertices = vertices(&surface, &faces, cloud.points(), scale, centre);
     drop(cloud);
-    let (half_spaces, faces) = polygons(&surface, &faces, &order);
+    let (half_spaces, faces) = polygons(&surface, &faces, &order.points);
     Ok(Polytope { vertices, half_spaces, faces, interior: centre })
 }
 
 /// The hull of the dual points, with the centre inside.
-fn dual_hull(cloud: &Cloud<PlaneSigns<'_>>) -> Result<Surface, HalfSpaceError> {
+fn dual_hull(cloud: &Cloud<PlaneSigns<'_>>, order: &Order) -> Result<Surface, HalfSpaceError> {
     let open = |flat| HalfSpaceError::Unbounded { direction: open_direction(flat, cloud.points()) };
     if cloud.len() < 4 {
         return Err(open(few(cloud.points())));
@@ -219,12 +234,7 @@ fn dual_hull(cloud: &Cloud<PlaneSigns<'_>>) -> Result<Surface, HalfSpaceError> {
     let mut inserted = enclose_centre(cloud, &mut surface).map_err(open)?;
     inserted.extend(start);
     inserted.sort_unstable();
-    let mut done = inserted.into_iter().peekable();
-    for p in 0..cloud.len() {
-        if done.next_if_eq(&p).is_none() {
-            surface.insert(cloud, p);
-        }
-    }
+    grow(cloud, &mut surface, order, &inserted);
     Ok(surface)
 }
 
@@ -290,15 +300,18 @@ pub(super) fn widest_triple(points: &[DVec3]) -> [DVec3; 3] {
 /// Where q·y = 1 for three dual points, with the residuals solved for again: y lies on the planes to rounding, however flat
 /// they meet.
 pub(super) fn meeting_point([a, b, c]: [DVec3; 3]) -> DVec3 {
-    let (bc, ca, ab) = (b.cross(c), c.cross(a), a.cross(b));
     let normal = (b - a).cross(c - a);
     let inverse = 1.0 / normal.dot(a);
     let mut best = normal * inverse;
     for _ in 0..3 {
         let residuals = DVec3::new(1.0 - a.dot(best), 1.0 - b.dot(best), 1.0 - c.dot(best));
-        let better = best + (bc * residuals.x + ca * residuals.y + ab * residuals.z) * inverse;
         // Terms of this size leave no more to gain.
-        if residuals.abs().max_element() <= f64::EPSILON || !better.is_finite() {
+        if residuals.abs().max_element() <= 2.0 * f64::EPSILON {
+            break;
+        }
+        let turned = b.cross(c) * residuals.x + c.cross(a) * residuals.y + a.cross(b) * residuals.z;
+        let better = best + turned * inverse;
+        if !better.is_finite() {
             break;
         }
         best = better;
@@ -308,12 +321,15 @@ pub(super) fn meeting_point([a, b, c]: [DVec3; 3]) -> DVec3 {
 
 /// The faces of the solid: for each dual point that is a corner the dual faces around it. Also which half-spaces they are of.
 fn polygons(surface: &Surface, faces: &Faces, order: &[u32]) -> (Vec<u32>, Polygons) {
-    let starts = fan_starts(surface, order.len());
-    let mut sizes =
-        if faces.has_merged() { merged_sizes(surface, faces, &starts) } else { valences(surface, order.len()) };
+    let mut shares = runs_by_place(surface, faces, order.len());
     // Runs in the order of the half-spaces: first how long each is, then where it begins.
     let mut begins = vec![0_u32; order.len()];
-    order.iter().zip(&sizes).for_each(|(&i, &size)| begins[i as usize] = size);
+    let mut place_of = vec![0_u32; order.len()];
+    let sizes = shares.iter().flat_map(|share| &share.sizes);
+    for ((&i, &size), place) in order.iter().zip(sizes).zip(0..) {
+        begins[i as usize] = size;
+        place_of[i as usize] = place;
+    }
     let half_spaces: Vec<u32> = (0..order.len() as u32).filter(|&i| begins[i as usize] > 0).collect();
     let mut total = 0;
     for begin in &mut begins {
@@ -322,40 +338,72 @@ fn polygons(surface: &Surface, faces: &Faces, order: &[u32]) -> (Vec<u32>, Polyg
     let next = |&i: &u32| begins.get(i as usize + 1).copied().unwrap_or(total);
     let ends = half_spaces.iter().map(next).collect();
     let mut corners = vec![0; total as usize];
-    let mut around = Vec::new();
-    for (place, &i) in order.iter().enumerate() {
-        let size = std::mem::take(&mut sizes[place]) as usize;
-        let run = &mut corners[begins[i as usize] as usize..][..size];
-        if faces.has_merged() && size > 0 {
-            faces.around(surface, place as u32, starts[place], &mut around);
-            run.copy_from_slice(&around);
-        } else if size > 0 {
-            let fan = surface.fan_of(place as u32, starts[place]);
-            fan.zip(run).for_each(|(f, corner)| *corner = faces.of_facet(f));
+    shares.iter_mut().for_each(RunsByPlace::sizes_to_ends);
+    let share_length = shares.first().map_or(1, |share| share.sizes.len()).max(1);
+    fill_runs(&mut corners, &begins, |own, mut corners| {
+        for place in &place_of[own] {
+            let run = shares[*place as usize / share_length].run(*place as usize % share_length);
+            let (here, rest) = corners.split_at_mut(run.len());
+            here.copy_from_slice(run);
+            corners = rest;
         }
-    }
+    });
     (half_spaces, Polygons::from_runs(corners, ends))
 }
 
-/// By place, the number of facets around each point.
-fn valences(surface: &Surface, points: usize) -> Vec<u32> {
-    let mut valences = vec![0; points];
-    surface.live().flat_map(|f| surface.facet(f).corners).for_each(|v| valences[v as usize] += 1);
-    valences
+/// The dual faces around some points, in the order of their places.
+struct RunsByPlace {
+    /// Place of the first point.
+    first: usize,
+    /// How many dual faces there are around each point; none around those that are no corner of the dual hull, inside a dual face or edge: their
+    /// planes only touch the solid. Later where each run ends.
+    sizes: Vec<u32>,
+    runs: Vec<u32>,
 }
 
-/// By place, the number of dual faces around each point that is a corner of the dual hull; 0 for those inside a dual face or
-/// edge, whose planes only touch the solid.
-fn merged_sizes(surface: &Surface, faces: &Faces, starts: &[u32]) -> Vec<u32> {
-    let mut around = Vec::new();
-    let size = |(place, &f): (usize, &u32)| {
-        around.clear();
-        if f != NONE {
-            faces.around(surface, place as u32, f, &mut around);
+impl RunsByPlace {
+    fn sizes_to_ends(&mut self) {
+        let mut end = 0;
+        for size in &mut self.sizes {
+            end += *size;
+            *size = end;
         }
-        if around.len() < 3 { 0 } else { around.len() as u32 }
+    }
+
+    /// The run of a point, once sizes are ends.
+    fn run(&self, i: usize) -> &[u32] {
+        let begin = if i == 0 { 0 } else { self.sizes[i - 1] };
+        &self.runs[begin as usize..self.sizes[i] as usize]
+    }
+
+    fn collect(&mut self, surface: &Surface, faces: &Faces, starts: &[u32]) {
+        let mut around = Vec::new();
+        for (place, &start) in (self.first as u32..).zip(&starts[self.first..][..self.sizes.len()]) {
+            let before = self.runs.len();
+            if start != NONE && faces.has_merged() {
+                faces.around(surface, place, start, &mut around);
+                if around.len() > 2 {
+                    self.runs.extend_from_slice(&around);
+                }
+            } else if start != NONE {
+                surface.fan_of(place, start).for_each(|f| self.runs.push(faces.of_facet(f)));
+            }
+            self.sizes[place as usize - self.first] = (self.runs.len() - before) as u32;
+        }
+    }
+}
+
+/// The dual faces around all points, by shares of the places of equal length.
+fn runs_by_place(surface: &Surface, faces: &Faces, points: usize) -> Vec<RunsByPlace> {
+    let starts = fan_starts(surface, points);
+    let length = share_of(points);
+    let share = |first| {
+        let length = length.min(points - first);
+        RunsByPlace { first, sizes: vec![0; length], runs: Vec::with_capacity(6 * length + 64) }
     };
-    starts.iter().enumerate().map(size).collect()
+    let mut shares: Vec<RunsByPlace> = (0..points).step_by(length).map(share).collect();
+    each(&mut shares, |share| share.collect(surface, faces, &starts));
+    shares
 }
 
 /// Contracts what is shorter than rounding. Planes that then span no face any more are left out and the rest is intersected

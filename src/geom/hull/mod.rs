@@ -2,8 +2,8 @@
 //!
 //! One kernel serves both: a hull of points ([`convex_hull`]), and a set of planes as the hull of its dual points
 //! ([`intersect`]). Points are inserted in random rounds along a Hilbert curve (`order`), found by a walk over the facets and
-//! fanned in (`surface`); each sign is first tried on rounded coordinates with an error bound and, where that cannot tell,
-//! settled on the given numbers (`cloud`, `determinant`). Coplanar facets are joined afterwards (`merge`), so that
+//! fanned in (`surface`), of large sets in parts of the surface side by side (`grow`). Each sign is first tried on rounded
+//! coordinates with an error bound and, where that cannot tell, settled on the given numbers (`cloud`, `determinant`). Coplanar facets are joined afterwards (`merge`), so that
 //! degenerate input (cubes, grids, repeated points, planes that only touch) gives what it should.
 //!
 //! Sources: Clarkson and Shor 1989; Amenta, Choi and Rote 2003; Devillers, Pion and Teillaud 2002; Shewchuk 1997.
@@ -11,6 +11,7 @@
 mod cloud;
 mod contract;
 mod determinant;
+mod grow;
 mod halfspaces;
 mod interior;
 mod merge;
@@ -22,6 +23,8 @@ mod split;
 mod start;
 mod surface;
 
+#[cfg(test)]
+mod large_tests;
 #[cfg(test)]
 mod tests;
 

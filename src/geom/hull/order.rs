@@ -4,6 +4,9 @@
 //! work low whatever the input, and within a round any order may be chosen. The order chosen is a Hilbert curve over the
 //! six sides of a cube around the centre, so that neighbours in time are neighbours in direction and the walk to the next
 //! point is short (random order instead takes some thirty times as long for a million points).
+//!
+//! Only the first rounds run over the whole cube. The points of the last four are taken cell by cell, each cell with its own
+//! rounds: so the facets at work fit into a near cache, and cells far apart can be worked on at the same time.
 
 use glam::DVec3;
 
@@ -12,28 +15,106 @@ use super::parallel::{fill, sort};
 /// Points that fit into the key beside round, side and place on the curve.
 pub(super) const MOST_POINTS: usize = 1 << INDEX_BITS;
 const INDEX_BITS: u32 = 26;
-const CURVE_BITS: u32 = 15;
+const CURVE_BITS: u32 = 13;
+/// Side of the cube and place on its curve.
+const PLACE_BITS: u32 = 3 + 2 * CURVE_BITS;
+const ROUND_BITS: u32 = 5;
 /// About how many points the first round holds.
 const FIRST_ROUND: usize = 32;
+/// So many of the last rounds are taken cell by cell.
+const CELL_ROUNDS: u32 = 4;
+const CELL_ROUND_BITS: u32 = 2;
+/// About how many points a cell holds.
+const CELL_POINTS: usize = 1 << 13;
+/// From so many points on the range of directions is taken from a sample.
+const SAMPLED_FROM: usize = 1 << 14;
+const SAMPLE_STEP: usize = 16;
 
-/// The numbers 0..n in the order of insertion; `direction` is a point seen from the centre.
+/// In which order points are inserted. A point's place is its index in `points`.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(super) struct Order {
+    /// The numbers of the points.
+    pub points: Vec<u32>,
+    /// For each of the seeds, which come first, its cell along the curve.
+    pub seed_cells: Vec<u32>,
+    /// The cells with further points, ascending, each with the place behind its last point.
+    pub cells: Vec<(u32, u32)>,
+}
+
+/// The order of `n` points; `direction` is a point seen from the centre.
 ///
 /// Depends on nothing but n and the directions: the rounds are drawn by a fixed hash of them, so that of equal points the one
 /// with the lowest number comes first.
-pub(super) fn insertion_order(n: usize, direction: impl Fn(usize) -> DVec3 + Sync) -> Vec<u32> {
-    let ranges = ranges(n, &direction);
-    let rounds = (n / FIRST_ROUND).max(1).ilog2().min(31);
-    let bits = (n.max(1).ilog2() / 2 + 4).min(CURVE_BITS);
+pub(super) fn insertion_order(n: usize, direction: impl Fn(usize) -> DVec3 + Sync) -> Order {
+    let layout = Layout::of(n, &direction);
     let mut keys = vec![0_u64; n];
-    fill(&mut keys, |i| {
-        let direction = direction(i);
-        let round = rounds - lateness(direction).min(rounds);
-        let (side, u) = on_cube(direction);
-        let place = hilbert(ranges[side].cell(u, bits), bits);
-        u64::from(round) << 59 | (side as u64) << 56 | u64::from(place) << INDEX_BITS | i as u64
-    });
+    fill(&mut keys, |i| layout.key(direction(i)) | i as u64);
     sort(&mut keys);
-    keys.iter().map(|key| (key & (MOST_POINTS as u64 - 1)) as u32).collect()
+    let seeds = keys.partition_point(|&key| key < LATE);
+    let mut cells: Vec<(u32, u32)> = Vec::new();
+    for (place, &key) in keys.iter().enumerate().skip(seeds) {
+        let (cell, end) = (layout.late_cell(key), place as u32 + 1);
+        match cells.last_mut() {
+            Some(last) if last.0 == cell => last.1 = end,
+            _ => cells.push((cell, end)),
+        }
+    }
+    Order {
+        seed_cells: keys[..seeds].iter().map(|&key| layout.seed_cell(key)).collect(),
+        cells,
+        points: keys.iter().map(|key| (key & (MOST_POINTS as u64 - 1)) as u32).collect(),
+    }
+}
+
+/// Set in the keys of the points that are no seeds.
+const LATE: u64 = 1 << 63;
+
+/// How the sides of the cube are divided.
+struct Layout {
+    ranges: [Range; 6],
+    rounds: u32,
+    /// Levels of the curve.
+    bits: u32,
+    /// Bits of the place on the curve within a cell.
+    cell_bits: u32,
+}
+
+impl Layout {
+    fn of(n: usize, direction: &impl Fn(usize) -> DVec3) -> Self {
+        let bits = (n.max(1).ilog2() / 2 + 3).min(CURVE_BITS);
+        let levels = (n / CELL_POINTS / 6).max(1).ilog2().div_ceil(2).min(bits);
+        Self {
+            ranges: ranges(n, direction),
+            rounds: (n / FIRST_ROUND).max(1).ilog2().min((1 << ROUND_BITS) - 1),
+            bits,
+            cell_bits: 2 * (bits - levels),
+        }
+    }
+
+    /// The key by which points are sorted, with room for the number of the point in its lowest bits. Seeds: round, then place on
+    /// the curve. Others: cell, round, then place within the cell.
+    fn key(&self, direction: DVec3) -> u64 {
+        let late = lateness(direction);
+        let (side, u) = on_cube(direction);
+        let curve = hilbert(self.ranges[side].cell(u, self.bits), self.bits);
+        let place = (side as u64) << (2 * self.bits) | u64::from(curve);
+        let key = if late >= CELL_ROUNDS || self.rounds < 2 * CELL_ROUNDS {
+            u64::from(self.rounds - late.min(self.rounds)) << PLACE_BITS | place
+        } else {
+            let (cell, rest) = (place >> self.cell_bits, place & ((1 << self.cell_bits) - 1));
+            let round = u64::from(CELL_ROUNDS - 1 - late);
+            (cell << CELL_ROUND_BITS | round) << self.cell_bits | rest | LATE >> INDEX_BITS
+        };
+        key << INDEX_BITS
+    }
+
+    fn late_cell(&self, key: u64) -> u32 {
+        ((key & !LATE) >> (INDEX_BITS + self.cell_bits + CELL_ROUND_BITS)) as u32
+    }
+
+    fn seed_cell(&self, key: u64) -> u32 {
+        (key >> INDEX_BITS & ((1 << PLACE_BITS) - 1)) as u32 >> self.cell_bits
+    }
 }
 
 /// What part of a side of the cube the points use, so that a flat dome still spreads over the whole curve.
@@ -47,17 +128,16 @@ impl Range {
     fn cell(&self, u: [f64; 2], bits: u32) -> [u32; 2] {
         let cells = f64::from(1_u32 << bits);
         std::array::from_fn(|k| {
-            let width = self.high[k] - self.low[k];
-            let share = if width > 0.0 { (u[k] - self.low[k]) / width } else { 0.0 };
-            // A cast saturates, so that rounding at the ends does no harm.
-            ((share * cells) as u32).min((1 << bits) - 1)
+            // A cast saturates, so that what lies beyond the ends goes to them, and takes the NaN of no width to 0.
+            (((u[k] - self.low[k]) / (self.high[k] - self.low[k]) * cells) as u32).min((1 << bits) - 1)
         })
     }
 }
 
+/// The ranges of the directions, of many those of a sample: they only decide how well the curve is used.
 fn ranges(n: usize, direction: &impl Fn(usize) -> DVec3) -> [Range; 6] {
     let mut ranges = [Range { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] }; 6];
-    for i in 0..n {
+    for i in (0..n).step_by(if n < SAMPLED_FROM { 1 } else { SAMPLE_STEP }) {
         let (side, u) = on_cube(direction(i));
         let Range { low, high } = &mut ranges[side];
         *low = [low[0].min(u[0]), low[1].min(u[1])];
@@ -85,20 +165,57 @@ fn on_cube(direction: DVec3) -> (usize, [f64; 2]) {
 }
 
 /// The place of a cell along the Hilbert curve of a square with 2^bits cells a side.
-fn hilbert([mut x, mut y]: [u32; 2], bits: u32) -> u32 {
-    let mut place = 0;
-    for level in (0..bits).rev() {
-        let (right, upper) = (x >> level & 1, y >> level & 1);
-        place = place << 2 | ((3 * right) ^ upper);
-        // In the lower quarters the curve runs mirrored at the diagonal, in the right one at the other diagonal; without
-        // branches, since nothing can foresee them.
-        let lower = upper.wrapping_sub(1);
-        let flip = lower & right.wrapping_neg();
-        (x, y) = (x ^ flip, y ^ flip);
-        let swap = (x ^ y) & lower;
-        (x, y) = (x ^ swap, y ^ swap);
+fn hilbert([x, y]: [u32; 2], bits: u32) -> u32 {
+    // Three levels at a time. An odd number of levels above, all zeros, would turn the curve, so whole steps are taken from the top.
+    let steps = bits.div_ceil(3);
+    let shift = 3 * steps - bits;
+    let (x, y) = (x << shift, y << shift);
+    let (mut place, mut state) = (0, 0);
+    for step in (0..steps).rev() {
+        let (x, y) = (x >> (3 * step) & 7, y >> (3 * step) & 7);
+        let entry = THREE_LEVELS[(state << 6 | x << 3 | y) as usize];
+        place = place << 6 | u32::from(entry & 63);
+        state = u32::from(entry >> 6);
     }
-    place
+    place >> (2 * shift)
+}
+
+/// For each state of the curve and place of a cell in a square of 8 × 8 how far along the curve the cell lies, in the lower six
+/// bits, and the state of the curve within it. State 0 is the curve from the lower left to the lower right, 1 that mirrored at the diagonal;
+/// 2 is added where it is mirrored at both sides.
+const THREE_LEVELS: [u8; 256] = three_levels();
+
+const fn three_levels() -> [u8; 256] {
+    let mut table = [0; 256];
+    let mut i = 0;
+    while i < 256 {
+        let (mut x, mut y, mut place) = (i as u32 >> 3 & 7, i as u32 & 7, 0);
+        let (mut is_swapped, mut is_flipped) = (i >> 6 & 1 == 1, i >> 7 == 1);
+        if is_flipped {
+            (x, y) = (7 - x, 7 - y);
+        }
+        if is_swapped {
+            (x, y) = (y, x);
+        }
+        let mut level = 3;
+        while level > 0 {
+            level -= 1;
+            let (right, upper) = (x >> level & 1, y >> level & 1);
+            place = place << 2 | ((3 * right) ^ upper);
+            // In the lower quarters the curve runs mirrored at the diagonal, in the right one at the other diagonal.
+            if upper == 0 {
+                if right == 1 {
+                    (x, y) = (!x, !y);
+                    is_flipped = !is_flipped;
+                }
+                (x, y) = (y, x);
+                is_swapped = !is_swapped;
+            }
+        }
+        table[i] = place as u8 | (is_swapped as u8) << 6 | (is_flipped as u8) << 7;
+        i += 1;
+    }
+    table
 }
 
 /// 0 for the last round, which holds half of the points, 1 for the one before, and so on.
@@ -106,15 +223,15 @@ fn lateness(direction: DVec3) -> u32 {
     hash(direction).trailing_zeros()
 }
 
-/// The finaliser of splitmix64 (Steele, Lea and Flood 2014), once for each coordinate.
+/// The finaliser of splitmix64 (Steele, Lea and Flood 2014) of the coordinates, multiplied together on the way.
 fn hash(direction: DVec3) -> u64 {
-    direction.to_array().into_iter().fold(0, |hash: u64, x| {
-        // Adding zero makes −0 and 0 one.
-        let mut z = hash.wrapping_add((x + 0.0).to_bits()).wrapping_add(0x9e37_79b9_7f4a_7c15);
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    })
+    // Adding zero makes −0 and 0 one.
+    let mixed = direction.to_array().into_iter().fold(0x9e37_79b9_7f4a_7c15_u64, |hash, x| {
+        (hash ^ (x + 0.0).to_bits()).wrapping_mul(0xbf58_476d_1ce4_e5b9).rotate_left(29)
+    });
+    let mut z = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
 }
 
 #[cfg(test)]
@@ -124,26 +241,47 @@ mod tests {
     #[test]
     fn the_curve_visits_every_cell_and_moves_to_a_neighbour() {
         let mut cells: Vec<[u32; 2]> = (0..1024).map(|i| [i % 32, i / 32]).collect();
-        cells.sort_by_key(|&cell| hilbert(cell, 5));
         let step = |w: &[[u32; 2]]| w[0][0].abs_diff(w[1][0]) + w[0][1].abs_diff(w[1][1]);
-        assert!(cells.windows(2).all(|w| step(w) == 1));
-        assert_eq!(hilbert(cells[1023], 5), 1023);
+        for bits in 5..9 {
+            cells.sort_by_key(|&cell| hilbert(cell, bits));
+            assert!(bits > 5 || cells.windows(2).all(|w| step(w) == 1));
+            assert!(cells.iter().zip(0..).all(|(&cell, place)| hilbert(cell, bits) == place), "{bits}");
+        }
+    }
+
+    fn directions(n: usize) -> Vec<DVec3> {
+        (0..n as u32).map(|i| DVec3::new(f64::from(i) * 0.37 - 700.0, f64::from(i % 7) - 3.0, 5.0)).collect()
     }
 
     #[test]
-    fn every_number_comes_once_and_rounds_double() {
-        let directions: Vec<DVec3> =
-            (0..5000).map(|i| DVec3::new(f64::from(i) * 0.37, f64::from(i % 7) - 3.0, 5.0)).collect();
-        let order = insertion_order(directions.len(), |i| directions[i]);
-        let mut sorted = order.clone();
-        sorted.sort_unstable();
-        assert!(sorted.iter().enumerate().all(|(i, &p)| i == p as usize));
-        // The last round holds about half of the points: those whose hash has no zeros at its end.
-        let is_last = |&&i: &&u32| lateness(directions[i as usize]) == 0;
-        let last = order.iter().rev().take_while(is_last).count();
-        assert!((2300..2700).contains(&last), "{last}");
-        assert_eq!(order.iter().filter(is_last).count(), last);
-        assert!(insertion_order(0, |_| DVec3::ZERO).is_empty());
-        assert_eq!(insertion_order(2, |_| DVec3::ZERO).len(), 2);
+    fn every_number_comes_once_and_the_seeds_come_first() {
+        for n in [0, 2, 100, 5000, 200_000] {
+            let directions = directions(n);
+            let Order { points, seed_cells, cells } = insertion_order(n, |i| directions[i]);
+            let mut sorted = points.clone();
+            sorted.sort_unstable();
+            assert!(sorted.iter().enumerate().all(|(i, &p)| i == p as usize));
+            assert_eq!(points.len(), n);
+            let late = n - seed_cells.len();
+            assert_eq!(cells.last().map_or(late, |c| c.1 as usize - seed_cells.len()), late);
+            assert!(cells.windows(2).all(|w| w[0].0 < w[1].0 && w[0].1 < w[1].1));
+            // Of many points one in sixteen is a seed.
+            assert!(n < 10_000 || (n / 18..n / 14).contains(&seed_cells.len()), "{}", seed_cells.len());
+        }
+    }
+
+    #[test]
+    fn rounds_double_within_a_cell() {
+        let directions = directions(200_000);
+        let Order { points, seed_cells, cells } = insertion_order(directions.len(), |i| directions[i]);
+        let mut start = seed_cells.len();
+        for (_, end) in cells {
+            let run = &points[start..end as usize];
+            let late: Vec<u32> = run.iter().map(|&i| lateness(directions[i as usize])).collect();
+            assert!(late.is_sorted_by(|a, b| a >= b));
+            start = end as usize;
+        }
+        let last = directions.iter().filter(|&&d| lateness(d) == 0).count();
+        assert!((98_000..102_000).contains(&last), "{last}");
     }
 }

@@ -1,11 +1,34 @@
 //! Filling and sorting tables on all processors; the result never depends on their number.
 
+use std::ops::Range;
+
 /// Below this many values a thread costs more than it saves.
 const WORTH_A_THREAD: usize = 1 << 14;
 
 /// Sets every value of `out` to `make(its index)`.
 pub(super) fn fill<T: Send>(out: &mut [T], make: impl Fn(usize) -> T + Sync) {
     in_shares(out, |start, part| part.iter_mut().enumerate().for_each(|(i, value)| *value = make(start + i)));
+}
+
+/// Runs `work` on shares of runs that lie one behind the other in `out`: run i begins at `begins[i]`. Each share is told which runs are its own.
+pub(super) fn fill_runs<T: Send>(out: &mut [T], begins: &[u32], work: impl Fn(Range<usize>, &mut [T]) + Sync) {
+    let share = share_of(begins.len());
+    std::thread::scope(|scope| {
+        let mut rest = out;
+        for start in (0..begins.len()).step_by(share) {
+            let own = start..(start + share).min(begins.len());
+            let is_last = own.end == begins.len();
+            let length = if is_last { rest.len() } else { (begins[own.end] - begins[own.start]) as usize };
+            let (part, others) = rest.split_at_mut(length);
+            rest = others;
+            let work = &work;
+            if is_last {
+                work(own, part);
+            } else {
+                scope.spawn(move || work(own, part));
+            }
+        }
+    });
 }
 
 /// Sorts keys that all differ.
@@ -17,11 +40,33 @@ pub(super) fn sort(keys: &mut [u64]) {
     }
 }
 
+/// Runs `work` on every value, each long work.
+pub(super) fn each<T: Send>(values: &mut [T], work: impl Fn(&mut T) + Sync) {
+    let share = values.len().div_ceil(threads()).max(1);
+    std::thread::scope(|scope| {
+        let mut shares = values.chunks_mut(share);
+        let own = shares.next();
+        for part in shares {
+            let work = &work;
+            scope.spawn(move || part.iter_mut().for_each(work));
+        }
+        own.into_iter().flatten().for_each(&work);
+    });
+}
+
+/// The length of equal shares of `count` values, one for each processor.
+pub(super) fn share_of(count: usize) -> usize {
+    count.div_ceil(threads().min(count / WORTH_A_THREAD + 1)).max(1)
+}
+
+fn threads() -> usize {
+    std::thread::available_parallelism().map_or(1, |n| n.get())
+}
+
 /// Runs `work` on equal shares of `values`, each with the index of its first; returns the length of a share.
 fn in_shares<T: Send>(values: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) -> usize {
-    let threads = std::thread::available_parallelism().map_or(1, |n| n.get()).min(values.len() / WORTH_A_THREAD + 1);
-    let share = values.len().div_ceil(threads).max(1);
-    if threads == 1 {
+    let share = share_of(values.len());
+    if share >= values.len() {
         work(0, values);
         return share;
     }

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::Numbers;
 use super::cloud::{Cloud, PointSigns};
+use super::grow::grow;
 use super::merge::{Faces, fan_starts};
 use super::order::{MOST_POINTS, insertion_order};
 use super::polytope::Polygons;
@@ -90,22 +91,23 @@ pub fn convex_hull(points: &[DVec3], numbers: Numbers) -> Result<Polygons, HullE
     }
     let (corners, centre) = start(points).map_err(|flat| refusal(flat, points))?;
     let order = insertion_order(count, |i| points[i] - centre.point);
-    let signs = PointSigns { points, order: &order, centre: centre.point };
-    let (cloud, scale) = Cloud::new(order.iter().map(|&i| points[i as usize] - centre.point).collect(), 2.0, signs);
-    let places = corners.map(|c| order.iter().position(|&i| i == c).expect("every point has a place") as u32);
+    let signs = PointSigns { points, order: &order.points, centre: centre.point };
+    let (cloud, scale) =
+        Cloud::new(order.points.iter().map(|&i| points[i as usize] - centre.point).collect(), 2.0, signs);
+    let places = corners.map(|c| order.points.iter().position(|&i| i == c).expect("every point has a place") as u32);
     let mut surface = Surface::tetrahedron(places, centre.is_corner.then_some(places[0]), count);
-    for p in (0..cloud.len()).filter(|p| !places.contains(p)) {
-        surface.insert(&cloud, p);
-    }
+    let mut inserted = places;
+    inserted.sort_unstable();
+    grow(&cloud, &mut surface, &order, &inserted);
     if numbers == Numbers::Constructed {
         let (low, high) = points.iter().fold((points[0], points[0]), |(l, h), &p| (l.min(p), h.max(p)));
         let faces = Faces::within(&surface, &cloud, RoundingBound::of_box(low, high).length() * scale);
-        let merged = polygons(&surface, &faces, &order);
+        let merged = polygons(&surface, &faces, &order.points);
         if is_closed(&merged) {
             return Ok(merged);
         }
     }
-    Ok(polygons(&surface, &Faces::of(&surface, &cloud), &order))
+    Ok(polygons(&surface, &Faces::of(&surface, &cloud), &order.points))
 }
 
 /// Whether every face has an area and every side of it a partner.

@@ -19,26 +19,34 @@ pub(super) enum Flat {
     OneSided(DVec3),
 }
 
+/// So many of the first points are looked at for the first four corners.
+const SAMPLE: u32 = 4096;
+
 /// Four points that span a volume, beginning with `a`, the last below the other three: greedily as far apart as can be told
 /// quickly.
 pub(super) fn far_apart<S: Signs>(cloud: &Cloud<S>, a: u32) -> Result<[u32; 4], Flat> {
+    let sample = if cloud.len() > SAMPLE { far_apart_among(cloud, a, SAMPLE) } else { Err(Flat::Point) };
+    sample.or_else(|_| far_apart_among(cloud, a, cloud.len()))
+}
+
+fn far_apart_among<S: Signs>(cloud: &Cloud<S>, a: u32, count: u32) -> Result<[u32; 4], Flat> {
     let from_a = |i: u32| cloud.point(i) - cloud.point(a);
-    let b = farthest(cloud.len(), |i| from_a(i).length_squared());
+    let b = farthest(count, |i| from_a(i).length_squared());
     let along = from_a(b);
     if along == DVec3::ZERO {
         return Err(Flat::Point);
     }
-    let mut c = farthest(cloud.len(), |i| along.cross(from_a(i)).length_squared());
+    let mut c = farthest(count, |i| along.cross(from_a(i)).length_squared());
     if cloud.signs.are_collinear([a, b, c]) {
         let is_off = |&i: &u32| !cloud.signs.are_collinear([a, b, i]);
-        c = (0..cloud.len()).find(is_off).ok_or(Flat::Line(along))?;
+        c = (0..count).find(is_off).ok_or(Flat::Line(along))?;
     }
     let normal = along.cross(from_a(c));
-    let mut d = farthest(cloud.len(), |i| normal.dot(from_a(i)).abs());
+    let mut d = farthest(count, |i| normal.dot(from_a(i)).abs());
     let mut side = cloud.height([a, b, c], d);
     if side == Side::On {
         let is_off = |&i: &u32| cloud.height([a, b, c], i) != Side::On;
-        d = (0..cloud.len()).find(is_off).ok_or(Flat::Plane(normal))?;
+        d = (0..count).find(is_off).ok_or(Flat::Plane(normal))?;
         side = cloud.height([a, b, c], d);
     }
     Ok(if side == Side::Reverse { [a, b, c, d] } else { [a, c, b, d] })

@@ -4,8 +4,12 @@
 //! triangulation") in place of a conflict graph. A triangle that has the point in its plane counts as not seen. The seen
 //! part is then the one that a point just a little further in would see, so it is a disc, and no triangle of the fan is flat.
 
+mod parts;
+
 use super::cloud::{Cloud, Signs};
 use crate::geom::Side;
+
+pub(super) use parts::Division;
 
 /// A triangle of the hull, counter-clockwise seen from outside. Points are named by their place in the order of insertion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,6 +23,10 @@ pub(super) struct Facet {
 pub(super) const NONE: u32 = u32::MAX;
 /// Marks the first corner of a facet that the point at hand sees.
 const SEEN: u32 = 1 << 31;
+/// Marks what lies across a side at the border of a part of a surface: the slot in the whole surface.
+const BORDER: u32 = 1 << 31;
+/// The side after each.
+const NEXT: [usize; 3] = [1, 2, 0];
 /// Steps of a walk on rounded signs before exact ones take over.
 const QUICK_STEPS: usize = 4096;
 
@@ -94,6 +102,11 @@ impl Surface {
         (0..self.facets.len() as u32).filter(|&f| self.facets[f as usize].corners[0] != NONE)
     }
 
+    /// Whether a corner of the hull serves as the centre.
+    pub(super) fn has_apex(&self) -> bool {
+        self.apex.is_some()
+    }
+
     /// Whether exact zeros came up, so that some neighbours may be coplanar by more than chance.
     pub(super) fn has_zeros(&self) -> bool {
         self.has_zeros
@@ -102,15 +115,10 @@ impl Surface {
     /// The facets around corner `v`, counter-clockwise, beginning with `first`.
     pub(super) fn fan_of(&self, v: u32, first: u32) -> impl Iterator<Item = u32> + '_ {
         let next = move |&f: &u32| {
-            let Facet { corners, across } = self.facet(f);
-            // The side that comes back to v.
-            let next = if corners[0] == v {
-                across[2]
-            } else if corners[1] == v {
-                across[0]
-            } else {
-                across[1]
-            };
+            let facet = &self.facets[f as usize];
+            // Across the side that comes back to v; by index, since nothing can foresee a branch.
+            let place = usize::from(facet.corners[1] == v) + 2 * usize::from(facet.corners[2] == v);
+            let next = facet.across[[2, 0, 1, 1][place]];
             (next != first).then_some(next)
         };
         std::iter::successors(Some(first), next)
@@ -120,6 +128,16 @@ impl Surface {
     pub(super) fn insert<S: Signs>(&mut self, cloud: &Cloud<S>, p: u32) {
         if let Some(f) = self.locate(cloud, p) {
             self.insert_above(cloud, p, f);
+        }
+    }
+
+    /// Inserts a point into a part of a surface if that concerns no side at its border and needs no exact walk; whether the
+    /// point is settled.
+    pub(super) fn insert_within<S: Signs>(&mut self, cloud: &Cloud<S>, p: u32) -> bool {
+        match self.quick_walk(cloud, p) {
+            Walk::Sees(f) => self.insert_above(cloud, p, f),
+            Walk::Inside => true,
+            Walk::Unsure => false,
         }
     }
 
@@ -135,33 +153,54 @@ impl Surface {
         self.exact_walk(cloud, p)
     }
 
-    /// Walks over the sides that the ray from the centre to p certainly lies beyond.
+    /// Walks over the sides that the ray from the centre to p certainly lies beyond, the farther of two.
+    ///
+    /// Carries along the products of the corners of the side that was crossed with the target, so that a step costs one more.
     fn quick_walk<S: Signs>(&mut self, cloud: &Cloud<S>, p: u32) -> Walk {
         let target = cloud.point(p);
         let bound = cloud.turn_bound();
-        let (mut f, mut entered) = (self.last, NONE);
+        let mut f = self.last;
+        let Facet { corners, across } = self.facet(f);
+        let [a, b, c] = corners.map(|v| cloud.point(v));
+        let (at, bt, ct) = (a.cross(target), b.cross(target), c.cross(target));
+        let turns = [a.dot(bt), b.dot(ct), c.dot(at)];
+        let least = turns[0].min(turns[1]).min(turns[2]);
+        let mut is_certain = least > bound;
+        if least >= -bound {
+            return self.end_of_walk(cloud, p, f, is_certain);
+        }
+        let (mut next, [mut from, mut to]) = if least == turns[0] {
+            (across[0], [bt, at])
+        } else if least == turns[1] {
+            (across[1], [ct, bt])
+        } else {
+            (across[2], [at, ct])
+        };
         for _ in 0..QUICK_STEPS {
-            let facet = self.facet(f);
-            let first = self.random_side();
-            let mut is_certain = true;
-            let mut next = NONE;
-            for k in 0..3 {
-                let side = (first + k) % 3;
-                if facet.across[side] == entered {
-                    continue;
-                }
-                let turn = cloud.rounded_turn(facet.corners[side], facet.corners[(side + 1) % 3], target);
-                if turn < -bound {
-                    next = facet.across[side];
-                    break;
-                }
-                is_certain &= turn > bound;
+            if next & BORDER != 0 {
+                break;
             }
-            if next == NONE {
+            // Seen from the next facet the side runs the other way round.
+            let Facet { corners, across } = self.facet(next);
+            let side = position(across, f);
+            f = next;
+            let after = NEXT[side];
+            let before = NEXT[after];
+            let z = cloud.point(corners[before]);
+            let zt = z.cross(target);
+            let (turn_after, turn_before) = (-z.dot(to), z.dot(from));
+            let least = turn_after.min(turn_before);
+            if least >= -bound {
+                is_certain = least > bound;
                 return self.end_of_walk(cloud, p, f, is_certain);
             }
-            (entered, f) = (f, next);
+            if turn_after < turn_before {
+                (next, from) = (across[after], zt);
+            } else {
+                (next, to) = (across[before], zt);
+            }
         }
+        self.last = f;
         Walk::Unsure
     }
 
@@ -240,20 +279,31 @@ impl Surface {
         side == Side::Normal
     }
 
-    /// Replaces what p sees, beginning with facet `first`, by a fan from p to the rim.
-    pub(super) fn insert_above<S: Signs>(&mut self, cloud: &Cloud<S>, p: u32, first: u32) {
+    /// Replaces what p sees, beginning with facet `first`, by a fan from p to the rim. Where p sees a facet at the border of a
+    /// part nothing changes, and the answer is no.
+    pub(super) fn insert_above<S: Signs>(&mut self, cloud: &Cloud<S>, p: u32, first: u32) -> bool {
         let mut scratch = std::mem::take(&mut self.scratch);
-        self.collect_seen(cloud, p, first, &mut scratch);
-        self.fan(p, &mut scratch);
+        let is_within = self.collect_seen(cloud, p, first, &mut scratch);
+        if is_within {
+            self.fan(p, &mut scratch);
+        } else {
+            scratch.seen.iter().for_each(|&f| self.facets[f as usize].corners[0] &= !SEEN);
+        }
         self.scratch = scratch;
+        is_within
     }
 
-    /// Lists the seen facets, marking them, and the sides around them in counter-clockwise order.
-    fn collect_seen<S: Signs>(&mut self, cloud: &Cloud<S>, p: u32, first: u32, scratch: &mut Scratch) {
+    /// Lists the seen facets, marking them, and the sides around them in counter-clockwise order; not to the end when one of
+    /// them lies at the border of a part.
+    fn collect_seen<S: Signs>(&mut self, cloud: &Cloud<S>, p: u32, first: u32, scratch: &mut Scratch) -> bool {
         let Scratch { seen, rim, stack } = scratch;
         seen.clear();
         rim.clear();
-        self.facets[first as usize].corners[0] |= SEEN;
+        stack.clear();
+        let target = cloud.point(p);
+        let facets = self.facets.as_mut_slice();
+        let mut has_zeros = false;
+        facets[first as usize].corners[0] |= SEEN;
         seen.push(first);
         stack.push(Visit { facet: first, side: 0, left: 3 });
         while let Some(visit) = stack.last_mut() {
@@ -262,26 +312,31 @@ impl Surface {
                 continue;
             }
             let (f, side) = (visit.facet, visit.side);
-            visit.side = (side + 1) % 3;
+            visit.side = NEXT[side];
             visit.left -= 1;
-            let Facet { corners, across } = self.facets[f as usize];
+            let Facet { corners, across } = facets[f as usize];
             let g = across[side];
-            let beyond = self.facets[g as usize];
+            if g & BORDER != 0 {
+                return false;
+            }
+            let beyond = facets[g as usize];
             if beyond.corners[0] & SEEN != 0 {
                 continue;
             }
             let back = position(beyond.across, f);
-            let height = cloud.height(beyond.corners, p);
+            let height = cloud.height_of(target, beyond.corners, p);
             if height == Side::Normal {
-                self.facets[g as usize].corners[0] |= SEEN;
+                facets[g as usize].corners[0] |= SEEN;
                 seen.push(g);
-                stack.push(Visit { facet: g, side: (back + 1) % 3, left: 2 });
+                stack.push(Visit { facet: g, side: NEXT[back], left: 2 });
             } else {
-                self.has_zeros |= height == Side::On;
-                let (from, to) = (corners[side] & !SEEN, corners[(side + 1) % 3] & !SEEN);
+                has_zeros |= height == Side::On;
+                let (from, to) = (corners[side] & !SEEN, corners[NEXT[side]] & !SEEN);
                 rim.push(RimSide { from, to, outside: g, back });
             }
         }
+        self.has_zeros |= has_zeros;
+        true
     }
 
     /// Builds the fan in the slots of the seen facets, so that neighbours stay near each other in memory.
@@ -324,6 +379,7 @@ impl Surface {
 }
 
 /// How a walk ended.
+#[derive(Debug, Clone, Copy)]
 enum Walk {
     Sees(u32),
     Inside,
@@ -331,11 +387,7 @@ enum Walk {
 }
 
 fn position(across: [u32; 3], f: u32) -> usize {
-    if across[0] == f {
-        0
-    } else if across[1] == f {
-        1
-    } else {
-        2
-    }
+    // Without branches, since nothing can foresee them.
+    let not_first = usize::from(across[0] != f);
+    not_first << usize::from(across[1] != f)
 }

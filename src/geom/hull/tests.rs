@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use super::*;
 use crate::geom::predicate::orient3d;
 
-fn v(x: f64, y: f64, z: f64) -> DVec3 {
+pub(super) fn v(x: f64, y: f64, z: f64) -> DVec3 {
     DVec3::new(x, y, z)
 }
 
@@ -17,17 +17,17 @@ fn exact_hull(points: &[DVec3]) -> Result<Polygons, HullError> {
 }
 
 /// A small generator for the tests (xorshift64*).
-struct Random(u64);
+pub(super) struct Random(pub(super) u64);
 
 impl Random {
-    fn unit(&mut self) -> f64 {
+    pub(super) fn unit(&mut self) -> f64 {
         self.0 ^= self.0 >> 12;
         self.0 ^= self.0 << 25;
         self.0 ^= self.0 >> 27;
         (self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    fn on_sphere(&mut self) -> DVec3 {
+    pub(super) fn on_sphere(&mut self) -> DVec3 {
         let z = 2.0 * self.unit() - 1.0;
         let (sin, cos) = (TAU * self.unit()).sin_cos();
         let r = (1.0 - z * z).sqrt();
@@ -35,20 +35,20 @@ impl Random {
     }
 }
 
-fn tangent(normals: impl IntoIterator<Item = DVec3>) -> Vec<HalfSpace> {
+pub(super) fn tangent(normals: impl IntoIterator<Item = DVec3>) -> Vec<HalfSpace> {
     normals.into_iter().map(|normal| HalfSpace { normal, offset: 1.0 }).collect()
 }
 
-fn with(form: Form) -> Intersect {
+pub(super) fn with(form: Form) -> Intersect {
     Intersect { form, ..Intersect::default() }
 }
 
 /// Faces, edges and vertices.
-fn counts(p: &Polytope) -> [usize; 3] {
+pub(super) fn counts(p: &Polytope) -> [usize; 3] {
     [p.faces.len(), p.edge_count(), p.vertices.len()]
 }
 
-fn simple_counts(n: usize) -> [usize; 3] {
+pub(super) fn simple_counts(n: usize) -> [usize; 3] {
     [n, 3 * n - 6, 2 * n - 4]
 }
 
@@ -73,7 +73,7 @@ fn assert_polytope(p: &Polytope, half_spaces: &[HalfSpace], tolerance: f64) {
 }
 
 #[track_caller]
-fn assert_closed(faces: &Polygons, vertices: usize) {
+pub(super) fn assert_closed(faces: &Polygons, vertices: usize) {
     let mut sides: Vec<(u32, u32)> = Vec::new();
     for run in faces.iter() {
         assert!(run.len() >= 3);

@@ -83,6 +83,13 @@ pub struct HullStep {
     pub mesh: Mesh,
 }
 
+impl HullStep {
+    /// The name of its picture beside the model `stem`: `stem-after-20.png`.
+    pub fn file_name(&self, stem: &str) -> String {
+        format!("{stem}-after-{}.png", self.planes)
+    }
+}
+
 /// The convex hull or dual convex hull of a mesh's vertices, of all or by clusters.
 ///
 /// # Errors

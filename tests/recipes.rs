@@ -15,6 +15,7 @@ const RECIPES: &[(&str, usize, usize)] = &[
     ("fig-20-two-y-pieces-octahedron.toml", 2, 0),
     ("fig-21-five-piece-truncated-tetrahedron.toml", 5, 0),
     ("fig-21-four-piece-dodecahedron.toml", 4, 0),
+    ("one-piece-d-form-torus.toml", 1, 1),
     ("one-piece-torus.toml", 1, 1),
     ("two-piece-d-form.toml", 2, 0),
 ];
@@ -44,6 +45,22 @@ fn every_recipe_gives_its_pieces_without_overlap() {
         assert_eq!(proof.overlaps, 0, "{name}");
         assert!(!fabrication.sheets.drawings.is_empty(), "{name}");
     }
+}
+
+/// Every vertex is on the seams of a D-form and has one fold, but where one more cut has opened the ring.
+#[test]
+fn the_one_piece_d_form_is_a_ring_along_one_seam() {
+    let job = run("one-piece-d-form-torus.toml");
+    let mesh = job.mesh().expect("a mesh");
+    let (fabrication, _) = job.fabrication.as_ref().expect("pieces");
+    let net = &fabrication.net;
+    // One fold less than a perfect matching: the cut that opened the ring. Seams run with the model on both sides.
+    assert_eq!(net.folds.len(), mesh.vertex_count() / 2 - 1);
+    assert!(net.seams.iter().all(|s| s.sides.iter().all(|side| side.piece.0 == 0)), "the piece meets only itself");
+    let mut folds = vec![0; mesh.vertex_slots()];
+    net.folds.iter().flat_map(|f| f.edge).for_each(|v| folds[v] += 1);
+    assert_eq!(folds.iter().filter(|&&n| n == 0).count(), 2, "the ends of the one more cut");
+    assert!(folds.iter().all(|&n| n <= 1));
 }
 
 #[test]

@@ -8,13 +8,6 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Deserializer};
 
-use super::StepFailure;
-use crate::mesh::{EdgeId, Mesh};
-use crate::op::{OpContext, TruncateEdge, truncate_edges};
-use crate::progress::Progress;
-use crate::seam::{SeamError, fold_sum, hamiltonian_folds, least_matching, matching, piece_count, seam_cycles};
-use crate::select::{Made, Selection};
-
 /// Which of the solid's edges become folds, one at every vertex.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum MatchingChoice {
@@ -22,8 +15,12 @@ pub enum MatchingChoice {
     /// none was found, the least matching.
     #[default]
     TwoPieces,
+    /// One piece, on a mesh with handles: of the folds that leave one piece those with the least fold sum.
+    OnePiece,
     /// The matching with the least fold sum, however many pieces it leaves.
     Least,
+    /// The matching with the least sum of fold angles, whatever the lengths.
+    Dullest,
     /// A row of the table that `seams` prints.
     Row(usize),
 }
@@ -31,7 +28,8 @@ pub enum MatchingChoice {
 /// A choice of folds that could not be read.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "`{text}` is no choice of folds; write hamiltonian (two pieces), least, or a row of the table of `kerfold seams`"
+    "`{text}` is no choice of folds; write hamiltonian (two pieces), one (one piece, on a mesh with handles), least, dullest, or \
+     a row of the table of `kerfold seams`"
 )]
 pub struct MatchingChoiceError {
     /// What was typed.
@@ -44,7 +42,9 @@ impl FromStr for MatchingChoice {
     fn from_str(text: &str) -> Result<Self, MatchingChoiceError> {
         match text {
             "hamiltonian" => Ok(Self::TwoPieces),
+            "one" => Ok(Self::OnePiece),
             "least" => Ok(Self::Least),
+            "dullest" => Ok(Self::Dullest),
             _ => text.parse().map(Self::Row).map_err(|_| MatchingChoiceError { text: text.to_owned() }),
         }
     }
@@ -54,7 +54,9 @@ impl fmt::Display for MatchingChoice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::TwoPieces => f.write_str("hamiltonian"),
+            Self::OnePiece => f.write_str("one"),
             Self::Least => f.write_str("least"),
+            Self::Dullest => f.write_str("dullest"),
             Self::Row(row) => row.fmt(f),
         }
     }
@@ -63,7 +65,7 @@ impl fmt::Display for MatchingChoice {
 impl<'de> Deserialize<'de> for MatchingChoice {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         #[derive(Deserialize)]
-        #[serde(untagged, expecting = "hamiltonian, least, or a row of the table of `kerfold seams`")]
+        #[serde(untagged, expecting = "hamiltonian, one, least, dullest, or a row of the table of `kerfold seams`")]
         enum Written {
             Row(usize),
             Text(String),
@@ -78,7 +80,8 @@ impl<'de> Deserialize<'de> for MatchingChoice {
 /// How to make a D-form of a closed 3-valent mesh.
 #[derive(Debug, Clone, PartialEq, clap::Args, Deserialize)]
 pub struct DformParams {
-    /// Folds: hamiltonian (two pieces, least fold sum), least, or a row of the table of `kerfold seams`, from 0
+    /// Folds: hamiltonian (two pieces), one (one piece; needs a handle), least (angle × length), dullest (angle), or a row of
+    /// the table of `kerfold seams`, from 0
     #[arg(long, default_value = "hamiltonian", value_name = "CHOICE")]
     #[serde(default)]
     pub matching: MatchingChoice,
@@ -113,66 +116,13 @@ impl Default for DformParams {
     }
 }
 
-/// A carved D-form.
-#[derive(Debug, Clone)]
-pub struct CarvedDform {
-    /// The mesh.
-    pub mesh: Mesh,
-    /// What carving made; `strip` are the folds.
-    pub made: Made,
-    /// What the user should know.
-    pub notes: Vec<String>,
-}
-
-/// Chooses the folds and cuts them off, round after round.
-///
-/// # Errors
-/// [`StepFailure::Seam`] when the mesh is open, not 3-valent, or has no such row; [`StepFailure::Op`] when it cannot be cut so.
-pub fn carve_dform(mesh: &Mesh, params: &DformParams, progress: &dyn Progress) -> Result<CarvedDform, StepFailure> {
-    let (folds, mut notes) = choose(mesh, params.matching, progress)?;
-    notes.push(format!(
-        "{} folds with a fold sum of {:.2} rad·mm, {} closed seams, {} pieces before carving",
-        folds.len(),
-        fold_sum(mesh, &folds),
-        seam_cycles(mesh, &folds).len(),
-        piece_count(mesh, &folds)
-    ));
-    let Some(select) = Selection::of_ids(folds.iter().map(|e| e.index() as u32)) else {
-        return Err(SeamError::Empty.into());
-    };
-    if params.rounds == 0 {
-        return Ok(CarvedDform { mesh: mesh.clone(), made: Made { strip: folds, ..Made::default() }, notes });
-    }
-    let cut = TruncateEdge { bend: params.bend, repeat: params.rounds, ..TruncateEdge::new(select, params.offset) };
-    let (mesh, report) = truncate_edges(mesh, &cut, &OpContext { made: None, progress })?;
-    notes.extend(report.notes("edge"));
-    Ok(CarvedDform { mesh, made: report.made, notes })
-}
-
-fn choose(
-    mesh: &Mesh,
-    choice: MatchingChoice,
-    progress: &dyn Progress,
-) -> Result<(Vec<EdgeId>, Vec<String>), SeamError> {
-    match choice {
-        MatchingChoice::Least => Ok((least_matching(mesh, progress)?, Vec::new())),
-        MatchingChoice::Row(row) => Ok((matching(mesh, row, progress)?, Vec::new())),
-        MatchingChoice::TwoPieces => match hamiltonian_folds(mesh, progress) {
-            Ok(folds) => Ok((folds, Vec::new())),
-            Err(
-                why @ (SeamError::NoHamiltonian { .. }
-                | SeamError::SearchStopped { .. }
-                | SeamError::SeveralComponents { .. }),
-            ) => Ok((least_matching(mesh, progress)?, vec![format!("the least matching was taken: {why}")])),
-            Err(error) => Err(error),
-        },
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::{StepFailure, carve_dform};
     use super::*;
+    use crate::mesh::Mesh;
     use crate::progress::Silent;
+    use crate::seam::{SeamError, piece_count};
     use crate::shape::{SolidParams, solid};
     use clap::{Args, FromArgMatches};
 
@@ -186,7 +136,7 @@ mod tests {
 
     #[test]
     fn choices_are_words_and_rows() {
-        for text in ["hamiltonian", "least", "3"] {
+        for text in ["hamiltonian", "one", "least", "dullest", "3"] {
             assert_eq!(text.parse::<MatchingChoice>().expect(text).to_string(), text);
         }
         assert!("-1".parse::<MatchingChoice>().is_err());

@@ -6,7 +6,7 @@
 use crate::measure::{edge_length, fold_angle};
 use crate::mesh::{EdgeId, EdgeMap, Mesh};
 use crate::progress::Progress;
-use crate::seam::{least_matching_by, piece_count};
+use crate::seam::{dullest_matching, piece_count};
 
 /// A D-form folds far less than it is seamed: the mean seam must turn at least this many times as much as the mean fold.
 const CONTRAST: f64 = 4.0;
@@ -20,7 +20,7 @@ pub(super) fn folds(mesh: &Mesh, progress: &dyn Progress) -> Option<Vec<EdgeId>>
         return None;
     }
     let angle = |e: EdgeId| fold_angle(mesh, e).unwrap_or(0.0).abs();
-    let matching = least_matching_by(mesh, angle, progress).ok();
+    let matching = dullest_matching(mesh, progress).ok();
     let found = matching.into_iter().chain(dull_edges(mesh, angle)).filter(|folds| contrast(mesh, folds) > CONTRAST);
     found.min_by_key(|folds| piece_count(mesh, folds))
 }

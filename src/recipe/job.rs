@@ -149,7 +149,7 @@ impl Job {
         self.notes.extend(carved.notes);
         self.mesh = Some(carved.mesh);
         let folds = FabricateParams {
-            folds: Selection::of_ids(carved.made.strip.iter().map(|e| e.index() as u32)),
+            folds: Selection::of_ids(carved.folds.iter().map(|e| e.index() as u32)),
             ..FabricateParams::default()
         };
         self.made = Some(carved.made);

@@ -3,6 +3,7 @@
 //! Every step is the same parameter struct as the verb of that name on the command line. The steps of a recipe share one
 //! [`Job`]: the mesh as it is by then, what the last step made, and the results that are written at the end.
 
+mod carve;
 mod dform;
 mod divide;
 mod dull_folds;
@@ -21,7 +22,8 @@ use std::path::PathBuf;
 
 use serde::Deserialize;
 
-pub use dform::{CarvedDform, DformParams, MatchingChoice, MatchingChoiceError, carve_dform};
+pub use carve::{CarvedDform, carve_dform};
+pub use dform::{DformParams, MatchingChoice, MatchingChoiceError};
 pub use error::{Position, RecipeError, StepError, StepFailure};
 pub use fabricate::{FabricateParams, Fabrication, fabricate};
 pub use job::Job;

@@ -83,6 +83,18 @@ pub enum SeamError {
         /// How that was shown.
         proof: NoHamiltonian,
     },
+    /// One piece was asked for on a surface on which every closed seam separates.
+    #[error(
+        "no one-piece D-form exists of a mesh without handles: every closed seam separates it into two pieces at least \
+         (Jordan); take `hamiltonian`, or a mesh of genus 1 or more"
+    )]
+    NoHandle,
+    /// All choices of folds that were looked at leave several pieces.
+    #[error("none of the {tried} choices of folds that were looked at leaves one piece; take `hamiltonian` or `least`")]
+    NoOnePiece {
+        /// How many were looked at.
+        tried: usize,
+    },
     /// The user cancelled before there was anything to return.
     #[error("stopped on request, before a choice of folds was found")]
     Cancelled,

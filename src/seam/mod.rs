@@ -4,9 +4,11 @@
 //! seams, two at every vertex, are disjoint closed cycles (a *2-factor*; Petersen 1891: a cubic graph without a bridge has
 //! one). On a sphere the pieces number cycles + 1, and two pieces mean one Hamiltonian cycle of seams.
 //!
-//! - [`least_matching`] finds the folds that bend least, exactly and for large meshes.
+//! - [`least_matching`] finds the folds that bend least, exactly and for large meshes; [`dullest_matching`] weighs by angle
+//!   alone.
 //! - [`Matchings`], [`table`] and [`matching`] list all of them for small meshes, up to symmetry.
 //! - [`TwoPieceSearch`] and [`hamiltonian_folds`] look for the seam of two pieces, or prove that there is none.
+//! - [`one_piece_folds`] finds, on surfaces with handles, the seams that leave one piece.
 //! - [`seam_cycles`], [`piece_count`] and [`is_perfect_matching`] tell what a choice of folds means.
 
 mod blossom;
@@ -17,6 +19,7 @@ mod factor;
 mod graph;
 mod hamiltonian;
 mod least;
+mod one_piece;
 mod sat;
 mod symmetry;
 mod tour;
@@ -30,6 +33,7 @@ pub use enumerate::{MATCHING_LIMIT, MatchingRow, Matchings, matching, table};
 pub use error::SeamError;
 pub use factor::{is_perfect_matching, piece_count, seam_cycles};
 pub use hamiltonian::hamiltonian_folds;
-pub use least::{least_matching, least_matching_by};
+pub use least::{dullest_matching, least_matching, least_matching_by};
+pub use one_piece::one_piece_folds;
 pub use two_piece::{NoHamiltonian, TwoPieceSearch};
 pub use weight::{fold_sum, fold_weight};

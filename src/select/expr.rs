@@ -129,6 +129,7 @@ impl fmt::Display for Atom {
             Self::Made => f.write_str("made"),
             Self::Strip => f.write_str("strip"),
             Self::Folds(Folds::Least) => f.write_str("matching"),
+            Self::Folds(Folds::Dullest) => f.write_str("dullest"),
             Self::Folds(Folds::Number(k)) => write!(f, "matching:{k}"),
             Self::Folds(Folds::TwoPieces) => f.write_str("hamiltonian"),
         }

@@ -16,7 +16,7 @@
 //! | `group=name` | on a face of the group | on a face of the group | in the group |
 //! | `made` | made by the last step | made by the last step | made by the last step |
 //! | `strip` | – | the long edges that the last step made | – |
-//! | `matching`, `matching:7`, `hamiltonian` | – | folds of such a seam of the mesh as it is now | – |
+//! | `matching`, `dullest`, `matching:7`, `hamiltonian` | – | folds of such a seam of the mesh as it is now | – |
 //!
 //! Where it says –, the condition is an error. `valence`, `sides` and `fold` take `=`, `!=`, `<`, `<=`, `>`, `>=`. Directions
 //! are `x`, `-z`, … or three numbers (`along=1,1,0:5deg`); the tolerance of `along` and `normal` is 1deg when left out.

@@ -73,7 +73,7 @@ fn hint(nearest: Option<&str>) -> String {
 }
 
 /// All words that can begin an atom.
-const WORDS: [&str; 13] = [
+const WORDS: [&str; 14] = [
     "all",
     "valence",
     "sides",
@@ -86,6 +86,7 @@ const WORDS: [&str; 13] = [
     "made",
     "strip",
     "matching",
+    "dullest",
     "hamiltonian",
 ];
 
@@ -183,6 +184,7 @@ impl<'a> Parser<'a> {
             "all" => Atom::All,
             "made" => Atom::Made,
             "strip" => Atom::Strip,
+            "dullest" => Atom::Folds(Folds::Dullest),
             "hamiltonian" => Atom::Folds(Folds::TwoPieces),
             "matching" => Atom::Folds(self.matching()?),
             "valence" => {

@@ -9,6 +9,8 @@ use crate::seam::{self, SeamError};
 pub(super) enum Folds {
     /// `matching`: the perfect matching whose folds weigh least.
     Least,
+    /// `dullest`: the perfect matching whose folds turn least, by angle alone.
+    Dullest,
     /// `matching:K`: number K of all perfect matchings, in the order of [`seam::matching`].
     Number(usize),
     /// `hamiltonian`: the folds that leave one closed seam, so that there are two pieces.
@@ -19,6 +21,7 @@ pub(super) enum Folds {
 pub(super) fn folds(mesh: &Mesh, which: Folds, progress: &dyn Progress) -> Result<Vec<EdgeId>, SeamError> {
     match which {
         Folds::Least => seam::least_matching(mesh, progress),
+        Folds::Dullest => seam::dullest_matching(mesh, progress),
         Folds::Number(k) => seam::matching(mesh, k, progress),
         Folds::TwoPieces => seam::hamiltonian_folds(mesh, progress),
     }

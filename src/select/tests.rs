@@ -155,6 +155,7 @@ fn seam_selections_reach_the_seams() {
     let mesh = shape::cube(1.0);
     for (text, folds) in [
         ("matching", seams::Folds::Least),
+        ("dullest", seams::Folds::Dullest),
         ("matching:2", seams::Folds::Number(2)),
         ("hamiltonian", seams::Folds::TwoPieces),
     ] {
@@ -253,6 +254,7 @@ fn atoms() -> impl Strategy<Value = String> {
         "made",
         "strip",
         "matching",
+        "dullest",
         "matching:7",
         "hamiltonian",
         "group=a b",

@@ -53,7 +53,8 @@ fn check_partners(mesh: &Mesh, net: &Net, size: f64) -> Result<(), ProofError> {
         let limit = LENGTH * on_mesh + LENGTH_OF_SIZE * size;
         let by = lengths.into_iter().map(|l| (l - on_mesh).abs()).fold(0.0, larger);
         if exceeds(by, limit) {
-            return Err(ProofError::Partners { edge, by, limit });
+            let ends = mesh.edge_vertices(EdgeId::new(edge)).map(|v| v.index());
+            return Err(ProofError::Partners { edge, ends, by, limit });
         }
     }
     Ok(())

@@ -51,10 +51,12 @@ pub enum ProofError {
         face: usize,
     },
     /// An edge that is listed wrongly.
-    #[error("edge {edge}: {fault}")]
+    #[error("edge {edge} between the vertices {} and {}: {fault}", ends[0], ends[1])]
     Edge {
         /// The edge.
         edge: usize,
+        /// Its ends, as the net names them.
+        ends: [usize; 2],
         /// What is wrong.
         fault: EdgeFault,
     },
@@ -67,10 +69,19 @@ pub enum ProofError {
         face: usize,
     },
     /// A face that was laid down mirrored or without area.
-    #[error("face {face} lies mirrored or without area; corners must run counter-clockwise")]
+    #[error(
+        "face {face} of piece {piece} lies mirrored or without area ({area:.3e} mm²); corners must run counter-clockwise{}",
+        if *whole { ", and so do all faces of this piece: turn the piece over" } else { "" }
+    )]
     Mirrored {
+        /// The piece, counted from 1 as in its name.
+        piece: usize,
         /// The face.
         face: usize,
+        /// Its area, negative when it is mirrored.
+        area: f64,
+        /// Whether all faces of the piece lie so.
+        whole: bool,
     },
     /// A piece whose outline and holes are not the boundary of its faces.
     #[error("the outline of piece {piece} is not the boundary of its faces near ({x}, {y})")]
@@ -95,10 +106,15 @@ pub enum ProofError {
         limit: f64,
     },
     /// Two sides of one edge with different lengths.
-    #[error("the sides of edge {edge} differ by {by:.3e} mm ({limit:.3e} allowed)")]
+    #[error(
+        "the sides of edge {edge} between the vertices {} and {} differ from it by {by:.3e} mm ({limit:.3e} allowed)",
+        ends[0], ends[1]
+    )]
     Partners {
         /// The edge.
         edge: usize,
+        /// Its ends.
+        ends: [usize; 2],
         /// By how much, in mm.
         by: f64,
         /// Allowed, in mm.
@@ -137,15 +153,21 @@ pub enum ProofError {
 }
 
 /// What is wrong with an edge of a net.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum EdgeFault {
     /// The mesh does not have it.
     #[error("the mesh does not have it")]
     Unknown,
-    /// Listed twice, or not at all.
-    #[error("it must be listed exactly once among folds, seams and rims")]
+    /// Listed twice.
+    #[error("it is listed twice; it must be listed exactly once among folds, seams and rims")]
     Times,
+    /// Not listed.
+    #[error("it is neither fold nor seam nor rim; it must be listed, it parts the faces {} and {}", faces[0], faces[1])]
+    Missing {
+        /// The faces beside it (of a rim, the hole is one).
+        faces: [usize; 2],
+    },
     /// Its ends or faces are not those of the mesh.
     #[error("its vertices or faces are not those of the mesh")]
     Neighbours,
@@ -153,8 +175,14 @@ pub enum EdgeFault {
     #[error("it names a piece that does not hold its face")]
     Piece,
     /// Its segment is not a side of the face it names.
-    #[error("its segment is not where the face's side lies")]
-    Segment,
+    #[error("its segment is {by:.3e} mm away from the side of face {face}")]
+    Segment {
+        /// The face.
+        face: usize,
+        /// How far an end of the segment lies from the nearest side of the face between these vertices, in mm; not a
+        /// number when the face has no such side.
+        by: f64,
+    },
 }
 
 /// Measures a net against the mesh that it was made of.

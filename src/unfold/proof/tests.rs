@@ -34,7 +34,10 @@ fn edge_fault(error: ProofError) -> EdgeFault {
 #[test]
 fn structure() {
     assert!(matches!(fault_of(|net| net.counts.faces = 5), ProofError::Counts { what: "faces", net: 5, mesh: 4 }));
-    assert!(matches!(fault_of(|net| net.rims.truncate(2)), ProofError::Counts { .. }));
+    let missing = edge_fault(fault_of(|net| net.rims.truncate(2)));
+    assert!(matches!(missing, EdgeFault::Missing { .. }), "{missing}");
+    let gone = fault_of(|net| net.seams.truncate(1));
+    assert!(gone.to_string().contains("neither fold nor seam nor rim"), "{gone}");
     let fault = fault_of(|net| {
         let twice = net.pieces[0].faces[0].clone();
         net.pieces[0].faces.push(twice);
@@ -43,7 +46,9 @@ fn structure() {
     assert!(matches!(fault_of(|net| net.pieces[0].faces.truncate(3)), ProofError::FaceTimes { times: 0, .. }));
     assert!(matches!(fault_of(|net| net.pieces[0].faces[1].vertices.swap(0, 1)), ProofError::Corners { .. }));
     let mirrored = fault_of(|net| net.pieces[0].faces[1].polygon.iter_mut().for_each(|p| p.x = -p.x));
-    assert!(matches!(mirrored, ProofError::Mirrored { .. }));
+    assert!(matches!(mirrored, ProofError::Mirrored { piece: 1, whole: false, .. }));
+    let turned_over = fault_of(|net| points(net).into_iter().for_each(|p| p.x = -p.x));
+    assert!(matches!(turned_over, ProofError::Mirrored { whole: true, area, .. } if area < 0.0), "{turned_over}");
     assert!(matches!(fault_of(|net| net.pieces[0].outline[2].x += 1e-3), ProofError::Outline { piece: 1, .. }));
     assert!(matches!(fault_of(|net| net.pieces[0].outline.truncate(5)), ProofError::Outline { .. }));
     assert!(matches!(fault_of(|net| net.rims[0].edge = [0, 7]), ProofError::Rim { edge: [0, 7], .. }));
@@ -55,7 +60,10 @@ fn edges() {
     assert_eq!(edge_fault(fault_of(|net| net.folds[1].id.0 = 999)), EdgeFault::Unknown);
     assert_eq!(edge_fault(fault_of(|net| net.folds[1].faces.reverse())), EdgeFault::Neighbours);
     assert_eq!(edge_fault(fault_of(|net| net.seams[1].sides[0].piece = PieceId(7))), EdgeFault::Piece);
-    assert_eq!(edge_fault(fault_of(|net| net.folds[0].segment.swap(0, 1))), EdgeFault::Segment);
+    let moved = edge_fault(fault_of(|net| net.folds[0].segment.iter_mut().for_each(|p| p.x += 0.25)));
+    assert!(matches!(moved, EdgeFault::Segment { by, .. } if (by - 0.25).abs() < 1e-12), "{moved}");
+    let turned = edge_fault(fault_of(|net| net.folds[0].segment.swap(0, 1)));
+    assert!(matches!(turned, EdgeFault::Segment { by, .. } if by > 10.0), "{turned}");
 }
 
 #[test]

@@ -167,9 +167,36 @@ mod tests {
     }
 
     #[test]
+    fn every_option_changes_the_d_form() {
+        let solid = named("truncated-tetrahedron");
+        let corners = |params: DformParams| {
+            let mesh = carve_dform(&solid, &params, &Silent).expect("a D-form").mesh;
+            mesh.vertices().map(|v| mesh.position(v)).collect::<Vec<_>>()
+        };
+        let usual = DformParams { rounds: 2, offset: 0.2, ..DformParams::default() };
+        let other = [
+            DformParams { matching: MatchingChoice::Row(2), ..usual.clone() },
+            DformParams { matching: MatchingChoice::Row(1), ..usual.clone() },
+            DformParams { rounds: 1, ..usual.clone() },
+            DformParams { offset: 0.25, ..usual.clone() },
+            DformParams { bend: 0.2, ..usual.clone() },
+            DformParams { bend: -0.2, ..usual.clone() },
+        ];
+        let mut seen = vec![corners(usual)];
+        for params in other {
+            let made = corners(params.clone());
+            assert!(!seen.contains(&made), "{params:?}");
+            seen.push(made);
+        }
+    }
+
+    #[test]
     fn what_cannot_be_a_d_form_is_told() {
         let octahedron = carve_dform(&named("octahedron"), &DformParams::default(), &Silent);
         assert!(matches!(octahedron, Err(StepFailure::Seam(SeamError::Valence { valence: 4, .. }))));
+        let params = DformParams { matching: MatchingChoice::OnePiece, ..DformParams::default() };
+        let one = carve_dform(&named("cube"), &params, &Silent);
+        assert!(matches!(one, Err(StepFailure::Seam(SeamError::NoHandle))));
         let params = DformParams { matching: MatchingChoice::Row(99), ..DformParams::default() };
         let row = carve_dform(&named("cube"), &params, &Silent);
         assert!(matches!(row, Err(StepFailure::Seam(SeamError::NoSuchMatching { index: 99, .. }))));

@@ -190,6 +190,14 @@ mod tests {
         let mut search = TwoPieceSearch::new(&fixtures::cube(), &Silent).expect("a search");
         assert!(search.next_candidate(&Cancelled).is_none() && !search.is_exhausted());
         assert!(search.next_candidate(&Silent).is_some());
+        // Nor is any other search: small meshes are listed, large ones searched.
+        for mesh in [fixtures::cube(), fixtures::random_convex(60, 4)] {
+            assert_eq!(hamiltonian_folds(&mesh, &Cancelled), Err(SeamError::Cancelled));
+            assert_eq!(table(&mesh, MATCHING_LIMIT, &Cancelled), Err(SeamError::Cancelled));
+        }
+        let large = fixtures::random_convex(250, 7);
+        assert_eq!(least_matching(&large, &Cancelled), Err(SeamError::Cancelled));
+        assert!(matches!(TwoPieceSearch::new(&large, &Cancelled), Err(SeamError::Cancelled)));
     }
 
     #[test]

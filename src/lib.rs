@@ -20,6 +20,7 @@ pub mod sheet;
 pub mod unfold;
 
 pub mod io;
+pub mod lint;
 pub mod picture;
 pub mod recipe;
 

@@ -41,10 +41,14 @@ const ROOMS: &[Room] = &[
     room(3, "unfold", &["geom", "units", "mesh", "measure", "seam", "select", "net", "progress"]),
     room(3, "panel", &["geom", "units", "mesh", "measure", "net", "progress"]),
     room(3, "sheet", &["geom", "units", "net", "progress"]),
+    room(3, "lint", &["geom", "units"]),
     room(
         4,
         "io",
-        &["geom", "units", "progress", "mesh", "net", "measure", "seam", "select", "check", "unfold", "panel", "sheet"],
+        &[
+            "geom", "units", "progress", "mesh", "net", "measure", "seam", "select", "check", "unfold", "panel",
+            "sheet", "lint",
+        ],
     ),
     room(4, "picture", &["geom", "units", "mesh", "measure", "net", "sheet"]),
     room(
@@ -52,7 +56,7 @@ const ROOMS: &[Room] = &[
         "recipe",
         &[
             "geom", "units", "progress", "mesh", "net", "measure", "shape", "seam", "select", "check", "op", "unfold",
-            "panel", "sheet", "io", "picture",
+            "panel", "sheet", "lint", "io", "picture",
         ],
     ),
     room(
@@ -60,7 +64,7 @@ const ROOMS: &[Room] = &[
         "cli",
         &[
             "geom", "units", "progress", "mesh", "net", "measure", "shape", "seam", "select", "check", "op", "unfold",
-            "panel", "sheet", "io", "picture", "recipe",
+            "panel", "sheet", "lint", "io", "picture", "recipe",
         ],
     ),
 ];
@@ -80,6 +84,8 @@ const DOORS: &[(&str, &[&str])] = &[
     ("i_overlay", &["src/sheet/kerf.rs"]),
     ("tobj", &["src/io/obj", "src/io/read/obj"]),
     ("svg", &["src/io/svg"]),
+    ("roxmltree", &["src/io/read/artwork/svg.rs"]),
+    ("miniz_oxide", &["src/io/read/artwork/"]),
     ("tiny_skia", &["src/picture/"]),
     ("serde_json", &["src/io/", "src/cli/"]),
     ("toml", &["src/recipe/"]),

@@ -5,7 +5,9 @@ use std::path::PathBuf;
 
 use crate::check::CheckError;
 use crate::io::IoError;
+use crate::io::artwork::ArtError;
 use crate::io::pieces_json::PiecesJsonError;
+use crate::lint::LimitError;
 use crate::op::OpError;
 use crate::picture::PictureError;
 use crate::recipe::{RecipeError, StepError, StepFailure};
@@ -27,6 +29,12 @@ pub(super) enum CliError {
     Picture(#[from] PictureError),
     #[error(transparent)]
     Seam(#[from] SeamError),
+    #[error(transparent)]
+    Limit(LimitError),
+    #[error("{}: {error}", path.display())]
+    Artwork { path: PathBuf, error: ArtError },
+    #[error("{}: sheets are written as SVG, DXF, PDF or LightBurn project; name the file something.svg, .dxf, .pdf or .lbrn2", path.display())]
+    UnknownSheetFormat { path: PathBuf },
     #[error(transparent)]
     Step(#[from] StepFailure),
     #[error("{}: {error}", path.display())]

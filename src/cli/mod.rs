@@ -10,6 +10,8 @@ mod error;
 mod hull;
 mod info;
 mod input;
+mod kerf_test;
+mod lint;
 mod manual;
 mod output;
 mod render;
@@ -51,6 +53,8 @@ enum Verb {
     Seams(seams::SeamsArgs),
     Dform(dform::DformArgs),
     Verify(verify::VerifyArgs),
+    Lint(lint::LintArgs),
+    KerfTest(kerf_test::KerfTestArgs),
     Run(run::RunArgs),
     Render(render::RenderArgs),
     Completions(manual::CompletionsArgs),
@@ -84,6 +88,8 @@ pub fn run() -> ExitCode {
         Verb::Seams(args) => seams::run(&args, &console),
         Verb::Dform(args) => dform::run(&args, &console),
         Verb::Verify(args) => verify::run(&args, &console),
+        Verb::Lint(args) => lint::run(&args, &console),
+        Verb::KerfTest(args) => kerf_test::run(&args, &console),
         Verb::Run(args) => run::run(&args, &console),
         Verb::Render(args) => render::run(&args, &console),
         Verb::Completions(args) => manual::completions(&args),

@@ -40,7 +40,7 @@ pub(super) fn finish(job: &Job, name: Option<String>, folder: &Path, console: &C
     if console.json {
         let summary = json!({
             "command": command, "name": name, "written": written, "notes": job.notes, "model": model_json(job.mesh()?),
-            "verdict": report.verdict().name(), "fabrication": job.fabrication.as_ref().map(|(f, _)| summary_json(f)),
+            "verdict": report.verdict().name(), "fabrication": job.fabrication.as_ref().map(|(f, sheet)| summary_json(f, sheet)),
         });
         console.result(&format!("{summary:#}\n"))?;
     } else {
@@ -52,7 +52,7 @@ pub(super) fn finish(job: &Job, name: Option<String>, folder: &Path, console: &C
             report.verdict().name(),
             job.check.profile.name()
         );
-        text += &job.fabrication.as_ref().map_or_else(String::new, |(f, _)| summary_text(f));
+        text += &job.fabrication.as_ref().map_or_else(String::new, |(f, sheet)| summary_text(f, sheet));
         for path in &written {
             text += &format!("wrote {}\n", path.display());
         }

@@ -1,6 +1,6 @@
 //! `kerfold unfold`
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
@@ -9,7 +9,7 @@ use super::input::Input;
 use super::output::{command_line, model_text, short};
 use super::terminal::Terminal;
 use super::{Console, Outcome};
-use crate::recipe::{FabricateParams, Fabrication, fabricate, fabrication_outputs};
+use crate::recipe::{FabricateParams, Fabrication, StepFailure, fabricate, fabrication_outputs, with_material};
 use crate::sheet::SheetParams;
 use crate::unfold::{Source, UnfoldParams};
 
@@ -32,24 +32,25 @@ pub(super) struct UnfoldArgs {
 
 pub(super) fn run(args: &UnfoldArgs, console: &Console) -> Result<Outcome, CliError> {
     let read = args.input.read()?;
+    let sheet = with_material(&args.sheet, Path::new("")).map_err(StepFailure::from)?;
     let progress = Terminal::new(console.quiet);
     let source = Source { scale: read.scale, split_vertices: &read.splits };
-    let fabrication = fabricate(&read.mesh, None, (&args.unfold, &args.choice, &args.sheet), &source, &progress)?;
+    let fabrication = fabricate(&read.mesh, None, (&args.unfold, &args.choice, &sheet), &source, &progress)?;
     let command = command_line();
-    let written = Console::write_folder(&args.output, fabrication_outputs(&fabrication, &args.sheet, &command)?)?;
+    let written = Console::write_folder(&args.output, fabrication_outputs(&fabrication, &sheet, &command)?)?;
     let notes: Vec<String> = read.notes.iter().map(ToString::to_string).chain(fabrication.notes()).collect();
     if console.json {
-        let summary = json!({ "command": command, "written": written, "notes": notes, "fabrication": summary_json(&fabrication) });
+        let summary = json!({ "command": command, "written": written, "notes": notes, "fabrication": summary_json(&fabrication, &sheet) });
         console.result(&format!("{summary:#}\n"))?;
     } else {
         console.notes(&notes);
-        console.result(&format!("{}\n{}", model_text(&read.mesh), summary_text(&fabrication)))?;
+        console.result(&format!("{}\n{}", model_text(&read.mesh), summary_text(&fabrication, &sheet)))?;
     }
     Ok(Outcome::Clean)
 }
 
 /// Pieces, sheets and proof in a few lines.
-pub(super) fn summary_text(fabrication: &Fabrication) -> String {
+pub(super) fn summary_text(fabrication: &Fabrication, sheet: &SheetParams) -> String {
     let (net, layout) = (&fabrication.net, &fabrication.sheets.layout);
     let mut text = format!(
         "{} pieces, {} folds, {} seams, {} rim edges\n",
@@ -70,16 +71,23 @@ pub(super) fn summary_text(fabrication: &Fabrication) -> String {
             short(layout.cut_length),
             short(layout.score_length)
         );
+        text += &format!("{} mm between lines", short(fabrication.sheets.travel_length()));
+        if let Some((material, seconds)) = sheet.made_of.as_ref().zip(fabrication.sheets.seconds(sheet)) {
+            text +=
+                &format!(", about {} min on the machine for {}", short((seconds / 6.0).ceil() / 10.0), material.title);
+        }
+        text += "\n";
     }
     text
 }
 
-pub(super) fn summary_json(fabrication: &Fabrication) -> serde_json::Value {
+pub(super) fn summary_json(fabrication: &Fabrication, sheet: &SheetParams) -> serde_json::Value {
     let (net, layout) = (&fabrication.net, &fabrication.sheets.layout);
     json!({
         "pieces": net.pieces.len(), "folds": net.folds.len(), "seams": net.seams.len(), "rims": net.rims.len(),
         "proof": { "congruence_mm": net.proof.congruence_mm, "refold_mm": net.proof.refold_mm, "overlaps": net.proof.overlaps },
         "sheets": layout.sheets.len(), "density": layout.density,
         "cut_length": layout.cut_length, "score_length": layout.score_length,
+        "travel_length": fabrication.sheets.travel_length(), "seconds": fabrication.sheets.seconds(sheet),
     })
 }

@@ -23,6 +23,7 @@ mod write;
 
 pub use error::{ContentFault, IoError, Place};
 pub use format::MeshFormat;
+pub use read::artwork;
 pub use read::{MeshUnit, ReadMesh, ReadNote, ReadOptions, read_mesh, read_mesh_bytes, read_seams};
 pub use write::glb;
 pub use write::{PlyEncoding, WriteOptions, mesh_bytes, write_mesh};

@@ -13,7 +13,7 @@ pub fn sheet_bytes(drawing: &Drawing, format: SheetFormat, params: &SheetParams,
         SheetFormat::Svg => write_svg(drawing, params.style(), command).into_bytes(),
         SheetFormat::Dxf => write_dxf(drawing, command).into_bytes(),
         SheetFormat::Pdf => write_pdf(drawing, params.style(), command),
-        SheetFormat::Lbrn2 => write_lbrn2(drawing, |_| None, command).into_bytes(),
+        SheetFormat::Lbrn2 => write_lbrn2(drawing, |layer| params.speed(layer), command).into_bytes(),
     }
 }
 

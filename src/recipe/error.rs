@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::materials::MaterialError;
 use crate::check::CheckError;
 use crate::io::IoError;
 use crate::io::planes_csv::PlanesError;
@@ -132,6 +133,9 @@ pub enum StepFailure {
     /// The pieces could not be laid out.
     #[error(transparent)]
     Sheet(#[from] SheetError),
+    /// The material could not be taken.
+    #[error(transparent)]
+    Material(#[from] MaterialError),
     /// The picture could not be drawn.
     #[error(transparent)]
     Picture(#[from] PictureError),

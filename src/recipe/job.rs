@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::{
     DformParams, FabricateParams, Fabrication, Recipe, Step, StepError, StepFailure, carve_dform, fabricate,
-    solid_of_planes,
+    solid_of_planes, with_material,
 };
 use crate::check::{CheckParams, Report, check};
 use crate::io::{ReadMesh, read_mesh};
@@ -116,8 +116,10 @@ impl Job {
             }
             Step::Check(params) => (self.check, self.is_check_asked) = (params.clone(), true),
             Step::Render(params) => self.render = params.clone(),
-            Step::Dform { dform, sheet } => self.dform(dform, sheet, progress)?,
-            Step::Unfold { unfold, fabricate, sheet } => self.unfold(unfold, fabricate, sheet, folder, progress)?,
+            Step::Dform { dform, sheet } => self.dform(dform, &with_material(sheet, folder)?, progress)?,
+            Step::Unfold { unfold, fabricate, sheet } => {
+                self.unfold(unfold, fabricate, &with_material(sheet, folder)?, folder, progress)?
+            }
         }
         Ok(())
     }

@@ -104,6 +104,8 @@ impl Fabrication {
         note(unnamed.len(), format!("no room for the names of pieces {}", piece_list(unnamed)));
         note(report.unnumbered_sides, format!("no room for {} seam numbers", report.unnumbered_sides));
         note(report.flat_folds, format!("{} folds are flat and were not scored", report.flat_folds));
+        let unscored = report.unscored_folds;
+        note(unscored, format!("{unscored} folds are shorter than what is left out at their ends and were not scored"));
         note(report.lost_holes, format!("{} holes are narrower than the kerf and were left out", report.lost_holes));
         let closed = report.closed_notches;
         note(closed, format!("{closed} notches are narrower than the kerf: flaps hang together there"));

@@ -11,13 +11,11 @@ use super::joint::{FlapFold, Jointed, directed};
 use super::kerf::CutShape;
 use super::label::{Label, Taken, is_clear, name_label, number_across, number_label};
 use super::layout::{Layout, Placed, SheetReport};
-use super::params::{Angles, Labels, ScoreStyle, SheetParams, Stock};
+use super::params::{Angles, Labels, SheetParams, Stock};
+use super::score::{Hinges, ScorePlan, hold};
 use super::stretch::Stretch;
 use crate::geom::polygon::{Location, bounds, locate};
 use crate::net::{Fold, FoldKind, Net, Piece, PieceId, Seam};
-
-/// Length of a dash, and about the length of the gap after it, in mm.
-const DASH: f64 = 2.0;
 
 /// Sides of the reference square that are tried, in mm.
 const REFERENCE_SIDES: [f64; 3] = [100.0, 10.0, 1.0];
@@ -64,6 +62,8 @@ pub(crate) fn draw(
     let features = features(net, stretches)?;
     let by_id: BTreeMap<PieceId, (&Piece, &CutShape)> =
         net.pieces.iter().zip(shapes).map(|(p, s)| (p.id, (p, s))).collect();
+    let score = ScorePlan::of(params)?;
+    let tabs = hold_of(params)?;
     let mut report = SheetReport::default();
     let mut drawings = Vec::new();
     for sheet in &layout.sheets {
@@ -71,25 +71,39 @@ pub(crate) fn draw(
         for placed in &sheet.placed {
             let (piece, shape) = by_id[&placed.piece];
             let here = &features[&placed.piece];
-            draw_cuts(&mut drawing, shape, placed);
-            draw_folds(&mut drawing, here, placed, params.score, &mut report);
+            draw_cuts(&mut drawing, shape, placed, tabs);
+            let hinges = score.hinges(piece, &here.folds);
+            draw_folds(&mut drawing, here, placed, (&score, &hinges), &mut report);
             let flaps = jointed.iter().flat_map(|j| &j.flap_folds).filter(|f| f.piece == piece.id);
-            draw_flap_folds(&mut drawing, flaps, placed, params.score);
-            let obstacles: Vec<Vec<DVec2>> =
+            draw_flap_folds(&mut drawing, flaps, placed, &score);
+            let mut obstacles: Vec<Vec<DVec2>> =
                 if jointed.is_some() { shape.contours().cloned().collect() } else { Vec::new() };
+            obstacles.extend(hinges.rows.iter().flat_map(|r| &r.slits).map(|slit| slit.to_vec()));
             let lettering = Lettering { net, piece, here, placed, obstacles: &obstacles, params };
             lettering.draw(&mut drawing, &mut report)?;
         }
         draw_info(&mut drawing, stock, params)?;
+        drawing.arrange();
         drawings.push(drawing);
     }
     Ok((drawings, report))
 }
 
-fn draw_cuts(drawing: &mut Drawing, shape: &CutShape, placed: &Placed) {
+/// Number and width in mm of the tabs that hold every part.
+fn hold_of(params: &SheetParams) -> Result<(usize, f64), SheetError> {
+    let width = params.hold_width.map_or(0.5, |w| w.mm());
+    match params.hold {
+        0 if params.hold_width.is_some() => Err(SheetError::HoldOption),
+        0..=100 if width >= 0.05 && width.is_finite() => Ok((params.hold as usize, width)),
+        0..=100 => Err(SheetError::OutOfRange { name: "hold-width", value: width, least: 0.05 }),
+        count => Err(SheetError::TooManyTabs { count }),
+    }
+}
+
+fn draw_cuts(drawing: &mut Drawing, shape: &CutShape, placed: &Placed, (tabs, width): (usize, f64)) {
     let id = shape.piece;
     let stroke = |points: &[DVec2], closed| vec![Stroke { points: placed.apply_all(points), closed }];
-    drawing.add(MarkKind::Outline, id.to_string(), Some(id), stroke(&shape.outline, true));
+    drawing.add(MarkKind::Outline, id.to_string(), Some(id), hold(&placed.apply_all(&shape.outline), tabs, width));
     for (i, hole) in shape.holes.iter().enumerate() {
         drawing.add(MarkKind::Hole, format!("{id}-hole-{}", i + 1), Some(id), stroke(hole, true));
     }
@@ -102,7 +116,7 @@ fn draw_folds(
     drawing: &mut Drawing,
     here: &Features<'_>,
     placed: &Placed,
-    style: ScoreStyle,
+    (score, hinges): (&ScorePlan, &Hinges),
     report: &mut SheetReport,
 ) {
     for fold in &here.folds {
@@ -114,12 +128,22 @@ fn draw_folds(
                 continue;
             }
         };
+        if hinges.folds.contains(&fold.id) {
+            continue;
+        }
         let [a, b] = fold.segment.map(|p| placed.apply(p));
-        let style = match (style, kind) {
-            (ScoreStyle::Valleys, MarkKind::ValleyFold) => ScoreStyle::Dashed,
-            _ => style,
-        };
-        drawing.add(kind, fold.id.to_string(), Some(placed.piece), score_strokes(a, b, style));
+        let strokes = score.strokes(a, b, kind == MarkKind::ValleyFold);
+        if strokes.is_empty() {
+            report.unscored_folds += 1;
+            continue;
+        }
+        let kind = if score.is_cut() { MarkKind::Perforation } else { kind };
+        drawing.add(kind, fold.id.to_string(), Some(placed.piece), strokes);
+    }
+    for row in &hinges.rows {
+        let slit = |s: &[DVec2; 2]| Stroke { points: placed.apply_all(s), closed: false };
+        let id = format!("{}-slits-{}", row.fold, row.number);
+        drawing.add(MarkKind::Hinge, id, Some(placed.piece), row.slits.iter().map(slit).collect());
     }
 }
 
@@ -127,29 +151,16 @@ fn draw_flap_folds<'a>(
     drawing: &mut Drawing,
     folds: impl Iterator<Item = &'a FlapFold>,
     placed: &Placed,
-    style: ScoreStyle,
+    score: &ScorePlan,
 ) {
     for fold in folds {
         let [a, b] = fold.segment.map(|p| placed.apply(p));
-        drawing.add(MarkKind::FlapFold, format!("{}-flap", fold.id), Some(placed.piece), score_strokes(a, b, style));
+        let kind = if score.is_cut() { MarkKind::Perforation } else { MarkKind::FlapFold };
+        let strokes = score.strokes(a, b, false);
+        if !strokes.is_empty() {
+            drawing.add(kind, format!("{}-flap", fold.id), Some(placed.piece), strokes);
+        }
     }
-}
-
-/// A fold as one line, or as dashes that begin and end at its ends.
-fn score_strokes(a: DVec2, b: DVec2, style: ScoreStyle) -> Vec<Stroke> {
-    let length = a.distance(b);
-    // As many gaps of about a dash's length as leave room for a dash at each end.
-    let gaps = ((length - DASH) / (2.0 * DASH)).round();
-    if style != ScoreStyle::Dashed || gaps.is_nan() || gaps < 1.0 {
-        return vec![Stroke { points: vec![a, b], closed: false }];
-    }
-    let period = (length - DASH) / gaps;
-    let at = |distance: f64| a.lerp(b, distance / length);
-    let dash = |i: u32| Stroke {
-        points: vec![at(f64::from(i) * period), at((f64::from(i) * period + DASH).min(length))],
-        closed: false,
-    };
-    (0..=gaps as u32).map(dash).collect()
 }
 
 /// What is lettered first and so gets the best place.
@@ -395,9 +406,11 @@ fn free_corner(drawing: &Drawing, stock: &Stock, side: f64) -> Option<DVec2> {
 #[cfg(test)]
 mod tests {
     use super::super::drawing::LayerKind;
+    use super::super::drawing::Mark;
     use super::super::label::segments_meet;
     use super::super::lay_out;
-    use super::super::testing::{net_of, random_convex, ring, square, two_pieces};
+    use super::super::params::ScoreStyle;
+    use super::super::testing::{net_of, random_convex, ring, square, strips, two_pieces};
     use super::super::verify::edges;
     use super::*;
     use crate::units::Length;
@@ -427,7 +440,9 @@ mod tests {
         assert_eq!(drawing.layers.iter().map(|l| l.kind).collect::<Vec<_>>(), LayerKind::ALL);
         assert_eq!(ids(&drawing, LayerKind::CutOuter), ["P01", "P02"]);
         assert_eq!(ids(&drawing, LayerKind::Score), ["E004"]);
-        assert_eq!(ids(&drawing, LayerKind::Engrave), ["P01-name", "E016-number-1", "P02-name", "E016-number-2"]);
+        let mut engraved = ids(&drawing, LayerKind::Engrave);
+        engraved.sort_unstable();
+        assert_eq!(engraved, ["E016-number-1", "E016-number-2", "P01-name", "P02-name"]);
         assert_eq!(ids(&drawing, LayerKind::Info), ["reference", "note"]);
         assert_eq!(report, SheetReport::default());
         let mut seen: Vec<[DVec2; 2]> = Vec::new();
@@ -474,15 +489,48 @@ mod tests {
     }
 
     #[test]
-    fn dashes_begin_and_end_with_a_dash() {
-        let dashes = score_strokes(DVec2::ZERO, DVec2::new(30.0, 0.0), ScoreStyle::Dashed);
-        assert_eq!(dashes.len(), 8);
-        assert_eq!(dashes[0].points[0], DVec2::ZERO);
-        assert!((dashes[7].points[1].x - 30.0).abs() < 1e-12);
-        assert!(dashes.iter().all(|d| (d.length() - 2.0).abs() < 1e-12));
-        assert_eq!(score_strokes(DVec2::ZERO, DVec2::new(3.0, 0.0), ScoreStyle::Dashed).len(), 1);
-        let (drawing, _) = drawn(&two_pieces(), &SheetParams { score: ScoreStyle::Dashed, ..SheetParams::default() });
-        assert!((drawing.score_length() - 16.0).abs() < 1e-9);
+    fn dashed_perforated_and_held_sheets_have_their_lines_on_the_right_layers() {
+        let with = |score| drawn(&two_pieces(), &SheetParams { score, ..SheetParams::default() }).0;
+        assert!((with(ScoreStyle::Dashed).score_length() - 16.0).abs() < 1e-9);
+        let perforated = with(ScoreStyle::Perforated);
+        assert_eq!(
+            (ids(&perforated, LayerKind::Score).len(), ids(&perforated, LayerKind::CutInner)),
+            (0, vec!["E004"])
+        );
+        let held = SheetParams { hold: 3, ..SheetParams::default() };
+        let (whole, _) = drawn(&two_pieces(), &SheetParams::default());
+        let (drawing, _) = drawn(&two_pieces(), &held);
+        assert!((whole.cut_length() - drawing.cut_length() - 3.0).abs() < 1e-9);
+        let error =
+            lay_out(&two_pieces(), &SheetParams { hold_width: Some(Length::from_mm(1.0)), ..Default::default() });
+        assert_eq!(error, Err(SheetError::HoldOption));
+    }
+
+    #[test]
+    fn a_chain_of_narrow_faces_becomes_one_hinge_field() {
+        let net = strips(8, 5.0, 80.0);
+        let params = SheetParams { hinge: Some(Length::from_mm(6.0)), ..SheetParams::default() };
+        let (drawing, _) = drawn(&net, &params);
+        // Six narrow faces between two wide ones: seven folds, none scored, and a row between every two.
+        assert_eq!(ids(&drawing, LayerKind::Score), [""; 0]);
+        let rows: Vec<&Mark> = drawing.marks().filter(|m| m.kind == MarkKind::Hinge).collect();
+        assert_eq!(rows.len(), 7 + 6);
+        // No two neighbouring rows have a bridge in the same place: nothing is left unslit across three rows.
+        let mut lines: Vec<(f64, Vec<[f64; 2]>)> = rows
+            .iter()
+            .map(|m| {
+                (m.strokes[0].points[0].x, m.strokes.iter().map(|s| sorted([s.points[0].y, s.points[1].y])).collect())
+            })
+            .collect();
+        lines.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for pair in lines.windows(2) {
+            assert!((pair[1].0 - pair[0].0 - 2.5).abs() < 1e-9);
+            assert_ne!(pair[0].1.len(), pair[1].1.len());
+        }
+    }
+
+    fn sorted([a, b]: [f64; 2]) -> [f64; 2] {
+        [a.min(b), a.max(b)]
     }
 
     #[test]

@@ -61,10 +61,16 @@ pub enum MarkKind {
     MountainFold,
     /// A concave fold, bent towards the viewer.
     ValleyFold,
+    /// A fold that is cut through with bridges.
+    Perforation,
+    /// A row of slits of a living hinge.
+    Hinge,
     /// Boundary of a hole.
     Hole,
     /// An open cut that ends on a closed one.
     Slit,
+    /// Boundary of a piece that lies in a hole of another: cut before it.
+    NestedOutline,
     /// Boundary of a piece.
     Outline,
     /// A square to measure after cutting or printing.
@@ -77,13 +83,13 @@ pub enum MarkKind {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mark {
     /// Unique in its drawing: `P01`, `P01-hole-1`, `P01-slit-1`, `P01-name`, `E012`, `E013-number-1`, `E013-mark-1`,
-    /// `E012-angle`, `E013-flap`, `reference`, `note`.
+    /// `E012-angle`, `E013-flap`, `E012-slits-1`, `reference`, `note`.
     pub id: String,
     /// What it means.
     pub kind: MarkKind,
     /// The piece that it is on, if on any.
     pub piece: Option<PieceId>,
-    /// Its lines; cuts have exactly one, letters and dashes several.
+    /// Its lines; contours have exactly one unless they are held by tabs, letters and dashes several.
     pub strokes: Vec<Stroke>,
 }
 
@@ -118,7 +124,7 @@ impl MarkKind {
         match self {
             Self::PieceName | Self::SeamNumber | Self::FoldAngle | Self::SeamMark => LayerKind::Engrave,
             Self::FlapFold | Self::MountainFold | Self::ValleyFold => LayerKind::Score,
-            Self::Hole | Self::Slit => LayerKind::CutInner,
+            Self::Perforation | Self::Hinge | Self::Hole | Self::Slit | Self::NestedOutline => LayerKind::CutInner,
             Self::Outline => LayerKind::CutOuter,
             Self::Reference | Self::Note => LayerKind::Info,
         }
@@ -136,7 +142,9 @@ impl MarkKind {
             Self::ValleyFold => "valley",
             Self::Hole => "hole",
             Self::Slit => "slit",
-            Self::Outline => "outline",
+            Self::Perforation => "perforation",
+            Self::Hinge => "hinge",
+            Self::NestedOutline | Self::Outline => "outline",
             Self::Reference => "reference",
             Self::Note => "note",
         }
@@ -179,7 +187,7 @@ impl Drawing {
     }
 
     fn length(&self, wanted: impl Fn(LayerKind) -> bool) -> f64 {
-        self.marks().filter(|m| wanted(m.kind.layer())).flat_map(|m| &m.strokes).map(Stroke::length).sum()
+        self.layers.iter().filter(|l| wanted(l.kind)).map(Layer::length).sum()
     }
 
     pub(crate) fn add(&mut self, kind: MarkKind, id: String, piece: Option<PieceId>, strokes: Vec<Stroke>) {

@@ -31,6 +31,35 @@ pub enum SheetError {
         /// Whether the option lacks; else it is one too many.
         is_missing: bool,
     },
+    /// A length for dashes where nothing is dashed.
+    #[error("{option} needs folds that are dashed or perforated; choose a score that is, or leave it out")]
+    ScoreOption {
+        /// The option, as a flag without its dashes.
+        option: &'static str,
+    },
+    /// A width for holding tabs without any.
+    #[error("hold-width needs the number of tabs that hold every part; give hold, for example 3")]
+    HoldOption,
+    /// More holding tabs than make sense.
+    #[error("hold is {count}, but must be 100 at most")]
+    TooManyTabs {
+        /// What it was.
+        count: u32,
+    },
+    /// A speed that nothing moves at.
+    #[error("speed {name} is {value} mm/s, but must be more than 0 and finite")]
+    BadSpeed {
+        /// Which one.
+        name: &'static str,
+        /// What it was.
+        value: f64,
+    },
+    /// A material by name that nobody looked up.
+    #[error("material {name} was not looked up; take the parameters from `recipe::with_material`")]
+    MaterialNotTaken {
+        /// The name.
+        name: String,
+    },
     /// An angle of flaps outside its range.
     #[error("flap-angle is {degrees}°, but must be 20° to 90°")]
     FlapAngle {

@@ -113,9 +113,62 @@ fn grow(contours: &[Vec<DVec2>], centre: DVec2, by: f64) -> Vec<Vec<Vec<DVec2>>>
     let style = OutlineStyle::new(by)
         .line_join(LineJoin::Miter(SHARPEST_MITRE.to_radians()))
         .miter_min_turn(STRAIGHTEST_MITRE.to_radians());
-    let to_points = |c: Vec<[f64; 2]>| c.into_iter().map(|p| DVec2::from(p) + centre).collect();
+    let to_points = |c: Vec<[f64; 2]>| {
+        let points: Vec<DVec2> = c.into_iter().map(|p| DVec2::from(p) + centre).collect();
+        sharpened(straightened(points, by), SHORT_BEVEL * by)
+    };
     let shapes = shape.outline_as::<i64>(&style);
     shapes.into_iter().map(|s| s.into_iter().map(to_points).collect()).collect()
+}
+
+/// A contour without the points that growing by `by` leaves on straight edges beside a mitre: where it turns by no more than
+/// rounding, no further from a corner than a mitre reaches.
+fn straightened(points: Vec<DVec2>, by: f64) -> Vec<DVec2> {
+    let n = points.len();
+    let is_idle = |i: usize| {
+        let (a, p, b) = (points[(i + n - 1) % n], points[i], points[(i + 1) % n]);
+        let (u, v) = (p - a, b - p);
+        let turn = u.perp_dot(v).abs() / (u.length() * v.length());
+        u.length().min(v.length()) < 4.0 * by && u.dot(v) > 0.0 && turn < NO_TURN
+    };
+    let kept: Vec<DVec2> = (0..n).filter(|&i| !is_idle(i)).map(|i| points[i]).collect();
+    if kept.len() < 3 { points } else { kept }
+}
+
+/// Turns below this, in radians, are rounding.
+const NO_TURN: f64 = 1e-6;
+
+/// Bevels shorter than this part of the offset become corners, where the edges around them turn by less than about 11°.
+const SHORT_BEVEL: f64 = 0.1;
+
+/// The cosine of that angle.
+const STRAIGHT: f64 = 0.98;
+
+/// A contour whose runs of edges shorter than `least` have given way to the corner of the edges around them. Growing cuts
+/// nearly straight corners off; such edges are shorter than any machine's step and look like lines drawn twice.
+fn sharpened(points: Vec<DVec2>, least: f64) -> Vec<DVec2> {
+    let n = points.len();
+    let at = |i: usize| points[i % n];
+    let is_short = |i: usize| at(i).distance(at(i + 1)) < least;
+    // Begin where a long edge begins, so that no run goes over the end.
+    let Some(first) = (0..n).find(|&i| !is_short(i)) else { return points };
+    let mut sharp: Vec<DVec2> = Vec::with_capacity(n);
+    let mut i = first + 1;
+    while i <= first + n {
+        let run = (i..first + n).take_while(|&k| is_short(k)).count();
+        let (before, q, r, after) = (at(i - 1), at(i), at(i + run), at(i + run + 1));
+        let (u, v) = (q - before, r - after);
+        let corner = q + u * ((r - q).perp_dot(v) / u.perp_dot(v));
+        // Only nearly straight corners; what cuts a needle off square stays.
+        let is_straight = u.dot(-v) > STRAIGHT * u.length() * v.length();
+        if run > 0 && is_straight && corner.is_finite() && corner.distance(q) < least && corner.distance(r) < least {
+            sharp.push(corner);
+        } else {
+            sharp.extend((i..=i + run).map(at));
+        }
+        i += run + 1;
+    }
+    if sharp.len() < 3 { points } else { sharp }
 }
 
 #[cfg(test)]
@@ -152,6 +205,19 @@ mod tests {
         assert_eq!(grown.outline.len(), 4);
         assert!((grown.area() - 10.2 * 10.2).abs() < 1e-6, "{}", grown.area());
         assert!(grown.slits.is_empty());
+    }
+
+    #[test]
+    fn nearly_straight_corners_stay_corners() {
+        let n = 160;
+        let round: Vec<DVec2> =
+            (0..n).map(|i| 50.0 * DVec2::from_angle(f64::from(i) * std::f64::consts::TAU / f64::from(n))).collect();
+        let grown = cut(round.clone(), 0.15);
+        assert_eq!(grown.outline.len(), round.len());
+        let turned = cut(random_convex(5), 0.15);
+        assert_eq!(turned.outline.len(), random_convex(5).len());
+        let mitre = 50.0 + 0.075 / (std::f64::consts::PI / f64::from(n)).cos();
+        assert!(grown.outline.iter().all(|p| (p.length() - mitre).abs() < 1e-6));
     }
 
     #[test]

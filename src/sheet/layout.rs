@@ -19,7 +19,7 @@ use crate::geom::polygon::bounds;
 use crate::net::{Net, Piece, PieceId};
 
 /// A sheet's number, counted from 0, shown as `S01`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub struct SheetId(pub usize);
 
 /// Which piece lies where: what `layout.json` holds.
@@ -36,7 +36,7 @@ pub struct Layout {
 }
 
 /// One sheet of stock.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Sheet {
     /// Its name.
     pub id: SheetId,
@@ -105,6 +105,8 @@ pub struct SheetReport {
     pub unnumbered_sides: usize,
     /// Folds between faces in one plane: nothing to score.
     pub flat_folds: usize,
+    /// Folds shorter than what is left out at their ends.
+    pub unscored_folds: usize,
     /// Holes narrower than the kerf, which nothing can cut.
     pub lost_holes: usize,
     /// Notches narrower than the kerf that no single cut could open from end to end: the flaps hang together there.
@@ -145,6 +147,7 @@ pub fn fits(piece: &Piece, params: &SheetParams) -> Result<bool, SheetError> {
 /// pieces that fit at no angle, so that they can be split; [`SheetError::BadContour`], [`SheetError::KerfSplit`] and
 /// [`SheetError::UnknownPiece`] for a broken net; what [`verify`] finds, for a bug of ours.
 pub fn lay_out(net: &Net, params: &SheetParams) -> Result<SheetSet, SheetError> {
+    params.check_material()?;
     let Some(stock) = params.stock()? else {
         return Ok(SheetSet::default());
     };

@@ -1,6 +1,7 @@
 //! How sheets are laid out and drawn: one definition for the library, the command line and the recipe.
 
 use std::fmt;
+use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::ValueEnum;
@@ -8,8 +9,9 @@ use glam::DVec2;
 use serde::{Deserialize, Deserializer};
 
 use super::error::SheetError;
-use super::files::{Colours, Formats, Paper, PartFiles, Style};
+use super::files::{Formats, Paper, PartFiles};
 use super::joint::{FlapSide, Joint};
+use super::material::Material;
 use crate::units::{Angle, Length, UnitError, parse_number};
 
 /// Smallest spacing in mm: nearer cut lines would be one line in a file with four decimals.
@@ -30,7 +32,19 @@ pub struct SheetParams {
     #[arg(long, value_name = "LENGTH", default_value = "3mm")]
     #[serde(default = "default_spacing")]
     pub spacing: Length,
-    /// Full width of the cut: outlines grow by half of it, holes shrink; 0 or more
+    /// Name of the material, as in `ply3`: thickness, kerf, colours and speeds
+    #[arg(long, value_name = "NAME")]
+    #[serde(default)]
+    pub material: Option<String>,
+    /// A file with further materials (TOML)
+    #[arg(long, value_name = "FILE")]
+    #[serde(default)]
+    pub materials: Option<PathBuf>,
+    /// The material itself, once it was looked up
+    #[arg(skip)]
+    #[serde(skip)]
+    pub made_of: Option<Material>,
+    /// Full width of the cut: outlines grow by half of it, holes shrink; 0 or more. With 0 the material's kerf is taken
     #[arg(long, value_name = "LENGTH", default_value = "0mm")]
     #[serde(default)]
     pub kerf: Length,
@@ -58,6 +72,30 @@ pub struct SheetParams {
     #[arg(long, value_enum, default_value = "solid")]
     #[serde(default)]
     pub score: ScoreStyle,
+    /// Length of a dash or of a cut of a perforation, at least 0.1mm; 2mm, perforated 3mm unless given
+    #[arg(long, value_name = "LENGTH")]
+    #[serde(default)]
+    pub score_dash: Option<Length>,
+    /// Length of the gap or bridge between them, about, at least 0.1mm; 2mm, perforated 1mm unless given
+    #[arg(long, value_name = "LENGTH")]
+    #[serde(default)]
+    pub score_gap: Option<Length>,
+    /// How much of a fold is left out at both its ends, where folds run into corners; 0 or more
+    #[arg(long, value_name = "LENGTH", default_value = "0mm")]
+    #[serde(default)]
+    pub score_inset: Length,
+    /// Faces between two folds that are narrower than this become living hinges: staggered slits instead of scores
+    #[arg(long, value_name = "LENGTH")]
+    #[serde(default)]
+    pub hinge: Option<Length>,
+    /// Holding tabs: at how many places the outline of every part is left uncut, 0 to 100
+    #[arg(long, value_name = "N", default_value = "0")]
+    #[serde(default)]
+    pub hold: u32,
+    /// Width of a holding tab, at least 0.05mm; 0.5mm unless given
+    #[arg(long, value_name = "LENGTH")]
+    #[serde(default)]
+    pub hold_width: Option<Length>,
     /// Whether the angles of folds are engraved beside them, in degrees; valleys are negative
     #[arg(long, value_enum, default_value = "off")]
     #[serde(default)]
@@ -118,6 +156,9 @@ impl Default for SheetParams {
             sheet: default_sheet(),
             margin: default_margin(),
             spacing: default_spacing(),
+            material: None,
+            materials: None,
+            made_of: None,
             kerf: Length::default(),
             preset: Preset::default(),
             format: Formats::default(),
@@ -125,6 +166,12 @@ impl Default for SheetParams {
             part_files: PartFiles::default(),
             labels: Labels::default(),
             score: ScoreStyle::default(),
+            score_dash: None,
+            score_gap: None,
+            score_inset: Length::default(),
+            hinge: None,
+            hold: 0,
+            hold_width: None,
             angles: Angles::default(),
             joint: Joint::default(),
             flap_width: None,
@@ -207,6 +254,8 @@ pub enum ScoreStyle {
     Solid,
     /// Dashes of 2 mm with gaps of about 2 mm, beginning and ending with a dash.
     Dashed,
+    /// Cut through, with bridges, beginning and ending with a bridge.
+    Perforated,
     /// Mountains solid, valleys dashed.
     Valleys,
 }
@@ -305,9 +354,12 @@ impl Stock {
 }
 
 impl SheetParams {
-    /// The colours and widths of lines.
-    pub fn style(&self) -> Style {
-        Style { preset: self.preset, colours: Colours::default() }
+    /// Whether a material that is named was looked up.
+    pub(crate) fn check_material(&self) -> Result<(), SheetError> {
+        match &self.material {
+            Some(name) if self.made_of.is_none() => Err(SheetError::MaterialNotTaken { name: name.clone() }),
+            _ => Ok(()),
+        }
     }
 
     /// Checks all numbers; nothing for `sheet = none`.

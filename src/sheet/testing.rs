@@ -52,6 +52,36 @@ pub(crate) fn ring(id: PieceId) -> Piece {
     Piece { id, outline: outer.clone(), holes: vec![inner.iter().rev().copied().collect()], faces }
 }
 
+/// One piece of `count` upright strips side by side, folded between any two; the outer two are 30 mm wide.
+pub(crate) fn strips(count: usize, width: f64, height: f64) -> Net {
+    let mut net = net_of(vec![]);
+    let x = |i: usize| match i {
+        0 => 0.0,
+        i if i == count => 60.0 + width * (count - 2) as f64,
+        i => 30.0 + width * (i - 1) as f64,
+    };
+    let face = |i: usize| {
+        let polygon = points([(x(i), 0.0), (x(i + 1), 0.0), (x(i + 1), height), (x(i), height)]);
+        FlatFace { face: i, vertices: vec![2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1], polygon }
+    };
+    let bottom = (0..=count).map(|i| DVec2::new(x(i), 0.0));
+    let top = (0..=count).rev().map(|i| DVec2::new(x(i), height));
+    let outline = bottom.chain(top).collect();
+    net.folds = (1..count)
+        .map(|i| Fold {
+            id: EdgeLabel(i),
+            edge: [2 * i, 2 * i + 1],
+            piece: PieceId(0),
+            faces: [i - 1, i],
+            segment: [DVec2::new(x(i), 0.0), DVec2::new(x(i), height)],
+            fold_angle: 10.0,
+            kind: FoldKind::Mountain,
+        })
+        .collect();
+    net.pieces = vec![Piece { id: PieceId(0), outline, holes: vec![], faces: (0..count).map(face).collect() }];
+    net
+}
+
 /// Pieces of one face each, without seams.
 pub(crate) fn net_of(contours: Vec<Vec<DVec2>>) -> Net {
     let pieces = contours.into_iter().enumerate().map(|(i, c)| piece(PieceId(i), c)).collect();

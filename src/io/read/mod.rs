@@ -10,6 +10,7 @@ use crate::mesh::{BuildError, FaceId, Mesh, MeshBuilder, SplitVertex, VertexId};
 use crate::units::Length;
 use raw::RawMesh;
 
+pub mod artwork;
 mod obj;
 mod off;
 mod ply;

@@ -13,6 +13,7 @@ mod input;
 mod kerf_test;
 mod lint;
 mod manual;
+mod operator;
 mod output;
 mod render;
 mod run;
@@ -27,6 +28,8 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser, Subcommand};
 
 use output::Console;
+
+use crate::op::PlanarizeParams;
 
 /// Carve planar 3-valence meshes, check them, and unfold them into sheets that a shop can cut.
 #[derive(Debug, Parser)]
@@ -49,6 +52,9 @@ enum Verb {
     Check(check::CheckArgs),
     Cut(cut::CutArgs),
     Hull(hull::HullArgs),
+    /// Move vertices as little as possible until every face is planar to a profile; exit code 1 when that is not reached
+    #[command(after_help = "Example: kerfold planarize facade.obj --profile glass --rim fixed -o planar.obj")]
+    Planarize(operator::OperatorArgs<PlanarizeParams>),
     Unfold(unfold::UnfoldArgs),
     Seams(seams::SeamsArgs),
     Dform(dform::DformArgs),
@@ -84,6 +90,7 @@ pub fn run() -> ExitCode {
         Verb::Check(args) => check::run(&args, &console),
         Verb::Cut(args) => cut::run(&args, &console),
         Verb::Hull(args) => hull::run(&args, &console),
+        Verb::Planarize(args) => operator::run(&args, &console),
         Verb::Unfold(args) => unfold::run(&args, &console),
         Verb::Seams(args) => seams::run(&args, &console),
         Verb::Dform(args) => dform::run(&args, &console),

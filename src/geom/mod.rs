@@ -1,5 +1,6 @@
 //! Planes, frames, exact-sign predicates, plane fits and flat polygons; knows no mesh.
 
+mod bending;
 mod fit;
 mod frame;
 pub mod hull;
@@ -9,8 +10,10 @@ mod plane;
 pub mod polygon;
 pub mod predicate;
 mod rounding;
+pub mod sparse;
 mod triangulate;
 
+pub use bending::bending_patterns;
 pub use fit::fit_plane;
 pub use frame::Frame;
 pub use meet::{meet_planes, meet_planes_near};

@@ -144,6 +144,25 @@ pub enum OpError {
     /// A hull has more elements than a mesh can hold.
     #[error("the hull cannot be built: {0}")]
     Build(#[from] BuildError),
+    /// A weight is not in its range.
+    #[error("the {what} is {weight}, but it must be {least} and finite")]
+    WeightOutOfRange {
+        /// Which weight.
+        what: &'static str,
+        /// What was given.
+        weight: f64,
+        /// The range, in words.
+        least: &'static str,
+    },
+    /// Faces that are not planar and have no corner that may move.
+    #[error(
+        "faces {} are not planar, but all of their corners are fixed; free some of them, or fix fewer rims",
+        first_few(faces)
+    )]
+    AllCornersFixed {
+        /// The faces, by number.
+        faces: Vec<usize>,
+    },
     /// The user asked to stop.
     #[error("stopped before the end; nothing was written")]
     Cancelled,

@@ -3,16 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use super::{
-    DformParams, FabricateParams, Fabrication, Recipe, Step, StepError, StepFailure, carve_dform, fabricate,
+    DformParams, FabricateParams, Fabrication, OperatorStep, Recipe, Step, StepError, StepFailure, carve_dform, fabricate,
     solid_of_planes, with_material,
 };
 use crate::check::{CheckParams, Report, check};
 use crate::io::{ReadMesh, read_mesh};
 use crate::mesh::{Mesh, SplitVertex};
-use crate::op::{
-    CutReport, HullParams, HullStep, OpContext, OpError, hull, resolve, slice, truncate_edges, truncate_faces,
-    truncate_vertices,
-};
+use crate::op::{HullParams, HullStep, OpContext, OpError, hull};
 use crate::picture::RenderParams;
 use crate::progress::Progress;
 use crate::select::{Made, Selection};
@@ -92,26 +89,16 @@ impl Job {
                 self.notes.extend(report.notes());
                 self.start(mesh)?;
             }
-            Step::CutVertex(params) => {
-                self.cut("vertex", |mesh, context| truncate_vertices(mesh, params, context), progress)?
+            Step::Operator(OperatorStep { params, .. }) => {
+                let context = OpContext { made: self.made.as_ref(), progress };
+                let operated = params.operate(self.mesh()?, &context)?;
+                self.notes.extend(operated.notes);
+                (self.mesh, self.made) = (Some(operated.mesh), operated.made);
             }
-            Step::CutEdge(params) => {
-                self.cut("edge", |mesh, context| truncate_edges(mesh, params, context), progress)?
-            }
-            Step::CutFace(params) => {
-                self.cut("face", |mesh, context| truncate_faces(mesh, params, context), progress)?
-            }
-            Step::CutPlane(params) => self.cut("plane", |mesh, context| slice(mesh, params, context), progress)?,
             Step::Hull(params) => {
                 let (mesh, report) = hull(self.mesh()?, params, &OpContext { made: None, progress })?;
                 self.notes.extend(report.notes());
                 self.hull_steps = report.steps;
-                (self.mesh, self.made) = (Some(mesh), None);
-            }
-            Step::Resolve(params) => {
-                let context = OpContext { made: self.made.as_ref(), progress };
-                let (mesh, report) = resolve(self.mesh()?, params, &context)?;
-                self.notes.extend(report.notes());
                 (self.mesh, self.made) = (Some(mesh), None);
             }
             Step::Check(params) => (self.check, self.is_check_asked) = (params.clone(), true),
@@ -128,20 +115,6 @@ impl Job {
         if self.mesh.is_some() {
             return Err(StepFailure::SecondMesh);
         }
-        self.mesh = Some(mesh);
-        Ok(())
-    }
-
-    fn cut(
-        &mut self,
-        element: &'static str,
-        operate: impl FnOnce(&Mesh, &OpContext<'_>) -> Result<(Mesh, CutReport), OpError>,
-        progress: &dyn Progress,
-    ) -> Result<(), StepFailure> {
-        let context = OpContext { made: self.made.as_ref(), progress };
-        let (mesh, report) = operate(self.mesh()?, &context)?;
-        self.notes.extend(report.notes(element));
-        self.made = Some(report.made);
         self.mesh = Some(mesh);
         Ok(())
     }

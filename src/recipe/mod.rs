@@ -20,6 +20,7 @@ mod seam_choice;
 mod tests;
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use serde::Deserialize;
 
@@ -35,7 +36,7 @@ pub use seam_choice::SeamChoice;
 
 use crate::check::CheckParams;
 use crate::io::ReadOptions;
-use crate::op::{HullParams, ResolveParams, SliceParams, TruncateEdge, TruncateFace, TruncateVertex};
+use crate::op::{HullParams, Operate};
 use crate::picture::RenderParams;
 use crate::shape::SolidParams;
 use crate::sheet::SheetParams;
@@ -62,6 +63,15 @@ pub struct ReadStep {
     pub options: ReadOptions,
 }
 
+/// An operator of [`crate::op`] with its parameters.
+#[derive(Debug, Clone)]
+pub struct OperatorStep {
+    /// How the step begins: `cut vertex`, `planarize`, ….
+    pub verb: &'static str,
+    /// What it does.
+    pub params: Arc<dyn Operate>,
+}
+
 /// One step of a recipe.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
@@ -72,18 +82,10 @@ pub enum Step {
     Read(ReadStep),
     /// `planes = "planes.csv"`: the solid that half-spaces bound.
     Planes(PlanesStep),
-    /// `cut = "vertex"`.
-    CutVertex(TruncateVertex),
-    /// `cut = "edge"`.
-    CutEdge(TruncateEdge),
-    /// `cut = "face"`.
-    CutFace(TruncateFace),
-    /// `cut = "plane"`.
-    CutPlane(SliceParams),
+    /// `cut = "edge"`, `planarize = "exact"`, `subdivide = "loop"` and all other operators that take one mesh and make one.
+    Operator(OperatorStep),
     /// `hull = "convex"` or `hull = "dual"`.
     Hull(HullParams),
-    /// `resolve = "all"`: splits vertices of valence above three.
-    Resolve(ResolveParams),
     /// `check = "glass"`: limits for the report.
     Check(CheckParams),
     /// `unfold = "auto"`: pieces and sheets.
@@ -113,12 +115,8 @@ impl Step {
             Self::Solid(_) => "solid",
             Self::Read(_) => "read",
             Self::Planes(_) => "planes",
-            Self::CutVertex(_) => "cut vertex",
-            Self::CutEdge(_) => "cut edge",
-            Self::CutFace(_) => "cut face",
-            Self::CutPlane(_) => "cut plane",
+            Self::Operator(step) => step.verb,
             Self::Hull(_) => "hull",
-            Self::Resolve(_) => "resolve",
             Self::Check(_) => "check",
             Self::Unfold { .. } => "unfold",
             Self::Dform { .. } => "dform",

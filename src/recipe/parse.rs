@@ -4,6 +4,7 @@
 //! are asked for them, so that recipe and command line cannot part.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use clap::{Args, Command};
 use serde::de::DeserializeOwned;
@@ -11,9 +12,11 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::{Position, RecipeError};
-use super::{DformParams, FabricateParams, PlanesStep, ReadStep, Recipe, Step};
+use super::{DformParams, FabricateParams, OperatorStep, PlanesStep, ReadStep, Recipe, Step};
 use crate::check::CheckParams;
-use crate::op::{HullParams, ResolveParams, SliceParams, TruncateEdge, TruncateFace, TruncateVertex};
+use crate::op::{
+    HullParams, Operate, PlanarizeParams, ResolveParams, SliceParams, TruncateEdge, TruncateFace, TruncateVertex,
+};
 use crate::picture::RenderParams;
 use crate::shape::SolidParams;
 use crate::sheet::SheetParams;
@@ -21,13 +24,14 @@ use crate::unfold::UnfoldParams;
 use crate::units::nearest_word;
 
 /// The keys that say what a step does, with the field of its parameters that the value goes to.
-const VERBS: [(&str, &str); 10] = [
+const VERBS: [(&str, &str); 11] = [
     ("solid", "name"),
     ("read", "path"),
     ("planes", "path"),
     ("cut", ""),
     ("hull", "dual"),
     ("resolve", "select"),
+    ("planarize", "profile"),
     ("check", "profile"),
     ("unfold", "pieces"),
     ("dform", "matching"),
@@ -142,15 +146,16 @@ impl Source<'_> {
             ("read", _) => Step::Read(fields.read1::<ReadStep>()?),
             ("planes", _) => Step::Planes(fields.read1::<PlanesStep>()?),
             ("hull", _) => Step::Hull(fields.read1::<HullParams>()?),
-            ("resolve", _) => Step::Resolve(fields.read1::<ResolveParams>()?),
+            ("resolve", _) => fields.operator::<ResolveParams>("resolve")?,
+            ("planarize", _) => fields.operator::<PlanarizeParams>("planarize")?,
             ("check", _) => Step::Check(fields.read1::<CheckParams>()?),
             ("render", _) => Step::Render(fields.read1::<RenderParams>()?),
             ("unfold", _) => fields.unfold()?,
             ("dform", _) => fields.dform()?,
-            ("cut", "vertex") => Step::CutVertex(fields.read1::<TruncateVertex>()?),
-            ("cut", "edge") => Step::CutEdge(fields.read1::<TruncateEdge>()?),
-            ("cut", "face") => Step::CutFace(fields.read1::<TruncateFace>()?),
-            ("cut", "plane") => Step::CutPlane(fields.read1::<SliceParams>()?),
+            ("cut", "vertex") => fields.operator::<TruncateVertex>("cut vertex")?,
+            ("cut", "edge") => fields.operator::<TruncateEdge>("cut edge")?,
+            ("cut", "face") => fields.operator::<TruncateFace>("cut face")?,
+            ("cut", "plane") => fields.operator::<SliceParams>("cut plane")?,
             (_, other) => return Err(self.unknown(verb.value.span(), other, "as something to cut", &CUTS)),
         })
     }
@@ -168,6 +173,10 @@ impl StepFields<'_> {
     fn read1<T: Args + DeserializeOwned>(&self) -> Result<T, RecipeError> {
         self.check_keys(&field_names::<T>())?;
         self.read::<T>()
+    }
+
+    fn operator<T: Args + DeserializeOwned + Operate + 'static>(&self, verb: &'static str) -> Result<Step, RecipeError> {
+        Ok(Step::Operator(OperatorStep { verb, params: Arc::new(self.read1::<T>()?) }))
     }
 
     fn unfold(&self) -> Result<Step, RecipeError> {

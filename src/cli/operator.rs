@@ -1,0 +1,32 @@
+//! Verbs that carry out one operator: `kerfold planarize` and its kin. Their parameters say what they do; all else is common.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::error::CliError;
+use super::input::Input;
+use super::terminal::Terminal;
+use super::{Console, Outcome};
+use crate::op::{OpContext, Operate};
+
+/// A mesh, the parameters of an operator, and the mesh to write.
+#[derive(Debug, Args)]
+pub(super) struct OperatorArgs<T: Args> {
+    #[command(flatten)]
+    input: Input,
+    #[command(flatten)]
+    params: T,
+    /// The mesh to write: OBJ, PLY, STL or OFF; `-` writes OBJ to standard output
+    #[arg(short, long, value_name = "OUT")]
+    output: PathBuf,
+}
+
+pub(super) fn run<T: Args + Operate>(args: &OperatorArgs<T>, console: &Console) -> Result<Outcome, CliError> {
+    let read = args.input.read()?;
+    let progress = Terminal::new(console.quiet);
+    let made = args.params.operate(&read.mesh, &OpContext { made: None, progress: &progress })?;
+    let notes: Vec<String> = read.notes.iter().map(ToString::to_string).chain(made.notes).collect();
+    console.write_model(&args.output, &made.mesh, &notes)?;
+    Ok(if made.is_clean { Outcome::Clean } else { Outcome::Findings })
+}

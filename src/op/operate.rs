@@ -1,0 +1,75 @@
+//! What all operators on one mesh have in common, so that a recipe and the command line can carry out any of them.
+
+use std::fmt;
+
+use super::{
+    HullParams, OpContext, OpError, PlanarizeParams, ResolveParams, SliceParams, TruncateEdge, TruncateFace,
+    TruncateVertex, hull, planarize, resolve, slice, truncate_edges, truncate_faces, truncate_vertices,
+};
+use crate::mesh::Mesh;
+use crate::select::Made;
+
+/// What an operator made of a mesh.
+#[derive(Debug, Clone)]
+pub struct Operated {
+    /// The new mesh.
+    pub mesh: Mesh,
+    /// What the selections `made` and `strip` of the next step mean; `None` when the operator does not say.
+    pub made: Option<Made>,
+    /// What the user should know, in words.
+    pub notes: Vec<String>,
+    /// Whether the operator reached what was asked for; if not, the notes say what is missing, and the command line ends with 1.
+    pub is_clean: bool,
+}
+
+/// The parameters of an operator that takes one mesh and makes one.
+///
+/// Implemented by parameter structs. A new operator implements it, gets a variant in `cli` and a row in the table of `recipe`,
+/// and is then a verb and a step.
+pub trait Operate: fmt::Debug + Send + Sync {
+    /// Does it.
+    ///
+    /// # Errors
+    /// Those of the operator itself.
+    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError>;
+}
+
+macro_rules! cuts {
+    ($($params:ty, $operator:ident, $element:literal;)*) => {$(
+        impl Operate for $params {
+            fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError> {
+                let (mesh, report) = $operator(mesh, self, context)?;
+                let notes = report.notes($element);
+                Ok(Operated { mesh, made: Some(report.made), notes, is_clean: true })
+            }
+        }
+    )*};
+}
+
+cuts! {
+    TruncateVertex, truncate_vertices, "vertex";
+    TruncateEdge, truncate_edges, "edge";
+    TruncateFace, truncate_faces, "face";
+    SliceParams, slice, "plane";
+}
+
+impl Operate for HullParams {
+    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError> {
+        let (mesh, report) = hull(mesh, self, context)?;
+        Ok(Operated { mesh, made: None, notes: report.notes(), is_clean: true })
+    }
+}
+
+impl Operate for ResolveParams {
+    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError> {
+        let (mesh, report) = resolve(mesh, self, context)?;
+        Ok(Operated { mesh, made: None, notes: report.notes(), is_clean: true })
+    }
+}
+
+impl Operate for PlanarizeParams {
+    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError> {
+        let (mesh, report) = planarize(mesh, self, context)?;
+        Ok(Operated { mesh, made: None, notes: report.notes(), is_clean: report.is_planar })
+    }
+}

@@ -99,6 +99,7 @@ const READERS: &[(&[&str], &str)] = &[
     (&["cut", "plane", "IN", "--normal", "z", "--point", "0,0,0", "-o", "OUT"], "out.stl"),
     (&["hull", "IN", "-o", "OUT"], "hull.ply"),
     (&["hull", "IN", "--dual", "--steps", "1,all", "-o", "OUT"], "dual.obj"),
+    (&["subdivide", "doo-sabin", "IN", "--rounds", "2", "-o", "OUT"], "out.obj"),
     (&["planarize", "IN", "-o", "OUT"], "out.obj"),
     (&["unfold", "IN", "--sheet", "600x400", "-o", "OUT"], "out"),
     (&["seams", "IN"], ""),

@@ -29,7 +29,7 @@ use clap::{CommandFactory, Parser, Subcommand};
 
 use output::Console;
 
-use crate::op::PlanarizeParams;
+use crate::op::{PlanarizeParams, SubdivideParams};
 
 /// Carve planar 3-valence meshes, check them, and unfold them into sheets that a shop can cut.
 #[derive(Debug, Parser)]
@@ -55,6 +55,9 @@ enum Verb {
     /// Move vertices as little as possible until every face is planar to a profile; exit code 1 when that is not reached
     #[command(after_help = "Example: kerfold planarize facade.obj --profile glass --rim fixed -o planar.obj")]
     Planarize(operator::OperatorArgs<PlanarizeParams>),
+    /// Make a mesh finer: Doo–Sabin, Catmull–Clark, Loop, simplest, honeycomb, truncation, dual or triangles
+    #[command(after_help = "Example: kerfold subdivide doo-sabin cube.obj --rounds 2 -o round.obj")]
+    Subdivide(operator::OperatorArgs<SubdivideParams>),
     Unfold(unfold::UnfoldArgs),
     Seams(seams::SeamsArgs),
     Dform(dform::DformArgs),
@@ -91,6 +94,7 @@ pub fn run() -> ExitCode {
         Verb::Cut(args) => cut::run(&args, &console),
         Verb::Hull(args) => hull::run(&args, &console),
         Verb::Planarize(args) => operator::run(&args, &console),
+        Verb::Subdivide(args) => operator::run(&args, &console),
         Verb::Unfold(args) => unfold::run(&args, &console),
         Verb::Seams(args) => seams::run(&args, &console),
         Verb::Dform(args) => dform::run(&args, &console),

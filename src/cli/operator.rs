@@ -13,10 +13,11 @@ use crate::op::{OpContext, Operate};
 /// A mesh, the parameters of an operator, and the mesh to write.
 #[derive(Debug, Args)]
 pub(super) struct OperatorArgs<T: Args> {
-    #[command(flatten)]
-    input: Input,
+    // First, so that positional parameters come before the mesh: `subdivide SCHEME IN`.
     #[command(flatten)]
     params: T,
+    #[command(flatten)]
+    input: Input,
     /// The mesh to write: OBJ, PLY, STL or OFF; `-` writes OBJ to standard output
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,

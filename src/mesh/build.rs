@@ -368,7 +368,7 @@ impl EdgeTable {
 }
 
 /// Gives every fan at a vertex after the first its own vertex at the same point.
-fn split_fans(
+pub(super) fn split_fans(
     walks: &FaceList,
     ends: &mut [(VertexId, VertexId)],
     positions: &mut Vec<Option<DVec3>>,

@@ -6,6 +6,7 @@ mod id;
 mod operators;
 mod store;
 mod walk;
+mod walks;
 
 pub use build::{BuildError, MeshBuilder, SplitVertex};
 pub use faults::{Fault, assert_sound};
@@ -13,6 +14,7 @@ pub use id::{EdgeId, EdgeMap, FaceId, FaceMap, HalfEdgeId, HalfEdgeMap, Id, Side
 pub use operators::OperatorError;
 pub use store::{Corner, FaceKind, LinkError, Mesh, Renumbering};
 pub use walk::Component;
+pub(crate) use walks::WalkBuilder;
 
 /// Ids stay below this, so that a link can use the top bit as a tag.
 const MAX_ELEMENTS: u32 = 1 << 31;

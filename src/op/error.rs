@@ -154,6 +154,26 @@ pub enum OpError {
         /// The range, in words.
         least: &'static str,
     },
+    /// A share is not in its range.
+    #[error("the {what} is {share}, but it must be above 0 and below {limit}")]
+    ShareOutOfRange {
+        /// What it is the share of.
+        what: &'static str,
+        /// What was given.
+        share: f64,
+        /// The end of the range, not part of it.
+        limit: f64,
+    },
+    /// A round would make more faces than a mesh should hold.
+    #[error("round {round} would make about {faces} faces, more than {limit}; do fewer rounds")]
+    TooManyFaces {
+        /// The round, counted from 1.
+        round: u32,
+        /// How many there would be.
+        faces: usize,
+        /// How many there may be.
+        limit: usize,
+    },
     /// Faces that are not planar and have no corner that may move.
     #[error(
         "faces {} are not planar, but all of their corners are fixed; free some of them, or fix fewer rims",

@@ -3,8 +3,9 @@
 use std::fmt;
 
 use super::{
-    HullParams, OpContext, OpError, PlanarizeParams, ResolveParams, SliceParams, TruncateEdge, TruncateFace,
-    TruncateVertex, hull, planarize, resolve, slice, truncate_edges, truncate_faces, truncate_vertices,
+    HullParams, OpContext, OpError, PlanarizeParams, ResolveParams, SliceParams, SubdivideParams, TruncateEdge,
+    TruncateFace, TruncateVertex, hull, planarize, resolve, slice, subdivide, truncate_edges, truncate_faces,
+    truncate_vertices,
 };
 use crate::mesh::Mesh;
 use crate::select::Made;
@@ -71,5 +72,12 @@ impl Operate for PlanarizeParams {
     fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError> {
         let (mesh, report) = planarize(mesh, self, context)?;
         Ok(Operated { mesh, made: None, notes: report.notes(), is_clean: report.is_planar })
+    }
+}
+
+impl Operate for SubdivideParams {
+    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError> {
+        let mesh = subdivide(mesh, self, context)?;
+        Ok(Operated { mesh, made: None, notes: Vec::new(), is_clean: true })
     }
 }

@@ -15,7 +15,8 @@ use super::error::{Position, RecipeError};
 use super::{DformParams, FabricateParams, OperatorStep, PlanesStep, ReadStep, Recipe, Step};
 use crate::check::CheckParams;
 use crate::op::{
-    HullParams, Operate, PlanarizeParams, ResolveParams, SliceParams, TruncateEdge, TruncateFace, TruncateVertex,
+    HullParams, Operate, PlanarizeParams, ResolveParams, SliceParams, SubdivideParams, TruncateEdge, TruncateFace,
+    TruncateVertex,
 };
 use crate::picture::RenderParams;
 use crate::shape::SolidParams;
@@ -32,6 +33,7 @@ const VERBS: [(&str, &str); 11] = [
     ("hull", "dual"),
     ("resolve", "select"),
     ("planarize", "profile"),
+    ("subdivide", "scheme"),
     ("check", "profile"),
     ("unfold", "pieces"),
     ("dform", "matching"),
@@ -147,6 +149,7 @@ impl Source<'_> {
             ("planes", _) => Step::Planes(fields.read1::<PlanesStep>()?),
             ("hull", _) => Step::Hull(fields.read1::<HullParams>()?),
             ("resolve", _) => fields.operator::<ResolveParams>("resolve")?,
+            ("subdivide", _) => fields.operator::<SubdivideParams>("subdivide")?,
             ("planarize", _) => fields.operator::<PlanarizeParams>("planarize")?,
             ("check", _) => Step::Check(fields.read1::<CheckParams>()?),
             ("render", _) => Step::Render(fields.read1::<RenderParams>()?),

@@ -1,0 +1,121 @@
+//! The builder for operators that know every link: faces as walks of half-edges, without a search for partners.
+//!
+//! Self-loops and 2-gons are legal here, unlike in [`super::MeshBuilder`], which reads what people bring.
+
+use glam::DVec3;
+
+use super::build::split_fans;
+use super::store::FaceList;
+use super::{EdgeId, FaceId, FaceKind, HalfEdgeId, Mesh, VertexId};
+
+/// Collects vertices, edges and faces. Sides of edges that no face uses become holes.
+#[derive(Default)]
+pub(crate) struct WalkBuilder {
+    positions: Vec<Option<DVec3>>,
+    edges: Vec<(VertexId, VertexId)>,
+    list: FaceList,
+}
+
+impl WalkBuilder {
+    /// A builder with room for so many vertices, edges and faces.
+    pub(crate) fn with_capacity(vertices: usize, edges: usize, faces: usize) -> Self {
+        let list = FaceList { half_edges: Vec::with_capacity(2 * edges), ends: Vec::with_capacity(faces) };
+        Self { positions: Vec::with_capacity(vertices), edges: Vec::with_capacity(edges), list }
+    }
+
+    /// Adds a vertex.
+    pub(crate) fn vertex(&mut self, position: DVec3) -> VertexId {
+        self.positions.push(Some(position));
+        VertexId::new(self.positions.len() - 1)
+    }
+
+    /// Adds an edge and returns its half-edge from `a` to `b`.
+    pub(crate) fn edge(&mut self, a: VertexId, b: VertexId) -> HalfEdgeId {
+        self.edges.push((a, b));
+        EdgeId::new(self.edges.len() - 1).half_edge()
+    }
+
+    /// Adds a face by its half-edges in order, each of which ends where the next begins.
+    pub(crate) fn face(&mut self, half_edges: impl IntoIterator<Item = HalfEdgeId>) -> FaceId {
+        self.list.half_edges.extend(half_edges);
+        self.list.ends.push((self.list.half_edges.len(), FaceKind::Solid));
+        FaceId::new(self.list.ends.len() - 1)
+    }
+
+    /// Builds the mesh; positions count as constructed. Faces that share a vertex only, at a rim, are pulled apart.
+    pub(crate) fn build(mut self) -> Mesh {
+        if self.list.half_edges.len() < 2 * self.edges.len() {
+            self.close_holes();
+            split_fans(&self.list, &mut self.edges, &mut self.positions);
+        }
+        let mut mesh = Mesh::assemble(self.positions, &self.edges, &self.list);
+        for v in (0..mesh.vertex_slots()).map(VertexId::new) {
+            mesh.set_position(v, mesh.position(v), false);
+        }
+        mesh
+    }
+
+    /// Adds a hole for every walk of sides without a face. Around the vertex where such a side ends the nearest other one follows, so
+    /// that a vertex with several rims keeps them apart.
+    fn close_holes(&mut self) {
+        let sides = 2 * self.edges.len();
+        let mut prev = vec![HalfEdgeId(u32::MAX); sides];
+        let mut is_used = vec![false; sides];
+        let mut start = 0;
+        for &(end, _) in &self.list.ends {
+            let walk = &self.list.half_edges[start..end];
+            for (i, &h) in walk.iter().enumerate() {
+                prev[walk[(i + 1) % walk.len()].index()] = h;
+                is_used[h.index()] = true;
+            }
+            start = end;
+        }
+        let successor = |h: HalfEdgeId| {
+            let mut out = h.twin();
+            while is_used[out.index()] {
+                out = prev[out.index()].twin();
+            }
+            out
+        };
+        let mut is_done = is_used.clone();
+        for start in (0..sides).map(HalfEdgeId::new) {
+            let before = self.list.half_edges.len();
+            let mut h = start;
+            while !std::mem::replace(&mut is_done[h.index()], true) {
+                self.list.half_edges.push(h);
+                h = successor(h);
+            }
+            if self.list.half_edges.len() > before {
+                self.list.ends.push((self.list.half_edges.len(), FaceKind::Hole));
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::assert_sound;
+
+    #[test]
+    fn two_triangles_get_one_rim_and_a_loop_is_no_fault() {
+        let mut walks = WalkBuilder::default();
+        let v: Vec<VertexId> = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::ONE].map(|p| walks.vertex(p)).to_vec();
+        let [ab, bc, ca, bd, dc] = [(0, 1), (1, 2), (2, 0), (1, 3), (3, 2)].map(|(a, b)| walks.edge(v[a], v[b]));
+        walks.face([ab, bc, ca]);
+        walks.face([bd, dc, bc.twin()]);
+        let mesh = walks.build();
+        assert_sound(&mesh);
+        assert_eq!((mesh.face_count(), mesh.hole_count(), mesh.edge_count()), (2, 1, 5));
+        assert!(mesh.vertices().all(|v| !mesh.is_given(v)));
+
+        let mut walks = WalkBuilder::default();
+        let a = walks.vertex(DVec3::ZERO);
+        let ring = walks.edge(a, a);
+        walks.face([ring]);
+        walks.face([ring.twin()]);
+        let mesh = walks.build();
+        assert_sound(&mesh);
+        assert_eq!((mesh.vertex_count(), mesh.edge_count(), mesh.face_count()), (1, 1, 2));
+    }
+}

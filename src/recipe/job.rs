@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use super::{
-    DformParams, FabricateParams, Fabrication, OperatorStep, Recipe, Step, StepError, StepFailure, carve_dform, fabricate,
-    solid_of_planes, with_material,
+    DformParams, FabricateParams, Fabrication, OperatorStep, Recipe, Step, StepError, StepFailure, carve_dform,
+    fabricate, solid_of_planes, with_material,
 };
 use crate::check::{CheckParams, Report, check};
 use crate::io::{ReadMesh, read_mesh};

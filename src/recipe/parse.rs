@@ -25,7 +25,7 @@ use crate::unfold::UnfoldParams;
 use crate::units::nearest_word;
 
 /// The keys that say what a step does, with the field of its parameters that the value goes to.
-const VERBS: [(&str, &str); 11] = [
+const VERBS: [(&str, &str); 12] = [
     ("solid", "name"),
     ("read", "path"),
     ("planes", "path"),
@@ -178,7 +178,10 @@ impl StepFields<'_> {
         self.read::<T>()
     }
 
-    fn operator<T: Args + DeserializeOwned + Operate + 'static>(&self, verb: &'static str) -> Result<Step, RecipeError> {
+    fn operator<T: Args + DeserializeOwned + Operate + 'static>(
+        &self,
+        verb: &'static str,
+    ) -> Result<Step, RecipeError> {
         Ok(Step::Operator(OperatorStep { verb, params: Arc::new(self.read1::<T>()?) }))
     }
 

@@ -2,7 +2,6 @@ use glam::DVec3;
 
 use super::*;
 use crate::measure::{genus, volume};
-use crate::mesh::assert_sound;
 use crate::shape;
 
 const SCHEMES: [Scheme; 8] = [

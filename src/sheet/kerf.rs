@@ -231,6 +231,34 @@ mod tests {
         assert_eq!((lost.holes.len(), lost.lost_holes), (0, 1));
     }
 
+    /// A tab of 3 mm fits a slot of 3 mm after cutting, whatever the kerf: drawn, the tab is wider and the slot narrower by it.
+    #[test]
+    fn a_tab_of_three_millimetres_fits_a_slot_of_three() {
+        let tab = points([
+            (0.0, 0.0),
+            (40.0, 0.0),
+            (40.0, 20.0),
+            (21.5, 20.0),
+            (21.5, 23.0),
+            (18.5, 23.0),
+            (18.5, 20.0),
+            (0.0, 20.0),
+        ]);
+        let mut plate = piece(PieceId(1), square(40.0));
+        plate.holes = vec![points([(10.0, 10.0), (10.0, 13.0), (30.0, 13.0), (30.0, 10.0)])];
+        for kerf in [0.08, 0.2, 0.5] {
+            let drawn_tab = cut(tab.clone(), kerf).outline;
+            let tops = drawn_tab.iter().filter(|p| p.y > 22.0).map(|p| p.x);
+            let (low, high) = tops.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+            let slot = CutShape::of_piece(&plate, kerf).expect("a plate");
+            let (from, to) = bounds(&slot.holes[0]).expect("a slot");
+            let (drawn_tab, drawn_slot) = (high - low, to.y - from.y);
+            assert!((drawn_tab - (3.0 + kerf)).abs() < 1e-6 && (drawn_slot - (3.0 - kerf)).abs() < 1e-6);
+            // The cut takes half its width on both sides of the line.
+            assert!(((drawn_tab - kerf) - (drawn_slot + kerf)).abs() < 1e-6);
+        }
+    }
+
     #[test]
     fn a_concave_corner_keeps_its_distance() {
         let grown = cut(ell(), 1.0);

@@ -46,7 +46,7 @@ pub fn kerf_coupon(thickness: f64, title: &str) -> Result<Drawing, SheetError> {
     let low = DVec2::new(BORDER, comb.y + 2.0 * BORDER);
     draw_bar(&mut drawing, low, bar)?;
     let title: String = title.to_uppercase().chars().filter(|&c| lettering(&c.to_string(), 1.0).is_ok()).collect();
-    let words = format!("{title}  {thickness} MM");
+    let words = if title.ends_with(" MM") { title } else { format!("{title}  {thickness} MM") };
     let at = DVec2::new(BORDER, low.y + bar.y + LETTERS);
     write(&mut drawing, MarkKind::PieceName, "title", &words, at)?;
     drawing.arrange();

@@ -42,12 +42,11 @@ pub(super) fn ring_means(
     other: impl Fn(f64) -> f64,
     out: &mut Vec<DVec3>,
 ) {
-    let n = points.len();
-    for i in 0..n {
+    for i in 0..points.len() {
         let mut sum = points[i] * own;
-        for k in 1..n {
-            let j = if i + k < n { i + k } else { i + k - n };
-            sum += points[j] * other(cosines[k]);
+        let after = points[i + 1..].iter().chain(&points[..i]);
+        for (&point, &cos) in after.zip(&cosines[1..]) {
+            sum += point * other(cos);
         }
         out.push(sum);
     }

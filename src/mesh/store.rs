@@ -14,6 +14,7 @@ use crate::geom::Plane;
 mod links;
 
 pub(in crate::mesh) use links::FaceList;
+pub(crate) use links::Region;
 pub use links::{LinkError, Renumbering};
 
 /// A polygon mesh: a closed, orientable 2-manifold whose faces may be marked as holes.

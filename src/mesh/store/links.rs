@@ -401,11 +401,13 @@ impl Mesh {
         std::iter::successors(Some(start), move |&h| Some(self.next(h)).filter(|&n| n != start))
     }
 
+    #[inline]
     fn link(&mut self, before: HalfEdgeId, after: HalfEdgeId) {
         self.half_edges[before.index()].next = after;
         self.half_edges[after.index()].prev = before;
     }
 
+    #[inline]
     fn set_origin(&mut self, h: HalfEdgeId, v: VertexId) {
         self.half_edges[h.index()].origin = v;
     }
@@ -448,6 +450,7 @@ impl Mesh {
         }
     }
 
+    #[inline]
     fn new_vertex(&mut self, position: DVec3) -> VertexId {
         let vertex = Vertex { position, start: Link::FREE, is_given: false };
         if let Some(v) = self.free_vertices.pop() {
@@ -458,6 +461,7 @@ impl Mesh {
         VertexId::new(self.vertices.len() - 1)
     }
 
+    #[inline]
     fn new_edge(&mut self, from: VertexId, to: VertexId) -> EdgeId {
         let unset = HalfEdgeId(NONE);
         let pair = [from, to].map(|origin| HalfEdge { next: unset, prev: unset, origin, face: FaceId(NONE) });
@@ -472,6 +476,7 @@ impl Mesh {
         EdgeId::new(self.seams.len() - 1)
     }
 
+    #[inline]
     fn new_face(&mut self, kind: FaceKind) -> FaceId {
         let face = Face { start: Link::FREE, plane: NONE, group: NONE, kind };
         self.holes += usize::from(kind == FaceKind::Hole);
@@ -492,11 +497,13 @@ impl Mesh {
         new
     }
 
+    #[inline]
     fn free_vertex(&mut self, v: VertexId) {
         self.vertices[v.index()].start = Link::FREE;
         self.free_vertices.push(v);
     }
 
+    #[inline]
     fn free_edge(&mut self, e: EdgeId) {
         for h in e.half_edges() {
             let slot = &mut self.half_edges[h.index()];
@@ -506,6 +513,7 @@ impl Mesh {
         self.free_edges.push(e);
     }
 
+    #[inline]
     fn free_face(&mut self, f: FaceId) {
         self.set_kind(f, FaceKind::Solid);
         self.faces[f.index()].start = Link::FREE;

@@ -8,6 +8,7 @@ use super::Plane;
 /// error is relative to that way and not to the distance from the origin.
 ///
 /// `None` when the planes do not meet in one well-determined point.
+#[inline]
 pub fn meet_three(planes: [&Plane; 3], near: DVec3) -> Option<DVec3> {
     let rows = DMat3::from_cols(planes[0].normal(), planes[1].normal(), planes[2].normal()).transpose();
     let residuals = DVec3::from_array(planes.map(|p| p.signed_distance(near)));

@@ -15,6 +15,7 @@ pub struct Plane {
 impl Plane {
     /// The plane through `point` with the direction of `normal`, which need not have unit length.
     /// `None` when the normal is zero or anything is not finite.
+    #[inline]
     pub fn new(normal: DVec3, point: DVec3) -> Option<Self> {
         // Scaled first, so that neither tiny nor huge normals overflow or vanish when squared.
         let scale = normal.abs().max_element();
@@ -31,11 +32,13 @@ impl Plane {
     }
 
     /// The unit normal.
+    #[inline]
     pub fn normal(&self) -> DVec3 {
         self.normal
     }
 
     /// A point on the plane, near which distances are most precise.
+    #[inline]
     pub fn point(&self) -> DVec3 {
         self.point
     }
@@ -46,6 +49,7 @@ impl Plane {
     }
 
     /// The signed distance of `x`; positive on the normal side.
+    #[inline]
     pub fn signed_distance(&self, x: DVec3) -> f64 {
         self.normal.dot(x - self.point)
     }

@@ -19,6 +19,7 @@ pub enum Side {
 
 impl Side {
     /// The side that the sign of `value` tells; zero is on.
+    #[inline]
     pub fn of(value: f64) -> Self {
         if value > 0.0 {
             Self::Normal
@@ -46,12 +47,14 @@ pub fn orient3d(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> f64 {
 /// The exact side of `x` with respect to the plane through `point` with the direction `normal` (any length).
 ///
 /// All nine numbers are taken as given; the sign of normal · (x − point) is exact barring overflow and underflow.
+#[inline]
 pub fn side_of_plane(normal: DVec3, point: DVec3, x: DVec3) -> Side {
     rounded_side(normal, point, x).unwrap_or_else(|| exact_side(normal, point, x))
 }
 
 /// The side as far as rounded arithmetic can tell it; `None` when `x` is so near to the plane that only exact arithmetic
 /// could. No rounded construction, such as the point where an edge crosses the plane, can be told from such an `x`.
+#[inline]
 pub fn rounded_side(normal: DVec3, point: DVec3, x: DVec3) -> Option<Side> {
     let products = normal * (x - point);
     let sum = products.x + products.y + products.z;

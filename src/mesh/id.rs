@@ -20,17 +20,20 @@ macro_rules! id {
             ///
             /// # Panics
             /// When the position is beyond 2³¹ − 2.
+            #[inline]
             pub fn new(index: usize) -> Self {
                 Self(u32::try_from(index).ok().filter(|&i| i < super::MAX_ELEMENTS - 1).expect("a mesh holds fewer than 2^31 elements"))
             }
 
             /// The position in the table, as files and messages show it.
+            #[inline]
             pub fn index(self) -> usize {
                 self.0 as usize
             }
         }
 
         impl Id for $name {
+            #[inline]
             fn index(self) -> usize {
                 self.0 as usize
             }
@@ -73,11 +76,13 @@ id!(
 
 impl HalfEdgeId {
     /// The other side of the same edge.
+    #[inline]
     pub fn twin(self) -> Self {
         Self(self.0 ^ 1)
     }
 
     /// The edge of which this is a side.
+    #[inline]
     pub fn edge(self) -> EdgeId {
         EdgeId(self.0 >> 1)
     }
@@ -85,12 +90,14 @@ impl HalfEdgeId {
 
 impl EdgeId {
     /// The two sides of the edge; the first is the one that the edge was made with.
+    #[inline]
     pub fn half_edges(self) -> [HalfEdgeId; 2] {
         let first = HalfEdgeId(self.0 << 1);
         [first, first.twin()]
     }
 
     /// The first side of the edge.
+    #[inline]
     pub fn half_edge(self) -> HalfEdgeId {
         HalfEdgeId(self.0 << 1)
     }
@@ -134,12 +141,14 @@ impl<I: Id, T> SideTable<I, T> {
 
 impl<I: Id, T> Index<I> for SideTable<I, T> {
     type Output = T;
+    #[inline]
     fn index(&self, id: I) -> &T {
         &self.values[id.index()]
     }
 }
 
 impl<I: Id, T> IndexMut<I> for SideTable<I, T> {
+    #[inline]
     fn index_mut(&mut self, id: I) -> &mut T {
         &mut self.values[id.index()]
     }

@@ -12,6 +12,7 @@ pub use build::{BuildError, MeshBuilder, SplitVertex};
 pub use faults::{Fault, assert_sound};
 pub use id::{EdgeId, EdgeMap, FaceId, FaceMap, HalfEdgeId, HalfEdgeMap, Id, SideTable, VertexId, VertexMap};
 pub use operators::OperatorError;
+pub(crate) use store::Region;
 pub use store::{Corner, FaceKind, LinkError, Mesh, Renumbering};
 pub use walk::Component;
 pub(crate) use walks::WalkBuilder;

@@ -14,6 +14,7 @@ use crate::geom::Plane;
 mod links;
 
 pub(in crate::mesh) use links::FaceList;
+pub(crate) use links::Region;
 pub use links::{LinkError, Renumbering};
 
 /// A polygon mesh: a closed, orientable 2-manifold whose faces may be marked as holes.
@@ -65,18 +66,22 @@ struct Link(u32);
 impl Link {
     const FREE: Self = Self(NONE);
 
+    #[inline]
     fn edge(h: HalfEdgeId) -> Self {
         Self(h.0)
     }
 
+    #[inline]
     fn lone(partner: u32) -> Self {
         Self(partner | MAX_ELEMENTS)
     }
 
+    #[inline]
     fn half_edge(self) -> Option<HalfEdgeId> {
         (self.0 < MAX_ELEMENTS).then_some(HalfEdgeId(self.0))
     }
 
+    #[inline]
     fn partner(self) -> Option<u32> {
         (self.0 >= MAX_ELEMENTS && self.0 != NONE).then_some(self.0 & !MAX_ELEMENTS)
     }
@@ -109,46 +114,55 @@ impl Mesh {
     // ---- reading -------------------------------------------------------------------------------------------------
 
     /// The half-edge after `h` around its face.
+    #[inline]
     pub fn next(&self, h: HalfEdgeId) -> HalfEdgeId {
         self.half_edges[h.index()].next
     }
 
     /// The half-edge before `h` around its face.
+    #[inline]
     pub fn prev(&self, h: HalfEdgeId) -> HalfEdgeId {
         self.half_edges[h.index()].prev
     }
 
     /// The vertex that `h` leaves.
+    #[inline]
     pub fn origin(&self, h: HalfEdgeId) -> VertexId {
         self.half_edges[h.index()].origin
     }
 
     /// The vertex that `h` enters.
+    #[inline]
     pub fn target(&self, h: HalfEdgeId) -> VertexId {
         self.origin(h.twin())
     }
 
     /// The face (or hole) on the left of `h`.
+    #[inline]
     pub fn face(&self, h: HalfEdgeId) -> FaceId {
         self.half_edges[h.index()].face
     }
 
     /// The position of a vertex, in the model's unit.
+    #[inline]
     pub fn position(&self, v: VertexId) -> DVec3 {
         self.vertices[v.index()].position
     }
 
     /// Whether the position came with the input, so that its signs are compared exactly, or was computed by an operator.
+    #[inline]
     pub fn is_given(&self, v: VertexId) -> bool {
         self.vertices[v.index()].is_given
     }
 
     /// One half-edge that leaves `v`; `None` for a point sphere.
+    #[inline]
     pub fn vertex_start(&self, v: VertexId) -> Option<HalfEdgeId> {
         self.vertices[v.index()].start.half_edge()
     }
 
     /// One half-edge of `f`; `None` for the face of a point sphere.
+    #[inline]
     pub fn face_start(&self, f: FaceId) -> Option<HalfEdgeId> {
         self.faces[f.index()].start.half_edge()
     }
@@ -159,16 +173,19 @@ impl Mesh {
     }
 
     /// The face of a point sphere; `None` when the vertex has edges.
+    #[inline]
     pub fn lone_face(&self, v: VertexId) -> Option<FaceId> {
         self.vertices[v.index()].start.partner().map(FaceId)
     }
 
     /// Whether a face is a hole.
+    #[inline]
     pub fn is_hole(&self, f: FaceId) -> bool {
         self.faces[f.index()].kind == FaceKind::Hole
     }
 
     /// The supporting plane that the face carries, if an operator or a file has fixed one.
+    #[inline]
     pub fn carried_plane(&self, f: FaceId) -> Option<Plane> {
         self.planes.get(self.faces[f.index()].plane as usize).copied()
     }
@@ -189,16 +206,19 @@ impl Mesh {
     }
 
     /// Whether a vertex exists.
+    #[inline]
     pub fn has_vertex(&self, v: VertexId) -> bool {
         self.vertices.get(v.index()).is_some_and(|vertex| vertex.start != Link::FREE)
     }
 
     /// Whether an edge exists.
+    #[inline]
     pub fn has_edge(&self, e: EdgeId) -> bool {
         self.half_edges.get(e.half_edge().index()).is_some_and(|h| h.next.0 != NONE)
     }
 
     /// Whether a face or hole exists.
+    #[inline]
     pub fn has_face(&self, f: FaceId) -> bool {
         self.faces.get(f.index()).is_some_and(|face| face.start != Link::FREE)
     }
@@ -246,6 +266,7 @@ impl Mesh {
     // ---- attributes ----------------------------------------------------------------------------------------------
 
     /// Moves a vertex; `is_given` tells whether the new position is an input number or a computed one.
+    #[inline]
     pub fn set_position(&mut self, v: VertexId, position: DVec3, is_given: bool) {
         let vertex = &mut self.vertices[v.index()];
         vertex.position = position;
@@ -253,6 +274,7 @@ impl Mesh {
     }
 
     /// Lets a face carry `plane` as its supporting plane.
+    #[inline]
     pub fn set_plane(&mut self, f: FaceId, plane: Plane) {
         let slot = self.faces[f.index()].plane as usize;
         if slot < self.planes.len() {
@@ -272,6 +294,7 @@ impl Mesh {
     }
 
     /// Makes a face a hole or a hole a face.
+    #[inline]
     pub fn set_kind(&mut self, f: FaceId, kind: FaceKind) {
         let face = &mut self.faces[f.index()];
         self.holes -= usize::from(face.kind == FaceKind::Hole);

@@ -52,12 +52,14 @@ impl Mesh {
     }
 
     /// The half-edges around a face (or hole), counter-clockwise seen from outside. None for a point sphere's face.
+    #[inline]
     pub fn face_half_edges(&self, f: FaceId) -> impl Iterator<Item = HalfEdgeId> + '_ {
         let start = self.face_start(f);
         std::iter::successors(start, move |&h| Some(self.next(h)).filter(|&n| Some(n) != start))
     }
 
     /// The vertices around a face, counter-clockwise seen from outside.
+    #[inline]
     pub fn face_vertices(&self, f: FaceId) -> impl Iterator<Item = VertexId> + '_ {
         self.face_half_edges(f).map(|h| self.origin(h)).chain(self.lone_vertex(f))
     }
@@ -68,12 +70,14 @@ impl Mesh {
     }
 
     /// The half-edges that leave a vertex, clockwise seen from outside. None for a point sphere.
+    #[inline]
     pub fn outgoing(&self, v: VertexId) -> impl Iterator<Item = HalfEdgeId> + '_ {
         let start = self.vertex_start(v);
         std::iter::successors(start, move |&h| Some(self.next(h.twin())).filter(|&n| Some(n) != start))
     }
 
     /// The vertices at the other ends of a vertex's edges; one for each edge end, so a self-loop gives the vertex twice.
+    #[inline]
     pub fn neighbours(&self, v: VertexId) -> impl Iterator<Item = VertexId> + '_ {
         self.outgoing(v).map(|h| self.target(h))
     }
@@ -94,6 +98,7 @@ impl Mesh {
     }
 
     /// The two end vertices of an edge: origin and target of its first half-edge.
+    #[inline]
     pub fn edge_vertices(&self, e: EdgeId) -> [VertexId; 2] {
         e.half_edges().map(|h| self.origin(h))
     }
@@ -104,6 +109,7 @@ impl Mesh {
     }
 
     /// The faces (or holes) on the two sides of an edge.
+    #[inline]
     pub fn edge_faces(&self, e: EdgeId) -> [FaceId; 2] {
         e.half_edges().map(|h| self.face(h))
     }
@@ -124,6 +130,7 @@ impl Mesh {
     }
 
     /// Whether no face is missing: the mesh has no rim.
+    #[inline]
     pub fn is_closed(&self) -> bool {
         self.hole_count() == 0
     }

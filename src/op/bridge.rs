@@ -11,7 +11,6 @@ use std::collections::{HashMap, HashSet};
 use glam::DVec2;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation, mitigate_underflow};
 
-use super::OpError;
 use super::cutter::Cutter;
 use super::section::SectionWalk;
 use crate::geom::Frame;
@@ -51,16 +50,37 @@ struct CapWalks {
 }
 
 impl Cutter {
-    /// Joins the holes to the outer walk and each other. Returns the faces of the divided cap, ascending.
+    /// Joins the holes to the outer walk and each other. Returns the faces of the divided cap, ascending, and how many holes
+    /// could not be joined: each keeps a face of its own, a lid that looks the other way, so that the mesh is sound and its
+    /// volume right all the same.
     pub(super) fn bridge(
         &mut self,
         frame: &Frame,
         outer: SectionWalk,
         holes: Vec<SectionWalk>,
-    ) -> Result<Vec<FaceId>, OpError> {
-        let mut faces = vec![outer.face];
+    ) -> (Vec<FaceId>, usize) {
+        let mut faces: Vec<FaceId> = std::iter::once(&outer).chain(&holes).map(|walk| walk.face).collect();
         let mut cap = CapWalks::new(std::iter::once(outer).chain(holes).collect());
-        let candidates = cap.candidates()?;
+        let mut lids = self.lay_ears(frame, &mut cap, &mut faces);
+        faces.sort_unstable();
+        faces.dedup();
+        faces.retain(|&f| self.mesh.has_face(f));
+        // Walks on top of each other may have led a bridge astray.
+        let is_astray = |&&f: &&FaceId| {
+            let corners: Vec<DVec2> = self.mesh.face_positions(f).into_iter().map(|p| frame.flatten(p)).collect();
+            let mut vertices: Vec<VertexId> = self.mesh.face_vertices(f).collect();
+            vertices.sort_unstable();
+            signed_area(&corners) <= 0.0 || vertices.windows(2).any(|w| w[0] == w[1])
+        };
+        if lids == 0 && !cap.doubled.is_empty() {
+            lids = faces.iter().filter(is_astray).count();
+        }
+        (faces, lids)
+    }
+
+    /// Lays ear after ear until every hole is joined; returns how many could not be.
+    fn lay_ears(&mut self, frame: &Frame, cap: &mut CapWalks, faces: &mut Vec<FaceId>) -> usize {
+        let Some(candidates) = cap.candidates() else { return cap.walks.len() - 1 };
         // Where walks lie on top of each other without being joined, the flat picture does not tell which bridge passes on
         // which side of which; such bridges are a last resort.
         let is_clear = |s: Site| !cap.doubled.contains(&cap.vertex(s));
@@ -69,29 +89,17 @@ impl Cutter {
         let mut is_joined = vec![false; cap.walks.len()];
         is_joined[0] = true;
         while is_joined.contains(&false) {
-            let holes = is_joined.iter().filter(|joined| !**joined).count();
-            let ear = longest_ear(&cap, &clear, &is_joined).or_else(|| longest_ear(&cap, &candidates, &is_joined));
-            for bridge in ear.ok_or(OpError::HolesNotJoined { holes })? {
+            let ear = longest_ear(cap, &clear, &is_joined).or_else(|| longest_ear(cap, &candidates, &is_joined));
+            let Some(ear) = ear else { break };
+            for bridge in ear {
                 let closes = is_joined[bridge.from.0] && is_joined[bridge.to.0];
-                if bridge.needs_edge && !self.lay_bridge(frame, &mut cap, &mut faces, bridge, closes) {
-                    return Err(OpError::HolesNotJoined { holes });
+                if bridge.needs_edge && !self.lay_bridge(frame, cap, faces, bridge, closes) {
+                    return 1 + is_joined.iter().filter(|joined| !**joined).count();
                 }
                 (is_joined[bridge.from.0], is_joined[bridge.to.0]) = (true, true);
             }
         }
-        faces.retain(|&f| self.mesh.has_face(f));
-        faces.sort_unstable();
-        // Walks on top of each other may have led a bridge astray.
-        let is_astray = |&f: &FaceId| {
-            let corners: Vec<DVec2> = self.mesh.face_positions(f).into_iter().map(|p| frame.flatten(p)).collect();
-            let mut vertices: Vec<VertexId> = self.mesh.face_vertices(f).collect();
-            vertices.sort_unstable();
-            signed_area(&corners) <= 0.0 || vertices.windows(2).any(|w| w[0] == w[1])
-        };
-        if !cap.doubled.is_empty() && faces.iter().any(is_astray) {
-            return Err(OpError::HolesNotJoined { holes: cap.walks.len() - 1 });
-        }
-        Ok(faces)
+        is_joined.iter().filter(|joined| !**joined).count()
     }
 
     /// Lays one bridge. `closes` tells that both its walks hang together already: then it must divide their face. Returns
@@ -182,8 +190,8 @@ impl CapWalks {
     }
 
     /// All touches, and all pairs of corners of different walks that a constrained Delaunay triangulation joins, in a
-    /// stable order.
-    fn candidates(&mut self) -> Result<Vec<Bridge>, OpError> {
+    /// stable order. `None` when the walks cross each other.
+    fn candidates(&mut self) -> Option<Vec<Bridge>> {
         let (cdt, sites_of) = self.triangulate()?;
         let is_doubled = |sites: &&Vec<Site>| sites.iter().any(|&s| !self.is_one_vertex(s, sites[0]));
         self.doubled = sites_of.iter().filter(is_doubled).flatten().map(|&s| self.vertex(s)).collect();
@@ -201,18 +209,18 @@ impl CapWalks {
             bridges.extend(touches);
         }
         bridges.sort_unstable();
-        Ok(bridges)
+        Some(bridges)
     }
 
     /// The triangulation with the sides of all walks as constraints, and the sites at each of its points.
-    fn triangulate(&self) -> Result<(Triangles, Vec<Vec<Site>>), OpError> {
+    fn triangulate(&self) -> Option<(Triangles, Vec<Vec<Site>>)> {
         let mut cdt = Triangles::new();
         let mut sites_of: Vec<Vec<Site>> = Vec::new();
         for (w, walk) in self.walks.iter().enumerate() {
             let mut of_walk = Vec::with_capacity(walk.corners.len());
             for (i, p) in walk.corners.iter().enumerate() {
                 let point = mitigate_underflow(Point2::new(p.x, p.y));
-                let handle = cdt.insert(point).map_err(|_| OpError::TangledSection)?;
+                let handle = cdt.insert(point).ok()?;
                 if handle.index() == sites_of.len() {
                     sites_of.push(Vec::new());
                 }
@@ -222,14 +230,14 @@ impl CapWalks {
             for (i, &a) in of_walk.iter().enumerate() {
                 let b = of_walk[(i + 1) % of_walk.len()];
                 if a != b && !cdt.can_add_constraint(a, b) {
-                    return Err(OpError::TangledSection);
+                    return None;
                 }
                 if a != b {
                     cdt.add_constraint(a, b);
                 }
             }
         }
-        Ok((cdt, sites_of))
+        Some((cdt, sites_of))
     }
 
     /// Whether a bridge joins walks that do not hang together at its ends, through material. What touches at a vertex is

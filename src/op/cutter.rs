@@ -11,6 +11,7 @@ use glam::DVec3;
 use serde::Deserialize;
 
 use super::OpError;
+use super::corner::CornerWork;
 use crate::geom::predicate::side_of_plane;
 use crate::geom::{Plane, RoundingBound, Side, meet_three};
 use crate::mesh::{EdgeId, FaceId, FaceKind, HalfEdgeId, Mesh, VertexId};
@@ -24,9 +25,20 @@ pub(super) struct SlicingPlane {
     pub given: Option<(DVec3, DVec3)>,
 }
 
+impl SlicingPlane {
+    /// The plane of given numbers; `normal` may have any length.
+    pub(super) fn given(normal: DVec3, point: DVec3) -> Result<Self, OpError> {
+        if !point.is_finite() {
+            return Err(OpError::BadPoint(point.x, point.y, point.z));
+        }
+        let plane = Plane::new(normal, point).ok_or(OpError::NoDirection(normal.x, normal.y, normal.z))?;
+        Ok(Self { plane, given: Some((normal, point)) })
+    }
+}
+
 /// How far a cut reaches.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Reach<'a> {
+pub enum Reach<'a> {
     /// The whole mesh.
     Global,
     /// Only the part of the normal side that hangs together with these vertices.
@@ -59,32 +71,79 @@ pub(super) struct Cut {
     pub met: Vec<usize>,
     /// The earlier cuts of the round, by number, of which a vertex is a corner of this one's caps, too.
     pub touched: Vec<usize>,
+    /// How many holes of the section could not be joined to their cap, because the mesh touches or crosses itself there:
+    /// each has a face of its own, which lies on the cap and looks the other way.
+    pub lids: usize,
     /// Whether a vertex from before the round is a corner of the caps.
     pub ends_at_vertex: bool,
+}
+
+impl Cut {
+    fn clear(&mut self) {
+        self.caps.clear();
+        self.removed.clear();
+        self.met.clear();
+        self.touched.clear();
+        self.lids = 0;
+        (self.is_miss, self.ends_at_vertex) = (false, false);
+    }
 }
 
 /// Where a face comes from: a face of the mesh before the command, or the cap of the n-th cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) struct Lineage(u32);
 
+/// The number of a cut and a side in one word. Zero stands for "not asked yet", so that a new table costs nothing until it
+/// is used; the same holds for the other tables of the workspace.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct StampedSide(u32);
+
+impl StampedSide {
+    fn new(cut: u32, side: Side) -> Self {
+        let code = match side {
+            Side::On => 0,
+            Side::Normal => 1,
+            Side::Reverse => 2,
+        };
+        Self(cut << 2 | code)
+    }
+
+    fn of_cut(self, cut: u32) -> Option<Side> {
+        (self.0 >> 2 == cut).then_some(match self.0 & 3 {
+            0 => Side::On,
+            1 => Side::Normal,
+            _ => Side::Reverse,
+        })
+    }
+}
+
 /// The workspace of a chain of cuts.
 #[derive(Clone)]
 pub(super) struct Cutter {
     pub(super) mesh: Mesh,
     pub(super) bound: f64,
+    /// The largest coordinate, by magnitude.
+    largest: f64,
     pub(super) capping: Capping,
     pub(super) cut: u32,
+    /// What the last cut did.
+    pub(super) done: Cut,
     faces_before: u32,
-    sides: Vec<(u32, Side)>,
-    born: Vec<u32>,
-    lineage: Vec<Lineage>,
+    /// [`StampedSide`]s.
+    sides: Vec<u32>,
+    pub(super) born: Vec<u32>,
+    /// Zero for a face of its own lineage, else the lineage plus one.
+    lineage: Vec<u32>,
+    /// What is known about the shapes of faces, see `corner.rs`.
+    pub(super) shapes: Vec<u8>,
     pub(super) doomed: Vec<u32>,
     pub(super) decided: Vec<u32>,
     is_open: Option<Vec<bool>>,
     pub(super) region: Vec<FaceId>,
-    reached: Vec<VertexId>,
+    pub(super) reached: Vec<VertexId>,
     pub(super) chords: Vec<EdgeId>,
-    splits: Vec<VertexId>,
+    pub(super) splits: Vec<VertexId>,
+    pub(super) corner: CornerWork,
     /// For tests: sides that override what the numbers say.
     #[cfg(test)]
     pub(super) pattern: Vec<Side>,
@@ -100,12 +159,15 @@ impl Cutter {
         let is_open = (!mesh.is_closed()).then(|| open_vertices(&mesh));
         Self {
             bound: RoundingBound::of_box(low, high).length(),
+            largest: low.abs().max(high.abs()).max_element(),
             capping: Capping::Auto,
             cut: 0,
+            done: Cut::default(),
             faces_before: faces as u32,
-            sides: vec![(0, Side::On); mesh.vertex_slots()],
+            sides: vec![0; mesh.vertex_slots()],
             born: vec![0; mesh.vertex_slots()],
-            lineage: (0..faces as u32).map(Lineage).collect(),
+            lineage: vec![0; faces],
+            shapes: vec![0; faces],
             doomed: vec![0; faces],
             decided: vec![0; faces],
             is_open,
@@ -113,6 +175,7 @@ impl Cutter {
             reached: Vec::new(),
             chords: Vec::new(),
             splits: Vec::new(),
+            corner: CornerWork::default(),
             #[cfg(test)]
             pattern: Vec::new(),
             #[cfg(test)]
@@ -125,16 +188,20 @@ impl Cutter {
     pub(super) fn start_round(&mut self) {
         self.cut = 0;
         self.faces_before = self.mesh.face_slots() as u32;
-        self.lineage = (0..self.faces_before).map(Lineage).collect();
+        self.lineage.clear();
+        self.lineage.resize(self.mesh.face_slots(), 0);
         self.born.fill(0);
-        self.sides.fill((0, Side::On));
+        self.sides.fill(0);
         self.doomed.fill(0);
         self.decided.fill(0);
     }
 
     /// The lineage of a face of the mesh before the round.
     pub(super) fn lineage_of(&self, f: FaceId) -> Lineage {
-        self.lineage[f.index()]
+        match self.lineage[f.index()] {
+            0 => Lineage(f.index() as u32),
+            lineage => Lineage(lineage - 1),
+        }
     }
 
     /// The lineage of the cap of the n-th cut of the round, counted from 0.
@@ -147,46 +214,55 @@ impl Cutter {
         self.mesh.has_vertex(v) && self.born[v.index()] == 0
     }
 
-    /// Cuts with one plane.
-    pub(super) fn cut(&mut self, plane: &SlicingPlane, reach: Reach<'_>) -> Result<Cut, OpError> {
+    /// Cuts with one plane; [`Self::done`] tells what happened. Whatever the signs and the positions are, the mesh is sound
+    /// afterwards.
+    pub(super) fn cut(&mut self, plane: &SlicingPlane, reach: Reach<'_>) {
         self.cut += 1;
+        self.done.clear();
+        if let Reach::Local(&[v]) = reach
+            && self.cut_corner(plane, v)
+        {
+            return;
+        }
         self.region.clear();
         self.reached.clear();
         self.chords.clear();
         self.splits.clear();
+        if matches!(reach, Reach::Global) && self.is_all_solid() && self.cut_whole(plane) {
+            return;
+        }
         self.reach(plane, reach);
         if self.region.is_empty() {
-            return Ok(Cut { is_miss: true, ..Cut::default() });
+            self.done.is_miss = true;
+            return;
         }
         self.decide_flat_faces(plane, matches!(reach, Reach::Global));
-        let mut cut = self.describe_removed();
-        cut.caps = self.close(plane)?;
-        self.describe_touches(&mut cut);
+        self.describe_removed();
+        self.close(plane);
+        self.describe_touches();
         self.undo_needless_divisions();
-        Ok(cut)
     }
 
     // ---- reach -----------------------------------------------------------------------------------------------------
 
     /// On which side of the plane a vertex lies. Exact for given numbers; constructed ones within the bound are on it.
     pub(super) fn side(&mut self, plane: &SlicingPlane, v: VertexId) -> Side {
-        let (stamp, side) = self.sides[v.index()];
-        if stamp == self.cut {
+        if let Some(side) = StampedSide(self.sides[v.index()]).of_cut(self.cut) {
             return side;
         }
         let side = self.classify(plane, v);
-        self.sides[v.index()] = (self.cut, side);
+        self.sides[v.index()] = StampedSide::new(self.cut, side).0;
         side
     }
 
     #[cfg(test)]
-    fn classify(&mut self, plane: &SlicingPlane, v: VertexId) -> Side {
+    pub(super) fn classify(&mut self, plane: &SlicingPlane, v: VertexId) -> Side {
         self.classified += 1;
         self.pattern.get(v.index()).copied().unwrap_or_else(|| self.classify_by_numbers(plane, v))
     }
 
     #[cfg(not(test))]
-    fn classify(&self, plane: &SlicingPlane, v: VertexId) -> Side {
+    pub(super) fn classify(&mut self, plane: &SlicingPlane, v: VertexId) -> Side {
         self.classify_by_numbers(plane, v)
     }
 
@@ -206,16 +282,48 @@ impl Cutter {
         }
     }
 
+    /// Finds the side of every vertex, with no more than a distance for those that are clearly off the plane. Returns the
+    /// vertices in front and those on the plane, ascending.
+    pub(super) fn sweep_vertices(&mut self, plane: &SlicingPlane) -> (Vec<VertexId>, Vec<VertexId>) {
+        let clear = self.bound + indistinct(DVec3::splat(self.largest), plane.plane.point());
+        let is_by_numbers = self.goes_by_numbers();
+        let (mut in_front, mut on) = (Vec::new(), Vec::new());
+        for v in (0..self.mesh.vertex_slots()).map(VertexId::new) {
+            if !self.mesh.has_vertex(v) {
+                continue;
+            }
+            let distance = plane.plane.signed_distance(self.mesh.position(v));
+            let is_clear = is_by_numbers && distance.abs() > clear;
+            let side = if is_clear { Side::of(distance) } else { self.classify(plane, v) };
+            self.sides[v.index()] = StampedSide::new(self.cut, side).0;
+            match side {
+                Side::Normal => in_front.push(v),
+                Side::On => on.push(v),
+                Side::Reverse => {}
+            }
+        }
+        (in_front, on)
+    }
+
+    #[cfg(test)]
+    fn goes_by_numbers(&self) -> bool {
+        self.pattern.is_empty()
+    }
+
+    #[cfg(not(test))]
+    fn goes_by_numbers(&self) -> bool {
+        true
+    }
+
     /// The side found for `v` in this cut; only for vertices that were asked before.
     pub(super) fn known_side(&self, v: VertexId) -> Side {
-        let (stamp, side) = self.sides[v.index()];
-        debug_assert_eq!(stamp, self.cut, "the side of {v:?} was not asked in this cut");
-        side
+        let side = StampedSide(self.sides[v.index()]).of_cut(self.cut);
+        side.expect("the side was asked in this cut")
     }
 
     /// Whether the tables of this cut know the vertex.
     pub(super) fn is_known(&self, v: VertexId) -> bool {
-        self.sides.get(v.index()).is_some_and(|&(stamp, _)| stamp == self.cut)
+        self.sides.get(v.index()).is_some_and(|&stamped| StampedSide(stamped).of_cut(self.cut).is_some())
     }
 
     fn reach(&mut self, plane: &SlicingPlane, reach: Reach<'_>) {
@@ -226,14 +334,15 @@ impl Cutter {
             }
             Reach::Local(seeds) => seeds.iter().copied().filter(|&v| self.side(plane, v) == Side::Normal).collect(),
         };
-        let mut faces = Vec::new();
+        let (mut corners, mut faces) = (Vec::new(), Vec::new());
         while let Some(v) = queue.pop() {
-            faces.clear();
-            faces.extend(self.mesh.outgoing(v).map(|h| self.mesh.face(h)));
+            corners.clear();
+            corners.extend(self.mesh.outgoing(v));
             let is_untouched = |c: &Self, f: FaceId| c.doomed[f.index()] != c.cut;
-            for &f in &faces {
+            for &h in &corners {
+                let f = self.mesh.face(h);
                 if is_untouched(self, f) && !self.mesh.is_hole(f) {
-                    self.divide_face(plane, f);
+                    self.divide_face_at(plane, v, h);
                 }
             }
             // Dividing may have given the sectors around v new faces; they all lie in front of the plane now.
@@ -287,40 +396,53 @@ impl Cutter {
 
     // ---- what was done ---------------------------------------------------------------------------------------------
 
-    fn describe_removed(&mut self) -> Cut {
+    fn describe_removed(&mut self) {
         let mut seen = std::mem::take(&mut self.reached);
-        let mut met = Vec::new();
+        let mut met = std::mem::take(&mut self.done.met);
+        let in_front = StampedSide::new(self.cut, Side::Normal).0;
         for &f in &self.region {
-            seen.extend(self.mesh.face_vertices(f).filter(|v| self.sides[v.index()] == (self.cut, Side::Normal)));
-            met.extend(self.lineage[f.index()].0.checked_sub(self.faces_before));
+            seen.extend(self.mesh.face_vertices(f).filter(|v| self.sides[v.index()] == in_front));
+            met.extend(self.cut_of_cap(f));
         }
         seen.sort_unstable();
         seen.dedup();
-        met.extend(seen.iter().filter_map(|v| self.born[v.index()].checked_sub(1)));
+        met.extend(seen.iter().filter_map(|&v| self.cut_of_vertex(v)));
         met.sort_unstable();
         met.dedup();
-        let removed = seen.into_iter().filter(|v| self.born[v.index()] == 0).collect();
-        Cut { removed, met: met.into_iter().map(|k| k as usize).collect(), ..Cut::default() }
+        self.done.met = met;
+        self.done.removed.extend(seen.iter().filter(|v| self.born[v.index()] == 0));
+        self.reached = seen;
     }
 
-    fn describe_touches(&self, cut: &mut Cut) {
-        for v in cut.caps.iter().flat_map(|&f| self.mesh.face_vertices(f)) {
+    /// The cut of this round, counted from 0, of whose cap a face is a part.
+    pub(super) fn cut_of_cap(&self, f: FaceId) -> Option<usize> {
+        let lineage = self.lineage[f.index()].checked_sub(1)?;
+        lineage.checked_sub(self.faces_before).map(|cut| cut as usize)
+    }
+
+    /// The cut of this round, counted from 0, that made a vertex.
+    pub(super) fn cut_of_vertex(&self, v: VertexId) -> Option<usize> {
+        self.born[v.index()].checked_sub(1).map(|cut| cut as usize)
+    }
+
+    pub(super) fn describe_touches(&mut self) {
+        for v in self.done.caps.iter().flat_map(|&f| self.mesh.face_vertices(f)) {
             match self.born[v.index()] {
-                0 => cut.ends_at_vertex = true,
-                born if born != self.cut => cut.touched.push(born as usize - 1),
+                0 => self.done.ends_at_vertex = true,
+                born if born != self.cut => self.done.touched.push(born as usize - 1),
                 _ => {}
             }
         }
-        cut.touched.sort_unstable();
-        cut.touched.dedup();
+        self.done.touched.sort_unstable();
+        self.done.touched.dedup();
     }
 
     /// Takes back divisions of faces of which neither side was removed: parts that a local cut did not reach.
-    fn undo_needless_divisions(&mut self) {
+    pub(super) fn undo_needless_divisions(&mut self) {
         let cap = self.cap_lineage(self.cut as usize - 1);
         for e in std::mem::take(&mut self.chords) {
             let is_needless = self.mesh.has_edge(e)
-                && self.mesh.edge_faces(e).into_iter().all(|f| !self.mesh.is_hole(f) && self.lineage[f.index()] != cap);
+                && self.mesh.edge_faces(e).into_iter().all(|f| !self.mesh.is_hole(f) && self.lineage_of(f) != cap);
             if is_needless {
                 self.mesh.delete_edge(e);
             }
@@ -337,26 +459,36 @@ impl Cutter {
     }
 
     fn was_cut(&self, h: HalfEdgeId, cap: Lineage) -> bool {
-        let f = self.mesh.face(h);
-        self.lineage[f.index()] == cap
+        self.lineage_of(self.mesh.face(h)) == cap
     }
 
     // ---- elements that the steps make --------------------------------------------------------------------------------
 
-    /// Divides an edge where it crosses the plane.
-    pub(super) fn split_at_plane(&mut self, plane: &SlicingPlane, h: HalfEdgeId) {
+    /// Whether there is nothing but closed surfaces with edges.
+    fn is_all_solid(&self) -> bool {
+        self.mesh.is_closed() && self.is_open.is_none()
+    }
+
+    /// Divides an edge where it crosses the plane; returns the new vertex.
+    pub(super) fn split_at_plane(&mut self, plane: &SlicingPlane, h: HalfEdgeId) -> VertexId {
         let point = self.crossing(plane, h);
         let end = self.mesh.origin(h);
         let (v, _) = self.mesh.split_edge(h.edge(), point);
         self.register_vertex(v, end);
         self.splits.push(v);
+        v
     }
 
     /// The point where the edge of `h` meets the plane: on the edge, then moved onto the planes of its two faces as far as
     /// rounding explains (the meeting point of three planes, solved on residuals).
     fn crossing(&self, plane: &SlicingPlane, h: HalfEdgeId) -> DVec3 {
-        let on_edge = self.point_on_edge(plane, h);
         let carried = [h, h.twin()].map(|side| self.mesh.carried_plane(self.mesh.face(side)));
+        self.crossing_between(plane, h, carried)
+    }
+
+    /// [`Self::crossing`], given what planes the two faces carry.
+    pub(super) fn crossing_between(&self, plane: &SlicingPlane, h: HalfEdgeId, carried: [Option<Plane>; 2]) -> DVec3 {
+        let on_edge = self.point_on_edge(plane, h);
         let [Some(f), Some(g)] = carried else { return on_edge };
         let is_end = |p: DVec3| [h, h.twin()].into_iter().any(|side| self.mesh.position(self.mesh.origin(side)) == p);
         match meet_three([&f, &g, &plane.plane], on_edge) {
@@ -378,10 +510,10 @@ impl Cutter {
 
     /// Makes room in the tables for a new vertex, which is like `like` as far as rims are concerned.
     pub(super) fn register_vertex(&mut self, v: VertexId, like: VertexId) {
-        grow(&mut self.sides, v.index(), (0, Side::On));
+        grow(&mut self.sides, v.index(), 0);
         grow(&mut self.born, v.index(), 0);
         self.born[v.index()] = self.cut;
-        self.sides[v.index()] = (self.cut, Side::On);
+        self.sides[v.index()] = StampedSide::new(self.cut, Side::On).0;
         if let Some(is_open) = &mut self.is_open {
             grow(is_open, v.index(), false);
             is_open[v.index()] = is_open[like.index()];
@@ -395,23 +527,21 @@ impl Cutter {
             .mesh
             .insert_edge(crate::mesh::Corner::At(from), crate::mesh::Corner::At(to))
             .expect("half-edges are corners");
-        self.register_face(self.mesh.face(e.half_edge()), self.lineage[parent.index()]);
+        self.register_face(self.mesh.face(e.half_edge()), self.lineage_of(parent));
+        // What a line leaves of a convex face is convex; of other faces it may be anything.
+        self.forget_shape_unless_convex(parent);
         self.chords.push(e);
         e.half_edge()
     }
 
     pub(super) fn register_face(&mut self, f: FaceId, lineage: Lineage) {
-        grow(&mut self.lineage, f.index(), lineage);
-        grow(&mut self.doomed, f.index(), 0);
-        grow(&mut self.decided, f.index(), 0);
-        self.lineage[f.index()] = lineage;
-        self.doomed[f.index()] = 0;
-        self.decided[f.index()] = 0;
-    }
-
-    /// The faces to be replaced, and whether their walks must stay open because their component is.
-    pub(super) fn take_region(&mut self) -> Vec<FaceId> {
-        std::mem::take(&mut self.region)
+        for table in [&mut self.lineage, &mut self.doomed, &mut self.decided] {
+            grow(table, f.index(), 0);
+            table[f.index()] = 0;
+        }
+        grow(&mut self.shapes, f.index(), 0);
+        self.shapes[f.index()] = 0;
+        self.lineage[f.index()] = lineage.0 + 1;
     }
 
     /// Whether the component of `v` had a rim before the command, so that a cut leaves a rim, too.

@@ -23,6 +23,15 @@ struct OnCorner {
     is_inside_after: bool,
 }
 
+/// Where a run of corners in front of the plane ends.
+#[derive(Debug, Clone, Copy)]
+enum RunEnd {
+    /// At a corner on the plane, given by the half-edge that leaves it.
+    At(HalfEdgeId),
+    /// Within an edge.
+    Crossing(HalfEdgeId),
+}
+
 /// The four directions around a corner on the plane, counter-clockwise seen from outside the face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Direction {
@@ -52,6 +61,64 @@ impl Sector {
 }
 
 impl Cutter {
+    /// Divides the face of `h`, which left `v` in front before edges were split, along the plane if it lies on both sides.
+    /// Where the face is known to be convex only the corners in front are visited: a local cut near a corner of a large face
+    /// stays local.
+    pub(super) fn divide_face_at(&mut self, plane: &SlicingPlane, v: VertexId, h: HalfEdgeId) {
+        let f = self.mesh.face(h);
+        // The division of a neighbour may have split the edge of `h`, whose far half it is then.
+        let h = if self.mesh.origin(h) == v { h } else { self.mesh.prev(h) };
+        let is_near = plane.given.is_none() && self.mesh.origin(h) == v && self.is_convex(f);
+        match if is_near { self.ends_of_run(plane, h) } else { None } {
+            Some(ends) => {
+                self.ensure_plane(f);
+                let [after, before] = ends.map(|end| self.corner_at(plane, end));
+                self.insert_chord(after, before);
+            }
+            None => self.divide_face(plane, f),
+        }
+    }
+
+    /// Where the run of corners in front that begins with `h` ends in its face, forwards and backwards. `None` unless a
+    /// corner behind the plane follows on both sides.
+    fn ends_of_run(&mut self, plane: &SlicingPlane, h: HalfEdgeId) -> Option<[RunEnd; 2]> {
+        let mut last = h;
+        let after = loop {
+            let out = self.mesh.next(last);
+            match self.side(plane, self.mesh.target(last)) {
+                Side::Reverse => break RunEnd::Crossing(last),
+                Side::Normal if out != h => last = out,
+                Side::On if self.side(plane, self.mesh.target(out)) == Side::Reverse => break RunEnd::At(out),
+                _ => return None,
+            }
+        };
+        let mut first = h;
+        let before = loop {
+            let into = self.mesh.prev(first);
+            match self.side(plane, self.mesh.origin(into)) {
+                Side::Reverse => break RunEnd::Crossing(into),
+                Side::Normal if into != h => first = into,
+                Side::On if self.side(plane, self.mesh.origin(self.mesh.prev(into))) == Side::Reverse => {
+                    break RunEnd::At(into);
+                }
+                _ => return None,
+            }
+        };
+        Some([after, before])
+    }
+
+    /// The corner on the plane at the end of a run, made when it is not there yet.
+    fn corner_at(&mut self, plane: &SlicingPlane, end: RunEnd) -> HalfEdgeId {
+        match end {
+            RunEnd::At(corner) => corner,
+            RunEnd::Crossing(h) => {
+                self.ensure_plane(self.mesh.face(h.twin()));
+                let corner = self.split_at_plane(plane, h);
+                if self.mesh.origin(h) == corner { h } else { self.mesh.next(h) }
+            }
+        }
+    }
+
     /// Divides `f` along the plane if it lies on both sides.
     pub(super) fn divide_face(&mut self, plane: &SlicingPlane, f: FaceId) {
         if !self.lies_on_both_sides(plane, f) {
@@ -103,7 +170,7 @@ impl Cutter {
     }
 
     /// Lets a face carry its plane from the first cut on, so that it cannot drift. Faces that are not planar carry none.
-    fn ensure_plane(&mut self, f: FaceId) {
+    pub(super) fn ensure_plane(&mut self, f: FaceId) {
         if self.mesh.carried_plane(f).is_some() || self.mesh.is_hole(f) {
             return;
         }

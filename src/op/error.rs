@@ -80,19 +80,6 @@ pub enum OpError {
         /// What it must exceed, in mm.
         least: f64,
     },
-    /// The walks of a section cross each other, so there is no cap for them.
-    #[error(
-        "the section crosses itself, so it cannot be capped; the model intersects itself there: repair it first, or cut without caps"
-    )]
-    TangledSection,
-    /// Holes of a section could not be joined by bridges.
-    #[error(
-        "{holes} holes of a section could not be joined to their cap; the model touches or intersects itself there: repair it first, or cut without caps"
-    )]
-    HolesNotJoined {
-        /// How many.
-        holes: usize,
-    },
     /// Too many of something, or none.
     #[error("there can be 1 to {limit} {what}, not {count}")]
     CountOutOfRange {

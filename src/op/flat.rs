@@ -41,22 +41,30 @@ impl Cutter {
         self.mesh.face_half_edges(f).collect()
     }
 
-    fn is_undecided(&self, f: FaceId) -> bool {
+    pub(super) fn is_undecided(&self, f: FaceId) -> bool {
         self.doomed[f.index()] != self.cut && self.decided[f.index()] != self.cut
     }
 
-    fn looks_along(&self, plane: &SlicingPlane, f: FaceId) -> bool {
+    pub(super) fn looks_along(&self, plane: &SlicingPlane, f: FaceId) -> bool {
         self.mesh.plane(f).is_some_and(|p| p.normal().dot(plane.plane.normal()) > 0.0)
     }
 
-    fn is_flat(&mut self, plane: &SlicingPlane, f: FaceId) -> bool {
+    pub(super) fn is_flat(&mut self, plane: &SlicingPlane, f: FaceId) -> bool {
         if self.mesh.is_hole(f) {
             return false;
         }
-        self.walk_of(f).into_iter().all(|h| self.side(plane, self.mesh.origin(h)) == Side::On)
+        let start = self.mesh.face_start(f);
+        let mut next = start;
+        while let Some(h) = next {
+            if self.side(plane, self.mesh.origin(h)) != Side::On {
+                return false;
+            }
+            next = Some(self.mesh.next(h)).filter(|&n| Some(n) != start);
+        }
+        true
     }
 
-    fn decide_patch(&mut self, plane: &SlicingPlane, seed: FaceId) {
+    pub(super) fn decide_patch(&mut self, plane: &SlicingPlane, seed: FaceId) {
         let mut patch = vec![seed];
         self.decided[seed.index()] = self.cut;
         let mut is_held = false;

@@ -1,6 +1,8 @@
 //! Modelling operators, mesh in, mesh out; one operator, one file.
 
 mod bridge;
+mod chain;
+mod corner;
 mod cutter;
 mod divide;
 mod error;
@@ -13,6 +15,7 @@ mod resolve;
 mod section;
 mod slice;
 mod subdivide;
+mod sweep;
 mod truncate;
 mod truncate_edge;
 mod truncate_face;
@@ -23,7 +26,8 @@ mod patterns;
 #[cfg(test)]
 mod tests;
 
-pub use cutter::Capping;
+pub use chain::CutChain;
+pub use cutter::{Capping, Reach};
 pub use error::OpError;
 pub use hull::{Axis, HullParams, HullPart, HullReport, HullStep, Step, Steps, halfspaces, hull};
 pub use operate::{Operate, Operated};

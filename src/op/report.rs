@@ -11,6 +11,10 @@ pub struct CutReport {
     pub cuts: usize,
     /// How many of them met nothing: the plane missed, or earlier cuts had removed the element.
     pub missed: usize,
+    /// How many holes of sections could not be joined to their caps, because the mesh touches or crosses itself there. Each
+    /// has a face of its own, a lid that lies on the cap and looks the other way: the mesh is sound and its volume right, but
+    /// the lid is no panel.
+    pub lids: usize,
     /// The elements whose cut was not disjoint from the others, by their number in the mesh of their round: it removed a
     /// vertex that was not its own, or something that another cut had made.
     pub overcut: Vec<usize>,
@@ -33,6 +37,12 @@ impl CutReport {
         let mut notes = Vec::new();
         if self.is_beyond_far_ends {
             notes.push("the offset is above 1: the planes lie beyond the far ends of the edges".to_owned());
+        }
+        if self.lids > 0 {
+            notes.push(format!(
+                "{} holes of sections could not be joined to their caps since the model touches or crosses itself there: each is closed by a face that lies on the cap; repair the model, or cut without caps",
+                self.lids
+            ));
         }
         if self.missed > 0 {
             notes.push(format!("{} of {} cuts met nothing", self.missed, self.cuts));

@@ -189,9 +189,10 @@ impl Resolving {
         let group = mesh.group(f).map(str::to_owned);
         let seam_faces: BTreeSet<FaceId> =
             mesh.face_half_edges(f).filter(|h| mesh.is_seam(h.edge())).map(|h| mesh.face(h.twin())).collect();
-        let cut = self.cutter.cut(&SlicingPlane { plane, given: None }, Reach::Local(&corners))?;
+        self.cutter.cut(&SlicingPlane { plane, given: None }, Reach::Local(&corners));
+        let caps = std::mem::take(&mut self.cutter.done.caps);
         let mesh = &mut self.cutter.mesh;
-        for cap in cut.caps {
+        for cap in caps {
             if let Some(group) = &group {
                 mesh.set_group(cap, group);
             }

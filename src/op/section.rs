@@ -6,7 +6,6 @@
 
 use glam::DVec2;
 
-use super::OpError;
 use super::cutter::{Capping, Cutter, SlicingPlane};
 use crate::geom::polygon::{Location, locate, signed_area};
 use crate::geom::{Frame, Plane};
@@ -23,9 +22,9 @@ pub(super) struct SectionWalk {
 }
 
 impl Cutter {
-    /// Replaces the region in front of the plane by caps and returns them.
-    pub(super) fn close(&mut self, plane: &SlicingPlane) -> Result<Vec<FaceId>, OpError> {
-        let region = self.take_region();
+    /// Replaces the region in front of the plane by caps, which [`Self::done`] then lists.
+    pub(super) fn close(&mut self, plane: &SlicingPlane) {
+        let region = std::mem::take(&mut self.region);
         let old_rims = self.rims_of(&region);
         let frame = Frame::on_plane(&plane.plane);
         let mut touches_itself = false;
@@ -33,17 +32,30 @@ impl Cutter {
             touches_itself = true;
             pair_by_material(mesh, &frame, passes);
         });
-        let mut caps = Vec::with_capacity(1);
-        for start in starts {
+        self.region = region;
+        self.cap_walks(plane, &starts, &old_rims, touches_itself);
+    }
+
+    /// Makes the new faces, one for each of `starts`, caps or rims.
+    pub(super) fn cap_walks(
+        &mut self,
+        plane: &SlicingPlane,
+        starts: &[HalfEdgeId],
+        old_rims: &[HalfEdgeId],
+        touches_itself: bool,
+    ) {
+        let mut caps = std::mem::take(&mut self.done.caps);
+        for &start in starts {
             let was_open = self.register_walk(start);
             let f = self.mesh.face(start);
-            let kind = if self.stays_open(f, was_open, &old_rims) { FaceKind::Hole } else { FaceKind::Solid };
+            let kind = if self.stays_open(f, was_open, old_rims) { FaceKind::Hole } else { FaceKind::Solid };
             self.register_cap(f, kind, &plane.plane);
             if kind == FaceKind::Solid && self.tidy(f) {
                 caps.push(f);
             }
         }
-        if caps.len() > 1 || (touches_itself && !caps.is_empty()) { self.nest(&plane.plane, caps) } else { Ok(caps) }
+        let has_more_walks = caps.len() > 1 || (touches_itself && !caps.is_empty());
+        self.done.caps = if has_more_walks { self.nest(&plane.plane, caps) } else { caps };
     }
 
     /// The half-edges of the holes in a region, ascending.
@@ -105,7 +117,7 @@ impl Cutter {
     }
 
     /// Finds out which walks are holes in which caps and divides those caps.
-    fn nest(&mut self, plane: &Plane, caps: Vec<FaceId>) -> Result<Vec<FaceId>, OpError> {
+    fn nest(&mut self, plane: &Plane, caps: Vec<FaceId>) -> Vec<FaceId> {
         let near = self.mesh.position(self.mesh.face_vertices(caps[0]).next().expect("a cap has corners"));
         let frame = Frame { origin: near, ..Frame::on_plane(plane) };
         let walks: Vec<SectionWalk> = caps.iter().flat_map(|&f| self.simple_walks(&frame, f)).collect();
@@ -123,11 +135,14 @@ impl Cutter {
             if holes.is_empty() {
                 result.push(outer.face);
             } else {
-                result.extend(self.bridge(&frame, outer, holes)?);
+                let (faces, lids) = self.bridge(&frame, outer, holes);
+                result.extend(faces);
+                self.done.lids += lids;
             }
         }
         result.sort_unstable();
-        Ok(result)
+        result.dedup();
+        result
     }
 
     /// The walk of a cap, divided where it visits a vertex a second time.
@@ -176,7 +191,7 @@ fn innermost(outers: &[SectionWalk], hole: &SectionWalk) -> Option<usize> {
 
 /// Pairs the section edges at a vertex so that each corner of a cap holds material; leaves the pairs as they are where the
 /// flat picture is not clear (edges on top of each other).
-fn pair_by_material(mesh: &Mesh, frame: &Frame, passes: &mut [(HalfEdgeId, HalfEdgeId)]) {
+pub(super) fn pair_by_material(mesh: &Mesh, frame: &Frame, passes: &mut [(HalfEdgeId, HalfEdgeId)]) {
     let vertex = mesh.position(mesh.target(passes[0].0));
     let angle = |h: HalfEdgeId, is_arriving: bool| {
         let other = if is_arriving { mesh.origin(h) } else { mesh.target(h) };

@@ -13,7 +13,6 @@ use serde::{Deserialize, Deserializer};
 use super::cutter::{Cutter, Reach, SlicingPlane};
 use super::report::{CutReport, RoundMarks, finish};
 use super::{Capping, OpContext, OpError};
-use crate::geom::Plane;
 use crate::mesh::Mesh;
 use crate::units::{Length, UnitError, parse_number};
 
@@ -71,28 +70,30 @@ impl SliceParams {
 ///
 /// # Errors
 /// [`OpError::NoDirection`], [`OpError::BadPoint`], [`OpError::NothingLeft`] when the plane leaves no mesh,
-/// [`OpError::TangledSection`] and [`OpError::HolesNotJoined`] when the mesh intersects itself along the plane,
 /// [`OpError::TwoParts`] for [`Keep::Both`], which [`slice_both`] is for.
 pub fn slice(mesh: &Mesh, params: &SliceParams, _context: &OpContext<'_>) -> Result<(Mesh, CutReport), OpError> {
     let (Direction(normal), Point(point)) = (params.normal, params.point);
-    if !point.is_finite() {
-        return Err(OpError::BadPoint(point.x, point.y, point.z));
-    }
     let normal = match params.keep {
         Keep::Reverse => normal,
         Keep::Normal => -normal,
         Keep::Both => return Err(OpError::TwoParts),
     };
-    let plane = Plane::new(normal, point).ok_or(OpError::NoDirection(normal.x, normal.y, normal.z))?;
+    let plane = SlicingPlane::given(normal, point)?;
     let mut cutter = Cutter::new(mesh.clone());
     cutter.capping = params.cap;
-    let cut = cutter.cut(&SlicingPlane { plane, given: Some((normal, point)) }, Reach::Global)?;
+    cutter.cut(&plane, Reach::Global);
     if cutter.mesh.face_count() == 0 {
         return Err(OpError::NothingLeft { cut: 1, cuts: 1 });
     }
     let marks = RoundMarks { caps: vec![cutter.cap_lineage(0)], strips: Vec::new() };
     let made = marks.collect(&cutter);
-    let report = CutReport { cuts: 1, missed: usize::from(cut.is_miss), made, ..CutReport::default() };
+    let report = CutReport {
+        cuts: 1,
+        missed: usize::from(cutter.done.is_miss),
+        lids: cutter.done.lids,
+        made,
+        ..CutReport::default()
+    };
     Ok(finish(cutter.mesh, report))
 }
 

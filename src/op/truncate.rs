@@ -126,6 +126,7 @@ struct Round {
     marks: RoundMarks,
     cuts: usize,
     missed: usize,
+    lids: usize,
     /// Elements whose cut took what was not theirs.
     overcut: Vec<usize>,
     /// Elements whose cut ends where another one does, or at a vertex of the mesh.
@@ -166,6 +167,7 @@ pub(super) fn truncate(
         }
         report.cuts += done.cuts;
         report.missed += done.missed;
+        report.lids += done.lids;
         report.overcut.extend(done.overcut);
         report.shrunk.extend(offsets.shrunk);
         report.made = done.marks.collect(&cutter);
@@ -234,12 +236,14 @@ fn cut_round(
         let plane = SlicingPlane { plane: element.plane, given: None };
         let seeds: Vec<VertexId> = element.vertices.iter().copied().filter(|&v| cutter.is_original(v)).collect();
         let reach = if scope == Scope::Local { Reach::Local(&seeds) } else { Reach::Global };
-        let cut = cutter.cut(&plane, reach)?;
+        cutter.cut(&plane, reach);
         if cutter.mesh.face_count() == 0 {
             round.emptied_by = Some(i);
             break;
         }
+        let cut = &cutter.done;
         round.missed += usize::from(cut.is_miss);
+        round.lids += cut.lids;
         let is_own = |v: &VertexId| element.vertices.contains(v);
         if !cut.met.is_empty() || !cut.removed.iter().all(is_own) || cut.removed.len() < element.vertices.len() {
             round.overcut.push(element.id);

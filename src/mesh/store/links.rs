@@ -9,6 +9,11 @@ use glam::DVec3;
 use super::{Corner, Face, FaceKind, HalfEdge, Link, Mesh, NONE, Vertex};
 use crate::mesh::{EdgeId, FaceId, HalfEdgeId, MAX_ELEMENTS, VertexId};
 
+mod corner;
+mod region;
+
+pub(crate) use region::Region;
+
 /// Why a fundamental operator refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -298,138 +303,6 @@ impl Mesh {
         Some((split_off, new))
     }
 
-    /// Cuts a region of faces out and closes every boundary walk of it by one new face.
-    ///
-    /// Edges between two faces of the region and vertices with no edge left go; the edges on the region's boundary stay.
-    /// The same as deleting the region's inner edges one by one, in time proportional to the region, except that a region
-    /// of any genus and any number of boundary walks is closed by discs. Returns one half-edge on each new face. A
-    /// component that lies wholly in the region disappears.
-    ///
-    /// Where the boundary passes a vertex several times, `pairing` may choose how the walks go on: it is given the boundary
-    /// half-edges that end there, each with its successor around the region, and may permute the successors. The fans that
-    /// no longer hang together then get vertices of their own.
-    pub(crate) fn replace_region(
-        &mut self,
-        region: &[FaceId],
-        mut pairing: impl FnMut(&Self, &mut [(HalfEdgeId, HalfEdgeId)]),
-    ) -> Vec<HalfEdgeId> {
-        let members: Vec<HalfEdgeId> =
-            region.iter().filter_map(|&f| self.face_start(f)).flat_map(|s| self.loop_from(s)).collect();
-        let lone: Vec<VertexId> = region.iter().filter_map(|&f| self.lone_vertex(f)).collect();
-        for &f in region {
-            self.free_face(f);
-        }
-        let is_inside = |mesh: &Self, h: HalfEdgeId| mesh.faces[mesh.face(h).index()].start == Link::FREE;
-        let mut boundary: Vec<(HalfEdgeId, HalfEdgeId)> = Vec::new();
-        for &h in members.iter().filter(|h| !is_inside(self, h.twin())) {
-            let mut next = self.next(h);
-            while is_inside(self, next.twin()) {
-                next = self.next(next.twin());
-            }
-            boundary.push((h, next));
-        }
-        for &v in &lone {
-            self.free_vertex(v);
-        }
-        let touched = self.pair_at_touched_vertices(&mut boundary, &mut pairing);
-        for &(h, next) in &boundary {
-            self.link(h, next);
-        }
-        self.free_inside(&members, &boundary);
-        for v in touched {
-            self.separate_fans(v, &boundary);
-        }
-        self.close_loops(&boundary)
-    }
-
-    /// Offers the passes of every vertex with more than one of them to `pairing`; returns those vertices.
-    fn pair_at_touched_vertices(
-        &self,
-        boundary: &mut [(HalfEdgeId, HalfEdgeId)],
-        pairing: &mut impl FnMut(&Self, &mut [(HalfEdgeId, HalfEdgeId)]),
-    ) -> Vec<VertexId> {
-        let mut passes: Vec<(VertexId, usize)> =
-            boundary.iter().enumerate().map(|(i, &(h, _))| (self.target(h), i)).collect();
-        passes.sort_unstable();
-        let mut touched = Vec::new();
-        for group in passes.chunk_by(|a, b| a.0 == b.0).filter(|group| group.len() > 1) {
-            let mut pairs: Vec<_> = group.iter().map(|&(_, i)| boundary[i]).collect();
-            pairing(self, &mut pairs);
-            for (&(_, i), pair) in group.iter().zip(pairs) {
-                boundary[i] = pair;
-            }
-            touched.push(group[0].0);
-        }
-        touched
-    }
-
-    /// Gives every fan at `v` but the first a vertex of its own, after its links were changed.
-    fn separate_fans(&mut self, v: VertexId, boundary: &[(HalfEdgeId, HalfEdgeId)]) {
-        let leaving: Vec<HalfEdgeId> =
-            boundary.iter().map(|&(_, next)| next).filter(|&h| self.origin(h) == v).collect();
-        let mut fans: Vec<Vec<HalfEdgeId>> = Vec::new();
-        for start in leaving {
-            if !fans.iter().flatten().any(|&h| h == start) {
-                let walk = std::iter::successors(Some(start), |&h| Some(self.next(h.twin())).filter(|&n| n != start));
-                fans.push(walk.collect());
-            }
-        }
-        self.vertices[v.index()].start = Link::edge(fans[0][0]);
-        for fan in &fans[1..] {
-            let split_off = self.new_vertex(self.position(v));
-            self.vertices[split_off.index()].is_given = self.is_given(v);
-            self.vertices[split_off.index()].start = Link::edge(fan[0]);
-            for h in fan {
-                self.half_edges[h.index()].origin = split_off;
-            }
-        }
-    }
-
-    /// Frees the inner edges of a region and the vertices that only it had; vertices on the boundary stay.
-    fn free_inside(&mut self, members: &[HalfEdgeId], boundary: &[(HalfEdgeId, HalfEdgeId)]) {
-        for &h in members {
-            let v = self.origin(h);
-            self.vertices[v.index()].start = Link::FREE;
-        }
-        for &(h, _) in boundary {
-            let v = self.origin(h);
-            self.vertices[v.index()].start = Link::edge(h);
-        }
-        for &h in members {
-            let v = self.origin(h);
-            if self.vertices[v.index()].start == Link::FREE {
-                // A stand-in, so that the next half-edge at the same vertex does not free it again.
-                self.vertices[v.index()].start = Link::lone(0);
-                self.free_vertices.push(v);
-            }
-        }
-        for &h in members {
-            let v = self.origin(h);
-            if self.vertices[v.index()].start == Link::lone(0) {
-                self.vertices[v.index()].start = Link::FREE;
-            }
-            let is_inner = self.faces[self.face(h.twin()).index()].start == Link::FREE;
-            if is_inner && self.has_edge(h.edge()) {
-                self.free_edge(h.edge());
-            }
-        }
-    }
-
-    fn close_loops(&mut self, boundary: &[(HalfEdgeId, HalfEdgeId)]) -> Vec<HalfEdgeId> {
-        for &(h, _) in boundary {
-            self.half_edges[h.index()].face = FaceId(NONE);
-        }
-        let mut starts = Vec::new();
-        for &(h, _) in boundary {
-            if self.face(h).0 == NONE {
-                let cap = self.new_face(FaceKind::Solid);
-                self.assign_loop(h, cap);
-                starts.push(h);
-            }
-        }
-        starts
-    }
-
     /// Assembles a mesh from consistently oriented faces in one go: the bulk twin of `insert_edge` for the builder.
     ///
     /// `edges` lists each edge once as (origin, target) and `faces` the half-edges of each face and hole in order; the
@@ -528,9 +401,15 @@ impl Mesh {
         std::iter::successors(Some(start), move |&h| Some(self.next(h)).filter(|&n| n != start))
     }
 
+    #[inline]
     fn link(&mut self, before: HalfEdgeId, after: HalfEdgeId) {
         self.half_edges[before.index()].next = after;
         self.half_edges[after.index()].prev = before;
+    }
+
+    #[inline]
+    fn set_origin(&mut self, h: HalfEdgeId, v: VertexId) {
+        self.half_edges[h.index()].origin = v;
     }
 
     fn isolate(&mut self, v: VertexId, f: FaceId) {
@@ -571,6 +450,7 @@ impl Mesh {
         }
     }
 
+    #[inline]
     fn new_vertex(&mut self, position: DVec3) -> VertexId {
         let vertex = Vertex { position, start: Link::FREE, is_given: false };
         if let Some(v) = self.free_vertices.pop() {
@@ -581,6 +461,7 @@ impl Mesh {
         VertexId::new(self.vertices.len() - 1)
     }
 
+    #[inline]
     fn new_edge(&mut self, from: VertexId, to: VertexId) -> EdgeId {
         let unset = HalfEdgeId(NONE);
         let pair = [from, to].map(|origin| HalfEdge { next: unset, prev: unset, origin, face: FaceId(NONE) });
@@ -595,6 +476,7 @@ impl Mesh {
         EdgeId::new(self.seams.len() - 1)
     }
 
+    #[inline]
     fn new_face(&mut self, kind: FaceKind) -> FaceId {
         let face = Face { start: Link::FREE, plane: NONE, group: NONE, kind };
         self.holes += usize::from(kind == FaceKind::Hole);
@@ -615,11 +497,13 @@ impl Mesh {
         new
     }
 
+    #[inline]
     fn free_vertex(&mut self, v: VertexId) {
         self.vertices[v.index()].start = Link::FREE;
         self.free_vertices.push(v);
     }
 
+    #[inline]
     fn free_edge(&mut self, e: EdgeId) {
         for h in e.half_edges() {
             let slot = &mut self.half_edges[h.index()];
@@ -629,6 +513,7 @@ impl Mesh {
         self.free_edges.push(e);
     }
 
+    #[inline]
     fn free_face(&mut self, f: FaceId) {
         self.set_kind(f, FaceKind::Solid);
         self.faces[f.index()].start = Link::FREE;

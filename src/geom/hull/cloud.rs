@@ -57,14 +57,14 @@ impl<S: Signs> Cloud<S> {
     /// On which side of the plane through three points, counter-clockwise from its normal side, p lies; exact.
     #[inline]
     pub(super) fn height(&self, corners: [u32; 3], p: u32) -> Side {
-        self.height_of(self.point(p), corners, p)
+        let o = self.point(p);
+        let [a, b, c] = corners.map(|v| self.point(v) - o);
+        self.settled_height(corners, p, a.dot(b.cross(c)))
     }
 
-    /// The same for who has the point p at hand.
+    /// The same for who has the rounded volume a·(b × c) of the corners seen from p, in whatever order it was computed.
     #[inline]
-    pub(super) fn height_of(&self, target: DVec3, corners: [u32; 3], p: u32) -> Side {
-        let [a, b, c] = corners.map(|v| self.point(v) - target);
-        let below = a.dot(b.cross(c));
+    pub(super) fn settled_height(&self, corners: [u32; 3], p: u32, below: f64) -> Side {
         if below.abs() > self.height_bound { Side::of(-below) } else { self.small_height(corners, p, below) }
     }
 

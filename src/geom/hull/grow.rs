@@ -9,13 +9,16 @@ use std::ops::Range;
 use super::cloud::{Cloud, Signs};
 use super::order::Order;
 use super::parallel::each;
-use super::surface::{Division, Surface};
+use super::surface::{Division, Growth, Surface};
 
 /// From so many points on the surface is divided into so many parts.
-const PARTS: [(usize, usize); 2] = [(1 << 19, 4), (1 << 15, 2)];
+const PARTS: [(usize, usize); 2] = [(1 << 21, 4), (1 << 15, 2)];
+
+/// So many points in a row may lie beyond a border as seen from where the last one was inserted; then the next is sought from elsewhere.
+const TRIES: usize = 16;
 
 /// Inserts all points but those that are corners already, `inserted` (ascending).
-pub(super) fn grow<S: Signs>(cloud: &Cloud<S>, surface: &mut Surface, order: &Order, inserted: &[u32]) {
+pub(super) fn grow<S: Signs>(cloud: &Cloud<S>, surface: &mut Surface<'_>, order: &Order, inserted: &[u32]) {
     let (seeds, count) = (order.seed_cells.len() as u32, cloud.len());
     without(0..seeds, inserted).for_each(|p| surface.insert(cloud, p));
     let parts = PARTS.iter().find(|&&(least, _)| count as usize >= least).map_or(1, |&(_, parts)| parts);
@@ -42,14 +45,17 @@ fn without(places: Range<u32>, inserted: &[u32]) -> impl Iterator<Item = u32> {
 /// Where one part ends and the next begins.
 struct Borders<'a> {
     order: &'a Order,
-    /// For each part the indices of its cells in [`Order::cells`].
+    /// For each part its cells.
     cells: Vec<Range<usize>>,
 }
 
 /// A part of the surface while it grows.
-struct Part {
-    surface: Surface,
-    /// Indices of its cells.
+struct Part<'a> {
+    /// Nothing any more once it has grown.
+    surface: Option<Surface<'a>>,
+    /// Its first slot in the whole surface.
+    begin: u32,
+    growth: Option<Growth>,
     cells: Range<usize>,
     /// For each of the cells a facet near it.
     hints: Vec<u32>,
@@ -60,92 +66,96 @@ struct Part {
 impl<'a> Borders<'a> {
     /// Runs of cells with about the same number of points.
     fn of(order: &'a Order, parts: usize) -> Self {
-        let (seeds, count) = (order.seed_cells.len(), order.points.len());
-        let end = |k: usize| {
-            let goal = seeds + (count - seeds) * k / parts;
-            order.cells.partition_point(|&(_, end)| (end as usize) <= goal)
-        };
+        let end = |k: usize| order.cells.len() * k / parts;
         Self { order, cells: (0..parts).map(|k| end(k)..end(k + 1)).collect() }
     }
 
     /// The cell of a point.
     fn cell_of(&self, place: u32) -> u32 {
-        let late = || self.order.cells[self.order.cells.partition_point(|&(_, end)| end <= place)].0;
+        let late = || self.order.cells.partition_point(|&end| end <= place) as u32;
         self.order.seed_cells.get(place as usize).copied().unwrap_or_else(late)
     }
 
-    /// The part that a cell belongs to.
-    fn part_of(&self, cell: u32) -> usize {
-        let first = |cells: &Range<usize>| self.order.cells.get(cells.start).map_or(u32::MAX, |c| c.0);
-        self.cells.iter().skip(1).take_while(|cells| first(cells) <= cell).count()
+    /// The part that a point belongs to.
+    fn part_of(&self, place: u32) -> usize {
+        let cell = self.cell_of(place) as usize;
+        self.cells.iter().position(|cells| cell < cells.end).unwrap_or(0)
     }
 
     /// Divides the surface by its facets' first corners, lets the parts grow, and joins them; returns the points that are left.
-    fn grow<S: Signs>(&self, cloud: &Cloud<S>, surface: &mut Surface, inserted: &[u32]) -> Vec<u32> {
+    fn grow<S: Signs>(&self, cloud: &Cloud<S>, surface: &mut Surface<'_>, inserted: &[u32]) -> Vec<u32> {
         let mut near: Vec<(u32, u32)> =
             surface.live().map(|f| (self.cell_of(surface.facet(f).corners[0]), f)).collect();
         near.sort_unstable();
-        let (facets, count) = (surface.slots(), cloud.len() as usize);
-        // The first part will hold all of them in the end.
-        let room = |cells: &Range<usize>| {
-            if cells.start == 0 { 2 * count + 8 } else { 2 * places(self.order, cells.clone()).len() + facets }
-        };
+        let room = |cells: &Range<usize>| 2 * without(places(self.order, cells.clone()), inserted).count();
         let room: Vec<usize> = self.cells.iter().map(room).collect();
-        let (parts, division) = surface.divide(&room, |facet| self.part_of(self.cell_of(facet.corners[0])));
-        let mut parts: Vec<Part> = (0..)
-            .zip(parts)
-            .zip(&self.cells)
-            .map(|((k, surface), cells)| Part {
-                hints: self.hints(k, cells, &near, &division),
-                surface,
-                cells: cells.clone(),
-                left: Vec::new(),
-            })
-            .collect();
+        let (surfaces, division) = surface.divide(&room, |corner| self.part_of(corner));
+        let part = |(k, surface)| Part {
+            surface: Some(surface),
+            begin: division.begin(k),
+            growth: None,
+            cells: self.cells[k].clone(),
+            hints: self.hints(k, &near, &division),
+            left: Vec::new(),
+        };
+        let mut parts: Vec<Part<'_>> = surfaces.into_iter().enumerate().map(part).collect();
         each(&mut parts, |part| part.grow(cloud, self.order, inserted));
         let mut left = Vec::new();
-        parts.iter_mut().for_each(|part| left.append(&mut part.left));
-        surface.join(parts.into_iter().map(|part| part.surface).collect(), &division);
+        let mut growths = Vec::with_capacity(parts.len());
+        for part in parts {
+            left.extend(part.left);
+            growths.extend(part.growth);
+        }
+        surface.join(growths, &division, left.len());
         left
     }
 
     /// For each cell of part `k` a facet of that part in it or before it along the curve. `near` holds cells and facets of the
     /// whole surface, ascending.
-    fn hints(&self, k: usize, cells: &Range<usize>, near: &[(u32, u32)], division: &Division) -> Vec<u32> {
+    fn hints(&self, k: usize, near: &[(u32, u32)], division: &Division) -> Vec<u32> {
         let mut last = 0;
-        let hint = |&(cell, _): &(u32, u32)| {
-            let start = near.partition_point(|n| n.0 < cell);
-            let facets = near[start..].iter().take_while(|n| n.0 == cell);
+        let hint = |cell: usize| {
+            let start = near.partition_point(|n| (n.0 as usize) < cell);
+            let facets = near[start..].iter().take_while(|n| n.0 as usize == cell);
             let here = facets.filter_map(|&(_, f)| division.place_of(f)).find(|&(part, _)| part == k);
             last = here.map_or(last, |(_, slot)| slot);
             last
         };
-        self.order.cells[cells.clone()].iter().map(hint).collect()
+        self.cells[k].clone().map(hint).collect()
     }
 }
 
-impl Part {
+impl Part<'_> {
     fn grow<S: Signs>(&mut self, cloud: &Cloud<S>, order: &Order, inserted: &[u32]) {
-        if self.surface.slots() == 0 {
-            self.left.extend(without(places(order, self.cells.clone()), inserted));
-            return;
-        }
+        let Some(mut surface) = self.surface.take() else { return };
         for (i, &hint) in self.cells.clone().zip(&self.hints) {
-            self.surface.go_to(hint);
-            for p in without(places(order, i..i + 1), inserted) {
+            let late = without(places(order, i..i + 1), inserted);
+            if surface.len() == 0 {
+                self.left.extend(late);
+                continue;
+            }
+            surface.go_to(hint);
+            let mut in_a_row = 0;
+            for p in late {
                 // Of equal points the first comes first, wherever it is inserted.
                 let is_repeated = self.left.last().is_some_and(|&q| cloud.point(q) == cloud.point(p));
-                if is_repeated || !self.surface.insert_within(cloud, p) {
-                    self.left.push(p);
-                    self.surface.go_to(hint);
+                if !is_repeated && surface.insert_within(cloud, p) {
+                    in_a_row = 0;
+                    continue;
+                }
+                self.left.push(p);
+                in_a_row += 1;
+                if in_a_row % TRIES == 0 {
+                    surface.go_to(hint);
                 }
             }
         }
+        self.growth = Some(surface.into_growth(self.begin));
     }
 }
 
 /// The places of the points in a run of cells.
 fn places(order: &Order, cells: Range<usize>) -> Range<u32> {
-    let end = |i: usize| i.checked_sub(1).map_or(order.seed_cells.len() as u32, |i| order.cells[i].1);
+    let end = |i: usize| i.checked_sub(1).map_or(order.seed_cells.len() as u32, |i| order.cells[i]);
     end(cells.start)..end(cells.end)
 }

@@ -13,7 +13,7 @@ use super::parallel::{each, fill, fill_runs, share_of};
 use super::polytope::{Polygons, Polytope};
 use super::split::split;
 use super::start::{Flat, enclose_centre, far_apart};
-use super::surface::{NONE, Surface};
+use super::surface::{NONE, Slot, Surface, room};
 
 /// A half-space: all x with normal · x ≤ offset.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -211,11 +211,12 @@ fn exact_intersection(half_spaces: &[HalfSpace], centre: DVec3, simple: bool) ->
     let mut near = vec![DVec3::ZERO; count];
     fill(&mut near, |place| {
         let h = &half_spaces[order.points[place] as usize];
-        h.normal / h.slack(centre)
+        h.normal * (1.0 / h.slack(centre))
     });
-    // A dual point carries the rounding of the slack, one ulp, and of the division, half an ulp.
+    // A dual point carries the rounding of the slack, one ulp, and of the division and the product, half an ulp each.
     let (cloud, scale) = Cloud::new(near, 4.0, PlaneSigns::new(half_spaces, &order.points));
-    let surface = dual_hull(&cloud, &order)?;
+    let mut facets = room(count);
+    let surface = dual_hull(&cloud, &order, &mut facets)?;
     let faces = if simple && !surface.has_zeros() { Faces::unmerged(&surface) } else { Faces::of(&surface, &cloud) };
     let vertices = vertices(&surface, &faces, cloud.points(), scale, centre);
     drop(cloud);
@@ -224,13 +225,17 @@ fn exact_intersection(half_spaces: &[HalfSpace], centre: DVec3, simple: bool) ->
 }
 
 /// The hull of the dual points, with the centre inside.
-fn dual_hull(cloud: &Cloud<PlaneSigns<'_>>, order: &Order) -> Result<Surface, HalfSpaceError> {
+fn dual_hull<'a>(
+    cloud: &Cloud<PlaneSigns<'_>>,
+    order: &Order,
+    facets: &'a mut [Slot],
+) -> Result<Surface<'a>, HalfSpaceError> {
     let open = |flat| HalfSpaceError::Unbounded { direction: open_direction(flat, cloud.points()) };
     if cloud.len() < 4 {
         return Err(open(few(cloud.points())));
     }
     let start = far_apart(cloud, 0).map_err(open)?;
-    let mut surface = Surface::tetrahedron(start, None, cloud.len() as usize);
+    let mut surface = Surface::tetrahedron(start, None, facets);
     let mut inserted = enclose_centre(cloud, &mut surface).map_err(open)?;
     inserted.extend(start);
     inserted.sort_unstable();
@@ -265,7 +270,7 @@ fn open_direction(flat: Flat, dual_points: &[DVec3]) -> DVec3 {
 }
 
 /// The meeting point of the planes of each face of the dual hull.
-fn vertices(surface: &Surface, faces: &Faces, dual: &[DVec3], scale: f64, centre: DVec3) -> Vec<DVec3> {
+fn vertices(surface: &Surface<'_>, faces: &Faces, dual: &[DVec3], scale: f64, centre: DVec3) -> Vec<DVec3> {
     let mut vertices = vec![DVec3::ZERO; faces.len()];
     fill(&mut vertices, |face| {
         let facet = surface.facet(faces.first(face as u32));
@@ -278,7 +283,7 @@ fn vertices(surface: &Surface, faces: &Faces, dual: &[DVec3], scale: f64, centre
 }
 
 /// Of the dual points of a face three that span much of it.
-fn widest(surface: &Surface, faces: &Faces, face: usize, dual: &[DVec3]) -> [DVec3; 3] {
+fn widest(surface: &Surface<'_>, faces: &Faces, face: usize, dual: &[DVec3]) -> [DVec3; 3] {
     let mut rim = Vec::new();
     faces.rim(surface, face as u32, &mut rim);
     let points: Vec<DVec3> = rim.iter().map(|&v| dual[v as usize]).collect();
@@ -320,7 +325,7 @@ pub(super) fn meeting_point([a, b, c]: [DVec3; 3]) -> DVec3 {
 }
 
 /// The faces of the solid: for each dual point that is a corner the dual faces around it. Also which half-spaces they are of.
-fn polygons(surface: &Surface, faces: &Faces, order: &[u32]) -> (Vec<u32>, Polygons) {
+fn polygons(surface: &Surface<'_>, faces: &Faces, order: &[u32]) -> (Vec<u32>, Polygons) {
     let mut shares = runs_by_place(surface, faces, order.len());
     // Runs in the order of the half-spaces: first how long each is, then where it begins.
     let mut begins = vec![0_u32; order.len()];
@@ -376,7 +381,7 @@ impl RunsByPlace {
         &self.runs[begin as usize..self.sizes[i] as usize]
     }
 
-    fn collect(&mut self, surface: &Surface, faces: &Faces, starts: &[u32]) {
+    fn collect(&mut self, surface: &Surface<'_>, faces: &Faces, starts: &[u32]) {
         let mut around = Vec::new();
         for (place, &start) in (self.first as u32..).zip(&starts[self.first..][..self.sizes.len()]) {
             let before = self.runs.len();
@@ -386,7 +391,14 @@ impl RunsByPlace {
                     self.runs.extend_from_slice(&around);
                 }
             } else if start != NONE {
-                surface.fan_of(place, start).for_each(|f| self.runs.push(faces.of_facet(f)));
+                let mut f = start;
+                loop {
+                    self.runs.push(faces.of_facet(f));
+                    f = surface.next_around(place, f);
+                    if f == start {
+                        break;
+                    }
+                }
             }
             self.sizes[place as usize - self.first] = (self.runs.len() - before) as u32;
         }
@@ -394,7 +406,7 @@ impl RunsByPlace {
 }
 
 /// The dual faces around all points, by shares of the places of equal length.
-fn runs_by_place(surface: &Surface, faces: &Faces, points: usize) -> Vec<RunsByPlace> {
+fn runs_by_place(surface: &Surface<'_>, faces: &Faces, points: usize) -> Vec<RunsByPlace> {
     let starts = fan_starts(surface, points);
     let length = share_of(points);
     let share = |first| {

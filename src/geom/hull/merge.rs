@@ -16,7 +16,7 @@ pub(super) struct Faces {
 
 impl Faces {
     /// Joins all neighbours that lie in one plane, by exact signs.
-    pub(super) fn of<S: Signs>(surface: &Surface, cloud: &Cloud<S>) -> Self {
+    pub(super) fn of<S: Signs>(surface: &Surface<'_>, cloud: &Cloud<S>) -> Self {
         let mut face_of = vec![NONE; surface.slots()];
         let mut first = Vec::with_capacity(surface.len());
         let mut has_merged = false;
@@ -46,7 +46,7 @@ impl Faces {
 
     /// Joins all neighbours whose corners lie within `bound` of one plane, that of the largest facet among them. Slivers
     /// without a plane of their own go to a neighbour.
-    pub(super) fn within<S: Signs>(surface: &Surface, cloud: &Cloud<S>, bound: f64) -> Self {
+    pub(super) fn within<S: Signs>(surface: &Surface<'_>, cloud: &Cloud<S>, bound: f64) -> Self {
         let normal = |f: u32| {
             let [a, b, c] = surface.facet(f).corners.map(|v| cloud.point(v));
             (b - a).cross(c - a)
@@ -80,7 +80,7 @@ impl Faces {
     }
 
     /// Every facet a face of its own.
-    pub(super) fn unmerged(surface: &Surface) -> Self {
+    pub(super) fn unmerged(surface: &Surface<'_>) -> Self {
         if surface.len() == surface.slots() {
             return Self { face_of: Vec::new(), first: Vec::new(), count: surface.len(), has_merged: false };
         }
@@ -114,7 +114,7 @@ impl Faces {
 
     /// The faces around a point, counter-clockwise from facet `first`, each once. A point is a corner of the hull when there
     /// are three or more: one face has it inside, two have it on their common edge.
-    pub(super) fn around(&self, surface: &Surface, v: u32, first: u32, faces: &mut Vec<u32>) {
+    pub(super) fn around(&self, surface: &Surface<'_>, v: u32, first: u32, faces: &mut Vec<u32>) {
         faces.clear();
         for f in surface.fan_of(v, first) {
             let face = self.of_facet(f);
@@ -128,7 +128,7 @@ impl Faces {
     }
 
     /// The points along the rim of a face, counter-clockwise, those on straight stretches included.
-    pub(super) fn rim(&self, surface: &Surface, face: u32, rim: &mut Vec<u32>) {
+    pub(super) fn rim(&self, surface: &Surface<'_>, face: u32, rim: &mut Vec<u32>) {
         rim.clear();
         let Some((mut f, mut side)) = self.rim_side(surface, face) else { return };
         let start = (f, side);
@@ -150,7 +150,7 @@ impl Faces {
         }
     }
 
-    fn rim_side(&self, surface: &Surface, face: u32) -> Option<(u32, usize)> {
+    fn rim_side(&self, surface: &Surface<'_>, face: u32) -> Option<(u32, usize)> {
         let is_end = |f: u32| surface.facet(f).across.iter().position(|&g| self.of_facet(g) != face);
         let first = self.first(face);
         if let Some(side) = is_end(first) {
@@ -170,14 +170,14 @@ impl Faces {
     }
 }
 
-fn are_coplanar<S: Signs>(surface: &Surface, cloud: &Cloud<S>, f: u32, g: u32) -> bool {
+fn are_coplanar<S: Signs>(surface: &Surface<'_>, cloud: &Cloud<S>, f: u32, g: u32) -> bool {
     let beyond = surface.facet(g);
     let opposite = beyond.corners[(surface.side_to(g, f) + 2) % 3];
     cloud.height(surface.facet(f).corners, opposite) == Side::On
 }
 
 /// For each point a facet that has it for a corner; `NONE` for points that are no corner of any.
-pub(super) fn fan_starts(surface: &Surface, points: usize) -> Vec<u32> {
+pub(super) fn fan_starts(surface: &Surface<'_>, points: usize) -> Vec<u32> {
     let mut start = vec![NONE; points];
     for f in surface.live() {
         for v in surface.facet(f).corners {

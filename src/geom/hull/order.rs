@@ -5,12 +5,13 @@
 //! six sides of a cube around the centre, so that neighbours in time are neighbours in direction and the walk to the next
 //! point is short (random order instead takes some thirty times as long for a million points).
 //!
-//! Only the first rounds run over the whole cube. The points of the last four are taken cell by cell, each cell with its own
-//! rounds: so the facets at work fit into a near cache, and cells far apart can be worked on at the same time.
+//! Only the first rounds run over the whole cube. The points of the last four are taken cell by cell, a cell being a stretch of
+//! the curve, each with its own rounds: so the facets at work fit into a near cache, and cells far apart can be worked on
+//! at the same time.
 
 use glam::DVec3;
 
-use super::parallel::{fill, sort};
+use super::parallel::{each, fill, sort};
 
 /// Points that fit into the key beside round, side and place on the curve.
 pub(super) const MOST_POINTS: usize = 1 << INDEX_BITS;
@@ -24,7 +25,7 @@ const FIRST_ROUND: usize = 32;
 /// So many of the last rounds are taken cell by cell.
 const CELL_ROUNDS: u32 = 4;
 const CELL_ROUND_BITS: u32 = 2;
-/// About how many points a cell holds.
+/// How many points a cell holds.
 const CELL_POINTS: usize = 1 << 13;
 /// From so many points on the range of directions is taken from a sample.
 const SAMPLED_FROM: usize = 1 << 14;
@@ -35,10 +36,10 @@ const SAMPLE_STEP: usize = 16;
 pub(super) struct Order {
     /// The numbers of the points.
     pub points: Vec<u32>,
-    /// For each of the seeds, which come first, its cell along the curve.
+    /// For each of the seeds, which come first, the cell that it lies in.
     pub seed_cells: Vec<u32>,
-    /// The cells with further points, ascending, each with the place behind its last point.
-    pub cells: Vec<(u32, u32)>,
+    /// For each cell along the curve the place behind its last point.
+    pub cells: Vec<u32>,
 }
 
 /// The order of `n` points; `direction` is a point seen from the centre.
@@ -50,24 +51,55 @@ pub(super) fn insertion_order(n: usize, direction: impl Fn(usize) -> DVec3 + Syn
     let mut keys = vec![0_u64; n];
     fill(&mut keys, |i| layout.key(direction(i)) | i as u64);
     sort(&mut keys);
-    let seeds = keys.partition_point(|&key| key < LATE);
-    let mut cells: Vec<(u32, u32)> = Vec::new();
-    for (place, &key) in keys.iter().enumerate().skip(seeds) {
-        let (cell, end) = (layout.late_cell(key), place as u32 + 1);
-        match cells.last_mut() {
-            Some(last) if last.0 == cell => last.1 = end,
-            _ => cells.push((cell, end)),
-        }
-    }
-    Order {
-        seed_cells: keys[..seeds].iter().map(|&key| layout.seed_cell(key)).collect(),
-        cells,
-        points: keys.iter().map(|key| (key & (MOST_POINTS as u64 - 1)) as u32).collect(),
-    }
+    let (seeds, late) = keys.split_at(keys.partition_point(|&key| key < LATE));
+    let mut points = vec![0; n];
+    let (seed_points, late_points) = points.split_at_mut(seeds.len());
+    seed_points.iter_mut().zip(seeds).for_each(|(point, &key)| *point = number(key));
+    let mut cells: Vec<(&[u64], &mut [u32])> =
+        late.chunks(CELL_POINTS).zip(late_points.chunks_mut(CELL_POINTS)).collect();
+    each(&mut cells, |(keys, points)| by_rounds(keys, points));
+    let firsts: Vec<u64> = cells.iter().map(|(keys, _)| late_place(keys[0])).collect();
+    let cell_of = |&key: &u64| firsts.partition_point(|&first| first <= seed_place(key)).saturating_sub(1) as u32;
+    let seed_cells = seeds.iter().map(cell_of).collect();
+    let ends = (1..=firsts.len()).map(|k| (seeds.len() + (k * CELL_POINTS).min(late.len())) as u32).collect();
+    Order { points, seed_cells, cells: ends }
 }
 
 /// Set in the keys of the points that are no seeds.
 const LATE: u64 = 1 << 63;
+/// Where the place on the curve begins in the key of a point that is no seed.
+const LATE_PLACE: u32 = INDEX_BITS + CELL_ROUND_BITS;
+
+fn number(key: u64) -> u32 {
+    (key & (MOST_POINTS as u64 - 1)) as u32
+}
+
+fn seed_place(key: u64) -> u64 {
+    key >> INDEX_BITS & ((1 << PLACE_BITS) - 1)
+}
+
+fn late_place(key: u64) -> u64 {
+    (key & !LATE) >> LATE_PLACE
+}
+
+fn late_round(key: u64) -> usize {
+    (key >> INDEX_BITS & ((1 << CELL_ROUND_BITS) - 1)) as usize
+}
+
+/// The points of a cell, which are sorted along the curve, round by round.
+fn by_rounds(keys: &[u64], points: &mut [u32]) {
+    let mut next = [0; 1 << CELL_ROUND_BITS];
+    keys.iter().for_each(|&key| next[late_round(key)] += 1);
+    let mut begin = 0;
+    for next in &mut next {
+        begin += std::mem::replace(next, begin);
+    }
+    for &key in keys {
+        let place = &mut next[late_round(key)];
+        points[*place] = number(key);
+        *place += 1;
+    }
+}
 
 /// How the sides of the cube are divided.
 struct Layout {
@@ -75,45 +107,29 @@ struct Layout {
     rounds: u32,
     /// Levels of the curve.
     bits: u32,
-    /// Bits of the place on the curve within a cell.
-    cell_bits: u32,
 }
 
 impl Layout {
     fn of(n: usize, direction: &impl Fn(usize) -> DVec3) -> Self {
-        let bits = (n.max(1).ilog2() / 2 + 3).min(CURVE_BITS);
-        let levels = (n / CELL_POINTS / 6).max(1).ilog2().div_ceil(2).min(bits);
         Self {
             ranges: ranges(n, direction),
             rounds: (n / FIRST_ROUND).max(1).ilog2().min((1 << ROUND_BITS) - 1),
-            bits,
-            cell_bits: 2 * (bits - levels),
+            bits: (n.max(1).ilog2() / 2 + 4).min(CURVE_BITS),
         }
     }
 
     /// The key by which points are sorted, with room for the number of the point in its lowest bits. Seeds: round, then place on
-    /// the curve. Others: cell, round, then place within the cell.
+    /// the curve. Others: place, then round.
     fn key(&self, direction: DVec3) -> u64 {
         let late = lateness(direction);
         let (side, u) = on_cube(direction);
         let curve = hilbert(self.ranges[side].cell(u, self.bits), self.bits);
         let place = (side as u64) << (2 * self.bits) | u64::from(curve);
-        let key = if late >= CELL_ROUNDS || self.rounds < 2 * CELL_ROUNDS {
-            u64::from(self.rounds - late.min(self.rounds)) << PLACE_BITS | place
+        if late >= CELL_ROUNDS || self.rounds < 2 * CELL_ROUNDS {
+            (u64::from(self.rounds - late.min(self.rounds)) << PLACE_BITS | place) << INDEX_BITS
         } else {
-            let (cell, rest) = (place >> self.cell_bits, place & ((1 << self.cell_bits) - 1));
-            let round = u64::from(CELL_ROUNDS - 1 - late);
-            (cell << CELL_ROUND_BITS | round) << self.cell_bits | rest | LATE >> INDEX_BITS
-        };
-        key << INDEX_BITS
-    }
-
-    fn late_cell(&self, key: u64) -> u32 {
-        ((key & !LATE) >> (INDEX_BITS + self.cell_bits + CELL_ROUND_BITS)) as u32
-    }
-
-    fn seed_cell(&self, key: u64) -> u32 {
-        (key >> INDEX_BITS & ((1 << PLACE_BITS) - 1)) as u32 >> self.cell_bits
+            LATE | place << LATE_PLACE | u64::from(CELL_ROUNDS - 1 - late) << INDEX_BITS
+        }
     }
 }
 
@@ -146,7 +162,8 @@ fn ranges(n: usize, direction: &impl Fn(usize) -> DVec3) -> [Range; 6] {
     ranges
 }
 
-/// The side of the cube that a direction meets, and where.
+/// The side of the cube that a direction meets, and where. The three sides around a corner follow one another, so that half of
+/// the curve has a short border.
 fn on_cube(direction: DVec3) -> (usize, [f64; 2]) {
     let size = direction.abs();
     let axis = if size.x >= size.y && size.x >= size.z {
@@ -161,7 +178,7 @@ fn on_cube(direction: DVec3) -> (usize, [f64; 2]) {
         return (0, [0.0; 2]);
     }
     let u = [direction[(axis + 1) % 3], direction[(axis + 2) % 3]].map(|x| x / height.abs());
-    (2 * axis + usize::from(height < 0.0), u)
+    (axis + if height < 0.0 { 3 } else { 0 }, u)
 }
 
 /// The place of a cell along the Hilbert curve of a square with 2^bits cells a side.
@@ -262,9 +279,8 @@ mod tests {
             sorted.sort_unstable();
             assert!(sorted.iter().enumerate().all(|(i, &p)| i == p as usize));
             assert_eq!(points.len(), n);
-            let late = n - seed_cells.len();
-            assert_eq!(cells.last().map_or(late, |c| c.1 as usize - seed_cells.len()), late);
-            assert!(cells.windows(2).all(|w| w[0].0 < w[1].0 && w[0].1 < w[1].1));
+            assert_eq!(cells.last().map_or(seed_cells.len(), |&end| end as usize), n);
+            assert!(cells.is_sorted() && seed_cells.iter().all(|&cell| (cell as usize) < cells.len().max(1)));
             // Of many points one in sixteen is a seed.
             assert!(n < 10_000 || (n / 18..n / 14).contains(&seed_cells.len()), "{}", seed_cells.len());
         }
@@ -275,7 +291,7 @@ mod tests {
         let directions = directions(200_000);
         let Order { points, seed_cells, cells } = insertion_order(directions.len(), |i| directions[i]);
         let mut start = seed_cells.len();
-        for (_, end) in cells {
+        for end in cells {
             let run = &points[start..end as usize];
             let late: Vec<u32> = run.iter().map(|&i| lateness(directions[i as usize])).collect();
             assert!(late.is_sorted_by(|a, b| a >= b));

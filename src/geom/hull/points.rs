@@ -9,7 +9,7 @@ use super::merge::{Faces, fan_starts};
 use super::order::{MOST_POINTS, insertion_order};
 use super::polytope::Polygons;
 use super::start::{Flat, far_apart};
-use super::surface::{NONE, Surface};
+use super::surface::{NONE, Surface, room};
 use crate::geom::RoundingBound;
 use crate::geom::predicate::orient3d;
 
@@ -95,7 +95,8 @@ pub fn convex_hull(points: &[DVec3], numbers: Numbers) -> Result<Polygons, HullE
     let (cloud, scale) =
         Cloud::new(order.points.iter().map(|&i| points[i as usize] - centre.point).collect(), 2.0, signs);
     let places = corners.map(|c| order.points.iter().position(|&i| i == c).expect("every point has a place") as u32);
-    let mut surface = Surface::tetrahedron(places, centre.is_corner.then_some(places[0]), count);
+    let mut facets = room(count);
+    let mut surface = Surface::tetrahedron(places, centre.is_corner.then_some(places[0]), &mut facets);
     let mut inserted = places;
     inserted.sort_unstable();
     grow(&cloud, &mut surface, &order, &inserted);
@@ -159,7 +160,7 @@ fn refusal(flat: Flat, points: &[DVec3]) -> HullError {
     }
 }
 
-fn polygons(surface: &Surface, faces: &Faces, order: &[u32]) -> Polygons {
+fn polygons(surface: &Surface<'_>, faces: &Faces, order: &[u32]) -> Polygons {
     let starts = fan_starts(surface, order.len());
     let mut around = Vec::new();
     let is_corner: Vec<bool> = starts

@@ -19,7 +19,7 @@ pub(super) enum Flat {
     OneSided(DVec3),
 }
 
-/// So many of the first points are looked at for the first four corners.
+/// So many of the first points are looked at for the first corners.
 const SAMPLE: u32 = 4096;
 
 /// Four points that span a volume, beginning with `a`, the last below the other three: greedily as far apart as can be told
@@ -55,9 +55,9 @@ fn far_apart_among<S: Signs>(cloud: &Cloud<S>, a: u32, count: u32) -> Result<[u3
 /// Inserts the farthest point above each facet that does not have the centre below it, until none is left.
 ///
 /// Returns the points that were inserted.
-pub(super) fn enclose_centre<S: Signs>(cloud: &Cloud<S>, surface: &mut Surface) -> Result<Vec<u32>, Flat> {
+pub(super) fn enclose_centre<S: Signs>(cloud: &Cloud<S>, surface: &mut Surface<'_>) -> Result<Vec<u32>, Flat> {
     let mut inserted = Vec::new();
-    let is_open = |surface: &Surface, f: u32| {
+    let is_open = |surface: &Surface<'_>, f: u32| {
         let [a, b, c] = surface.facet(f).corners;
         cloud.signs.turn(a, b, c) != Side::Normal
     };
@@ -67,7 +67,11 @@ pub(super) fn enclose_centre<S: Signs>(cloud: &Cloud<S>, surface: &mut Surface) 
         let corners = surface.facet(f).corners;
         let [a, b, c] = corners.map(|v| cloud.point(v));
         let normal = (b - a).cross(c - a);
-        let mut top = farthest(cloud.len(), |i| normal.dot(cloud.point(i) - a));
+        let height = |i| normal.dot(cloud.point(i) - a);
+        let mut top = farthest(cloud.len().min(SAMPLE), height);
+        if cloud.height(corners, top) != Side::Normal {
+            top = farthest(cloud.len(), height);
+        }
         if cloud.height(corners, top) != Side::Normal {
             let is_above = |&i: &u32| cloud.height(corners, i) == Side::Normal;
             top = (0..cloud.len()).find(is_above).ok_or(Flat::OneSided(normal))?;

@@ -6,10 +6,12 @@
 
 mod parts;
 
+use glam::DVec3;
+
 use super::cloud::{Cloud, Signs};
 use crate::geom::Side;
 
-pub(super) use parts::Division;
+pub(super) use parts::{Division, Growth};
 
 /// A triangle of the hull, counter-clockwise seen from outside. Points are named by their place in the order of insertion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,7 +21,9 @@ pub(super) struct Facet {
     pub across: [u32; 3],
 }
 
-/// No facet, or the corners of a free slot.
+/// How a facet is stored: corners, then what lies across. Zeros are a free slot, as are three equal corners.
+pub(super) type Slot = [u32; 6];
+/// No facet.
 pub(super) const NONE: u32 = u32::MAX;
 /// Marks the first corner of a facet that the point at hand sees.
 const SEEN: u32 = 1 << 31;
@@ -31,8 +35,12 @@ const NEXT: [usize; 3] = [1, 2, 0];
 const QUICK_STEPS: usize = 4096;
 
 /// A closed surface of triangles, convex up to coplanar neighbours.
-pub(super) struct Surface {
-    facets: Vec<Facet>,
+pub(super) struct Surface<'a> {
+    /// Room for all facets that there can ever be; those from `used` on are free.
+    facets: &'a mut [Slot],
+    used: usize,
+    count: usize,
+    /// Free slots below `used`.
     free: Vec<u32>,
     /// Where the next walk begins.
     last: u32,
@@ -47,59 +55,84 @@ pub(super) struct Surface {
 #[derive(Default)]
 struct Scratch {
     seen: Vec<u32>,
-    rim: Vec<RimSide>,
-    stack: Vec<Visit>,
+    /// The sides between the seen and the unseen facets: each as four times the unseen facet plus which of its sides it is.
+    rim: Vec<u32>,
+    stack: Vec<Pending>,
 }
 
-/// A side between the seen and the unseen facets.
+/// A side of a seen facet that is still to be crossed.
 #[derive(Clone, Copy)]
-struct RimSide {
-    from: u32,
-    to: u32,
-    /// The unseen facet, and which of its sides this is.
-    outside: u32,
-    back: usize,
-}
-
-/// A seen facet whose sides are still to be crossed, beginning with `side`.
-struct Visit {
+struct Pending {
     facet: u32,
-    side: usize,
-    left: u32,
+    /// The facet on its other side.
+    beyond: u32,
+    /// The product of its ends, seen from the point at hand.
+    cross: DVec3,
 }
 
-impl Surface {
-    /// The tetrahedron of four points, of which the last lies below the other three. Room is made for `points` points.
-    pub(super) fn tetrahedron([a, b, c, d]: [u32; 4], apex: Option<u32>, points: usize) -> Self {
-        let mut facets = Vec::with_capacity(2 * points + 8);
-        facets.extend([
-            Facet { corners: [a, b, c], across: [1, 2, 3] },
-            Facet { corners: [b, a, d], across: [0, 3, 2] },
-            Facet { corners: [c, b, d], across: [0, 1, 3] },
-            Facet { corners: [a, c, d], across: [0, 2, 1] },
-        ]);
-        let scratch = Scratch::default();
-        Self { facets, free: Vec::new(), last: 0, apex, has_zeros: false, random: 1, scratch }
+/// What became of a point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Insertion {
+    /// It is a corner now.
+    Done,
+    /// The facet does not see it.
+    NotSeen,
+    /// It sees a facet at the border of a part; nothing has changed.
+    AtBorder,
+}
+
+/// Room for the hull of so many points.
+pub(super) fn room(points: usize) -> Vec<Slot> {
+    vec![[0; 6]; 2 * points + 8]
+}
+
+impl<'a> Surface<'a> {
+    /// The tetrahedron of four points, of which the last lies below the other three, in `facets`, which are all free.
+    pub(super) fn tetrahedron([a, b, c, d]: [u32; 4], apex: Option<u32>, facets: &'a mut [Slot]) -> Self {
+        let tetrahedron = [[a, b, c, 1, 2, 3], [b, a, d, 0, 3, 2], [c, b, d, 0, 1, 3], [a, c, d, 0, 2, 1]];
+        facets[..4].copy_from_slice(&tetrahedron);
+        Self { apex, ..Self::with_facets(facets, 4) }
+    }
+
+    fn with_facets(facets: &'a mut [Slot], used: usize) -> Self {
+        Self {
+            facets,
+            used,
+            count: used,
+            free: Vec::new(),
+            last: 0,
+            apex: None,
+            has_zeros: false,
+            random: 1,
+            scratch: Scratch::default(),
+        }
     }
 
     /// The facet in a slot.
+    #[inline]
     pub(super) fn facet(&self, f: u32) -> Facet {
-        self.facets[f as usize]
+        let [a, b, c, ab, bc, ca] = self.facets[f as usize];
+        Facet { corners: [a, b, c], across: [ab, bc, ca] }
     }
 
     /// Number of slots, free ones included.
     pub(super) fn slots(&self) -> usize {
-        self.facets.len()
+        self.used
     }
 
     /// Number of facets.
     pub(super) fn len(&self) -> usize {
-        self.facets.len() - self.free.len()
+        self.count
+    }
+
+    fn is_free(&self, f: u32) -> bool {
+        let slot = &self.facets[f as usize];
+        slot[0] == slot[1]
     }
 
     /// The slots of all facets, ascending.
     pub(super) fn live(&self) -> impl Iterator<Item = u32> + '_ {
-        (0..self.facets.len() as u32).filter(|&f| self.facets[f as usize].corners[0] != NONE)
+        (0..self.used as u32).filter(|&f| !self.is_free(f))
     }
 
     /// Whether a corner of the hull serves as the centre.
@@ -112,13 +145,19 @@ impl Surface {
         self.has_zeros
     }
 
+    /// The facet after `f` around its corner `v`, counter-clockwise.
+    #[inline]
+    pub(super) fn next_around(&self, v: u32, f: u32) -> u32 {
+        let slot = &self.facets[f as usize];
+        // Across the side that comes back to v; by index, since nothing can foresee a branch.
+        let place = usize::from(slot[1] == v) + 2 * usize::from(slot[2] == v);
+        slot[[5, 3, 4, 4][place]]
+    }
+
     /// The facets around corner `v`, counter-clockwise, beginning with `first`.
     pub(super) fn fan_of(&self, v: u32, first: u32) -> impl Iterator<Item = u32> + '_ {
         let next = move |&f: &u32| {
-            let facet = &self.facets[f as usize];
-            // Across the side that comes back to v; by index, since nothing can foresee a branch.
-            let place = usize::from(facet.corners[1] == v) + 2 * usize::from(facet.corners[2] == v);
-            let next = facet.across[[2, 0, 1, 1][place]];
+            let next = self.next_around(v, f);
             (next != first).then_some(next)
         };
         std::iter::successors(Some(first), next)
@@ -126,37 +165,40 @@ impl Surface {
 
     /// Inserts a point; nothing changes when it does not lie outside.
     pub(super) fn insert<S: Signs>(&mut self, cloud: &Cloud<S>, p: u32) {
-        if let Some(f) = self.locate(cloud, p) {
+        if self.apex.is_none() && self.insert_quickly(cloud, p) == Quick::Settled {
+            return;
+        }
+        if let Some(f) = self.exact_walk(cloud, p) {
             self.insert_above(cloud, p, f);
         }
     }
 
     /// Inserts a point into a part of a surface if that concerns no side at its border and needs no exact walk; whether the
-    /// point is settled.
+    /// point is settled. If not, the next walk begins where this one did.
     pub(super) fn insert_within<S: Signs>(&mut self, cloud: &Cloud<S>, p: u32) -> bool {
-        match self.quick_walk(cloud, p) {
-            Walk::Sees(f) => self.insert_above(cloud, p, f),
-            Walk::Inside => true,
-            Walk::Unsure => false,
+        let begin = self.last;
+        let is_settled = self.insert_quickly(cloud, p) == Quick::Settled;
+        if !is_settled {
+            self.last = begin;
         }
+        is_settled
     }
 
-    /// A facet that sees p, or `None` when p lies inside or on the surface.
-    fn locate<S: Signs>(&mut self, cloud: &Cloud<S>, p: u32) -> Option<u32> {
-        if self.apex.is_none() {
-            match self.quick_walk(cloud, p) {
-                Walk::Sees(f) => return Some(f),
-                Walk::Inside => return None,
-                Walk::Unsure => {}
-            }
+    fn insert_quickly<S: Signs>(&mut self, cloud: &Cloud<S>, p: u32) -> Quick {
+        let Some(is_certain) = self.quick_walk(cloud, p) else { return Quick::Unsure };
+        match self.insert_above(cloud, p, self.last) {
+            Insertion::Done => Quick::Settled,
+            // Certainly below this facet, so inside.
+            Insertion::NotSeen if is_certain => Quick::Settled,
+            _ => Quick::Unsure,
         }
-        self.exact_walk(cloud, p)
     }
 
     /// Walks over the sides that the ray from the centre to p certainly lies beyond, the farther of two.
     ///
-    /// Carries along the products of the corners of the side that was crossed with the target, so that a step costs one more.
-    fn quick_walk<S: Signs>(&mut self, cloud: &Cloud<S>, p: u32) -> Walk {
+    /// Ends at [`Self::last`] and tells whether the ray certainly passes through that facet; `None` when it led nowhere. Carries along
+    /// the products of the corners of the side that was crossed with the target, so that a step costs one more.
+    fn quick_walk<S: Signs>(&mut self, cloud: &Cloud<S>, p: u32) -> Option<bool> {
         let target = cloud.point(p);
         let bound = cloud.turn_bound();
         let mut f = self.last;
@@ -165,9 +207,8 @@ impl Surface {
         let (at, bt, ct) = (a.cross(target), b.cross(target), c.cross(target));
         let turns = [a.dot(bt), b.dot(ct), c.dot(at)];
         let least = turns[0].min(turns[1]).min(turns[2]);
-        let mut is_certain = least > bound;
         if least >= -bound {
-            return self.end_of_walk(cloud, p, f, is_certain);
+            return Some(least > bound);
         }
         let (mut next, [mut from, mut to]) = if least == turns[0] {
             (across[0], [bt, at])
@@ -187,13 +228,13 @@ impl Surface {
             let after = NEXT[side];
             let before = NEXT[after];
             let z = cloud.point(corners[before]);
-            let zt = z.cross(target);
             let (turn_after, turn_before) = (-z.dot(to), z.dot(from));
             let least = turn_after.min(turn_before);
             if least >= -bound {
-                is_certain = least > bound;
-                return self.end_of_walk(cloud, p, f, is_certain);
+                self.last = f;
+                return Some(least > bound);
             }
+            let zt = z.cross(target);
             if turn_after < turn_before {
                 (next, from) = (across[after], zt);
             } else {
@@ -201,18 +242,7 @@ impl Surface {
             }
         }
         self.last = f;
-        Walk::Unsure
-    }
-
-    fn end_of_walk<S: Signs>(&mut self, cloud: &Cloud<S>, p: u32, f: u32, is_certain: bool) -> Walk {
-        self.last = f;
-        if self.is_seen(cloud, f, p) {
-            Walk::Sees(f)
-        } else if is_certain {
-            Walk::Inside
-        } else {
-            Walk::Unsure
-        }
+        None
     }
 
     /// The walk on exact signs; where it takes too long or proves nothing, all facets are tried.
@@ -222,7 +252,7 @@ impl Surface {
             return self.walk_from_apex(cloud, p);
         }
         let mut f = self.last;
-        for _ in 0..QUICK_STEPS + self.facets.len() / 4 {
+        for _ in 0..QUICK_STEPS + self.used / 4 {
             match self.first_crossed(cloud, f, p) {
                 Some(side) => f = self.facet(f).across[side],
                 None => {
@@ -266,11 +296,7 @@ impl Surface {
     }
 
     fn try_all<S: Signs>(&mut self, cloud: &Cloud<S>, p: u32) -> Option<u32> {
-        let slots = 0..self.facets.len() as u32;
-        slots.filter(|&f| self.facets[f as usize].corners[0] != NONE).find(|&f| {
-            let side = cloud.height(self.facets[f as usize].corners, p);
-            side == Side::Normal
-        })
+        self.live().find(|&f| cloud.height(self.facet(f).corners, p) == Side::Normal)
     }
 
     fn is_seen<S: Signs>(&mut self, cloud: &Cloud<S>, f: u32, p: u32) -> bool {
@@ -279,90 +305,104 @@ impl Surface {
         side == Side::Normal
     }
 
-    /// Replaces what p sees, beginning with facet `first`, by a fan from p to the rim. Where p sees a facet at the border of a
-    /// part nothing changes, and the answer is no.
-    pub(super) fn insert_above<S: Signs>(&mut self, cloud: &Cloud<S>, p: u32, first: u32) -> bool {
+    /// Replaces what p sees, beginning with facet `first`, by a fan from p to the rim.
+    pub(super) fn insert_above<S: Signs>(&mut self, cloud: &Cloud<S>, p: u32, first: u32) -> Insertion {
         let mut scratch = std::mem::take(&mut self.scratch);
-        let is_within = self.collect_seen(cloud, p, first, &mut scratch);
-        if is_within {
-            self.fan(p, &mut scratch);
-        } else {
-            scratch.seen.iter().for_each(|&f| self.facets[f as usize].corners[0] &= !SEEN);
+        let insertion = self.collect_seen(cloud, p, first, &mut scratch);
+        match insertion {
+            Insertion::Done => self.fan(p, &mut scratch),
+            Insertion::NotSeen => {}
+            Insertion::AtBorder => {
+                scratch.seen.iter().for_each(|&f| self.facets[f as usize][0] &= !SEEN);
+            }
         }
         self.scratch = scratch;
-        is_within
+        insertion
     }
 
     /// Lists the seen facets, marking them, and the sides around them in counter-clockwise order; not to the end when one of
     /// them lies at the border of a part.
-    fn collect_seen<S: Signs>(&mut self, cloud: &Cloud<S>, p: u32, first: u32, scratch: &mut Scratch) -> bool {
+    fn collect_seen<S: Signs>(&mut self, cloud: &Cloud<S>, p: u32, first: u32, scratch: &mut Scratch) -> Insertion {
         let Scratch { seen, rim, stack } = scratch;
         seen.clear();
         rim.clear();
         stack.clear();
         let target = cloud.point(p);
-        let facets = self.facets.as_mut_slice();
-        let mut has_zeros = false;
-        facets[first as usize].corners[0] |= SEEN;
-        seen.push(first);
-        stack.push(Visit { facet: first, side: 0, left: 3 });
-        while let Some(visit) = stack.last_mut() {
-            if visit.left == 0 {
-                stack.pop();
+        let Facet { corners, across } = self.facet(first);
+        let facets = &mut *self.facets;
+        let [a, b, c] = corners.map(|v| cloud.point(v) - target);
+        let bc = b.cross(c);
+        let height = cloud.settled_height(corners, p, a.dot(bc));
+        let mut has_zeros = height == Side::On;
+        if height == Side::Normal {
+            if (across[0] | across[1] | across[2]) & BORDER != 0 {
+                return Insertion::AtBorder;
+            }
+            stack.push(Pending { facet: first, beyond: across[2], cross: c.cross(a) });
+            stack.push(Pending { facet: first, beyond: across[1], cross: bc });
+            stack.push(Pending { facet: first, beyond: across[0], cross: a.cross(b) });
+            facets[first as usize][0] |= SEEN;
+            seen.push(first);
+        }
+        while let Some(Pending { facet: f, beyond: g, cross }) = stack.pop() {
+            let [a, b, c, ab, bc, ca] = facets[g as usize];
+            if a & SEEN != 0 {
                 continue;
             }
-            let (f, side) = (visit.facet, visit.side);
-            visit.side = NEXT[side];
-            visit.left -= 1;
-            let Facet { corners, across } = facets[f as usize];
-            let g = across[side];
-            if g & BORDER != 0 {
-                return false;
-            }
-            let beyond = facets[g as usize];
-            if beyond.corners[0] & SEEN != 0 {
-                continue;
-            }
-            let back = position(beyond.across, f);
-            let height = cloud.height_of(target, beyond.corners, p);
+            // Seen from the facet beyond, the side runs the other way round. Only its third corner is new.
+            let (corners, across) = ([a, b, c], [ab, bc, ca]);
+            let back = position(across, f);
+            let after = NEXT[back];
+            let before = NEXT[after];
+            let third = cloud.point(corners[before]) - target;
+            let height = cloud.settled_height(corners, p, -third.dot(cross));
             if height == Side::Normal {
-                facets[g as usize].corners[0] |= SEEN;
+                if (across[after] | across[before]) & BORDER != 0 {
+                    return Insertion::AtBorder;
+                }
+                let (to, from) = (cloud.point(corners[back]) - target, cloud.point(corners[after]) - target);
+                stack.push(Pending { facet: g, beyond: across[before], cross: third.cross(to) });
+                stack.push(Pending { facet: g, beyond: across[after], cross: from.cross(third) });
+                facets[g as usize][0] |= SEEN;
                 seen.push(g);
-                stack.push(Visit { facet: g, side: NEXT[back], left: 2 });
             } else {
                 has_zeros |= height == Side::On;
-                let (from, to) = (corners[side] & !SEEN, corners[NEXT[side]] & !SEEN);
-                rim.push(RimSide { from, to, outside: g, back });
+                rim.push(g << 2 | back as u32);
             }
         }
         self.has_zeros |= has_zeros;
-        true
+        if seen.is_empty() { Insertion::NotSeen } else { Insertion::Done }
     }
 
     /// Builds the fan in the slots of the seen facets, so that neighbours stay near each other in memory.
     fn fan(&mut self, p: u32, Scratch { seen, rim, .. }: &mut Scratch) {
         let count = rim.len();
+        self.count = self.count + count - seen.len();
         while seen.len() < count {
             let slot = self.free.pop().unwrap_or_else(|| {
-                self.facets.push(Facet { corners: [NONE; 3], across: [NONE; 3] });
-                self.facets.len() as u32 - 1
+                self.used += 1;
+                self.used as u32 - 1
             });
             seen.push(slot);
         }
-        let mut before = seen[count - 1];
-        for (i, side) in rim.iter().enumerate() {
-            let slot = seen[i];
-            let after = seen[if i + 1 == count { 0 } else { i + 1 }];
-            self.facets[slot as usize] =
-                Facet { corners: [side.from, side.to, p], across: [side.outside, after, before] };
-            self.facets[side.outside as usize].across[side.back] = slot;
-            before = slot;
-        }
         for &slot in &seen[count..] {
-            self.facets[slot as usize].corners = [NONE; 3];
+            self.facets[slot as usize] = [0; 6];
             self.free.push(slot);
         }
-        self.last = seen[0];
+        seen.truncate(count);
+        let facets = &mut *self.facets;
+        let (first, mut before) = (seen[0], seen[count - 1]);
+        let after = seen.iter().skip(1).chain(std::iter::once(&first));
+        for ((&side, &slot), &after) in rim.iter().zip(seen.iter()).zip(after) {
+            let (outside, back) = (side >> 2, (side & 3) as usize);
+            let facet = &mut facets[outside as usize];
+            // Seen from outside the side runs the other way round.
+            let (to, from) = (facet[back], facet[NEXT[back]]);
+            facet[3 + back] = slot;
+            facets[slot as usize] = [from, to, p, outside, after, before];
+            before = slot;
+        }
+        self.last = first;
     }
 
     /// Which side of `f` leads to `g`.
@@ -378,11 +418,10 @@ impl Surface {
     }
 }
 
-/// How a walk ended.
-#[derive(Debug, Clone, Copy)]
-enum Walk {
-    Sees(u32),
-    Inside,
+/// How an insertion on rounded signs ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Quick {
+    Settled,
     Unsure,
 }
 

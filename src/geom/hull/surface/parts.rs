@@ -1,9 +1,9 @@
-//! A surface in parts that grow side by side.
+//! A surface in parts that grow side by side, each in its own stretch of the slots.
 //!
 //! A facet at the border of a part is never replaced there, so it keeps its slot, and the parts fit together again whatever
 //! happened inside them.
 
-use super::{BORDER, Facet, NONE, Scratch, Surface};
+use super::{BORDER, NONE, Slot, Surface};
 
 /// How a surface was divided.
 pub(in super::super) struct Division {
@@ -11,75 +11,92 @@ pub(in super::super) struct Division {
     part_of: Vec<u32>,
     /// For each slot of the whole surface the slot in its part.
     slot_in_part: Vec<u32>,
+    /// For each part its first slot, and one more for the end.
+    begins: Vec<usize>,
+}
+
+/// What is left of a part when it has grown and its facets point into the whole surface again.
+pub(in super::super) struct Growth {
+    used: usize,
+    count: usize,
+    free: Vec<u32>,
+    has_zeros: bool,
 }
 
 impl Division {
-    /// Part and slot there of a facet of the whole surface; `None` for a free slot.
+    /// Part and slot there of a facet as it was in the whole surface; `None` for a free slot.
     pub(in super::super) fn place_of(&self, f: u32) -> Option<(usize, u32)> {
         let part = self.part_of[f as usize];
         (part != NONE).then(|| (part as usize, self.slot_in_part[f as usize]))
     }
+
+    /// The first slot of a part in the whole surface.
+    pub(in super::super) fn begin(&self, part: usize) -> u32 {
+        self.begins[part] as u32
+    }
 }
 
-impl Surface {
-    /// Divides the surface, which is left empty, by what `part_of` says of each facet. `room` tells for each part how many facets to expect
-    /// at least.
-    pub(in super::super) fn divide(
-        &mut self,
-        room: &[usize],
-        part_of: impl Fn(&Facet) -> usize,
-    ) -> (Vec<Self>, Division) {
-        let whole = std::mem::take(&mut self.facets);
-        self.free.clear();
-        let mut parts: Vec<Self> = room.iter().map(|&room| Self::empty(room)).collect();
-        let mut division = Division { part_of: vec![NONE; whole.len()], slot_in_part: vec![NONE; whole.len()] };
-        for (f, facet) in whole.iter().enumerate().filter(|(_, facet)| facet.corners[0] != NONE) {
-            let part = part_of(facet);
+impl Surface<'_> {
+    /// Divides the surface by what `part_of` says of each facet's first corner. `room` tells for each part how many facets can be added there.
+    ///
+    /// Until [`Self::join`] the surface itself is of no use.
+    pub(in super::super) fn divide(&mut self, room: &[usize], part_of: impl Fn(u32) -> usize) -> (Vec<Surface<'_>>, Division) {
+        let whole: Vec<Slot> = self.facets[..self.used].to_vec();
+        self.facets[..self.used].fill([0; 6]);
+        let mut sizes = vec![0; room.len()];
+        let mut division =
+            Division { part_of: vec![NONE; whole.len()], slot_in_part: vec![NONE; whole.len()], begins: vec![0] };
+        for (f, facet) in whole.iter().enumerate().filter(|(_, facet)| facet[0] != facet[1]) {
+            let part = part_of(facet[0]);
             division.part_of[f] = part as u32;
-            division.slot_in_part[f] = parts[part].facets.len() as u32;
-            parts[part].facets.push(*facet);
+            division.slot_in_part[f] = sizes[part] as u32;
+            sizes[part] += 1;
         }
-        for (k, part) in parts.iter_mut().enumerate() {
-            for g in part.facets.iter_mut().flat_map(|facet| &mut facet.across) {
-                let is_here = division.part_of[*g as usize] == k as u32;
-                *g = if is_here { division.slot_in_part[*g as usize] } else { *g | BORDER };
+        for (size, room) in sizes.iter().zip(room) {
+            division.begins.push(division.begins[division.begins.len() - 1] + size + room);
+        }
+        for (f, facet) in whole.iter().enumerate() {
+            if let Some((part, slot)) = division.place_of(f as u32) {
+                let [a, b, c, across @ ..] = *facet;
+                let [ab, bc, ca] = across.map(|g| match division.place_of(g) {
+                    Some((other, slot)) if other != part => (division.begin(other) + slot) | BORDER,
+                    place => place.map_or(NONE, |(_, slot)| slot),
+                });
+                self.facets[division.begins[part] + slot as usize] = [a, b, c, ab, bc, ca];
             }
+        }
+        let mut rest = &mut *self.facets;
+        let mut parts = Vec::with_capacity(sizes.len());
+        for (part, size) in sizes.into_iter().enumerate() {
+            let (own, others) = rest.split_at_mut(division.begins[part + 1] - division.begins[part]);
+            rest = others;
+            parts.push(Surface::with_facets(own, size));
         }
         (parts, division)
     }
 
-    fn empty(room: usize) -> Self {
-        Self {
-            facets: Vec::with_capacity(room),
-            free: Vec::new(),
-            last: 0,
-            apex: None,
-            has_zeros: false,
-            random: 1,
-            scratch: Scratch::default(),
+    /// Ends the growth of a part that begins at slot `begin` of the whole surface: its facets point into that again.
+    pub(in super::super) fn into_growth(self, begin: u32) -> Growth {
+        for slot in self.facets[..self.used].iter_mut().filter(|slot| slot[0] != slot[1]) {
+            for g in &mut slot[3..] {
+                *g = if *g & BORDER == 0 { begin + *g } else { *g & !BORDER };
+            }
         }
+        let free = self.free.iter().map(|&f| begin + f).collect();
+        Growth { used: self.used, count: self.count, free, has_zeros: self.has_zeros }
     }
 
-    /// Puts the parts together again.
-    pub(in super::super) fn join(&mut self, parts: Vec<Self>, division: &Division) {
-        let mut bases = Vec::with_capacity(parts.len());
-        let mut slots = 0;
-        for part in &parts {
-            bases.push(slots);
-            slots += part.facets.len() as u32;
-        }
-        let whole_slot = |f: u32| {
-            let f = (f & !BORDER) as usize;
-            bases[division.part_of[f] as usize] + division.slot_in_part[f]
-        };
-        for (mut part, &base) in parts.into_iter().zip(&bases) {
-            for facet in part.facets.iter_mut().filter(|facet| facet.corners[0] != NONE) {
-                facet.across = facet.across.map(|g| if g & BORDER == 0 { base + g } else { whole_slot(g) });
-            }
-            self.free.extend(part.free.iter().map(|&f| base + f));
+    /// Puts the parts together again; at most `left` points are still to be inserted.
+    pub(in super::super) fn join(&mut self, parts: Vec<Growth>, division: &Division, left: usize) {
+        self.free.clear();
+        self.count = 0;
+        self.used = division.begins[parts.len()];
+        for (part, ends) in parts.into_iter().zip(division.begins.windows(2)) {
+            self.count += part.count;
             self.has_zeros |= part.has_zeros;
-            // The first part has room for all.
-            if base == 0 { self.facets = part.facets } else { self.facets.append(&mut part.facets) }
+            self.free.extend(part.free);
+            // Each point takes two more facets at most.
+            self.free.extend((ends[0] + part.used..ends[1]).take(2 * left).map(|f| f as u32));
         }
         let first = self.live().next();
         self.last = first.unwrap_or(0);
@@ -87,7 +104,7 @@ impl Surface {
 
     /// Where the next walk begins, if that slot still holds a facet.
     pub(in super::super) fn go_to(&mut self, f: u32) {
-        if self.facets[f as usize].corners[0] != NONE {
+        if !self.is_free(f) {
             self.last = f;
         }
     }

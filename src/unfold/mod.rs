@@ -23,7 +23,7 @@ mod split;
 mod start;
 
 pub use error::UnfoldError;
-pub use given::{check_folded, check_seams};
+pub use given::{check_folded, check_seams, seams_by_angle};
 pub use params::{PiecesMode, PiecesModeError, Seams, Source, UnfoldParams};
 pub use proof::{EdgeFault, LENGTH as LENGTH_LIMIT, ProofError, REFOLD as REFOLD_LIMIT, prove, renumbered};
 
@@ -56,7 +56,8 @@ const REPAIR_SHARE: u64 = 7;
 ///
 /// Which edges fold: a forest over the faces, within what `seams` allows. Two faces of a piece whose common edge comes to lie
 /// on itself fold there too (around a flat vertex, for instance), so no slit of zero width is ever cut. With
-/// [`Seams::Free`] the forest is the best of several rules, then repaired; the piece count is as low as the search finds.
+/// [`Seams::Free`] the forest is the best of several rules, then repaired; the piece count is as low as the search finds, and
+/// the seams are then made shorter where nothing overlaps.
 /// [`Seams::Within`] holds that search to edges that stay and edges that open. [`PiecesMode::Strips`], and two pieces of a
 /// closed 3-valent mesh, choose seams as D-forms do: the folds meet every vertex once.
 /// With given seams or folds every ring of faces opens at the fold with the least fold angle × length, flat ones last.

@@ -31,7 +31,7 @@ const SOLID: f64 = 0.02;
 const DECIMATED: f64 = 5.0;
 const FULL: f64 = 10.0;
 /// The effort that is worth a minute, and what it may take and must reach for a component.
-const LONG_EFFORT: u32 = 80;
+const LONG_EFFORT: u32 = 60;
 const LONG: f64 = 60.0;
 const LONG_PIECES: usize = 3;
 

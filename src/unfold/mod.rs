@@ -42,12 +42,14 @@ const STARTS: usize = 30;
 const LATER_STARTS: usize = 8;
 /// Faces laid for each step of effort, in times that every face is laid; of a small mesh as if it had so many faces.
 const STEP: u64 = 150;
-const LEAST_SIZE: usize = 100;
+const LEAST_SIZE: usize = 2000;
+/// The same for one attempt.
+const LEAST_ATTEMPT: usize = 100;
 /// What making the seams shorter may take, in the same unit.
 const POLISH: u64 = 20;
 /// The most that one attempt may take, in the same unit, and the share of it for moving branches before pieces are joined.
-const ATTEMPT: u64 = 1500;
-const REPAIR_SHARE: u64 = 7;
+const ATTEMPT: u64 = 750;
+const REPAIR_SHARE: u64 = 3;
 
 /// Unfolds a mesh into flat pieces that do not overlap themselves.
 ///
@@ -122,8 +124,8 @@ fn fewest<'a>(
 ) -> (Layout<'a>, Tried) {
     let mut random = Random::new(params.seed);
     let components = dual.component_count();
-    let size = dual.face_count().max(LEAST_SIZE) as u64;
-    let mut budget = u64::from(params.effort) * STEP * size;
+    let size = dual.face_count().max(LEAST_ATTEMPT) as u64;
+    let mut budget = u64::from(params.effort) * STEP * dual.face_count().max(LEAST_SIZE) as u64;
     let mut tried = Tried::default();
     let mut best: Option<Layout> = None;
     loop {

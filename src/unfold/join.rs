@@ -33,14 +33,14 @@ impl<'a> Joiner<'a> {
         Self { layout, joins: 0, moves: 0, random: Random::new(random.bits()), budget }
     }
 
-    /// Joins pieces until there is one for each component, every one was tried `TURNS` times in vain, or the budget is
+    /// Joins pieces until there are as few as can be, every one was tried `TURNS` times in vain, or the budget is
     /// spent. Small pieces come first, then by turns. Returns how many faces were laid.
     pub fn run(&mut self, progress: &dyn Progress) -> u64 {
-        let components = self.layout.dual.component_count();
+        let least = self.layout.dual.least_pieces();
         let (start, mut turn) = (self.budget, 0);
         loop {
             let mut roots = self.layout.forest.roots();
-            let is_stuck = roots.len() <= components || turn >= TURNS * (roots.len() - 1);
+            let is_stuck = roots.len() <= least || turn >= TURNS * (roots.len() - 1);
             if is_stuck || self.budget == 0 || progress.is_cancelled() {
                 return start - self.budget;
             }

@@ -113,8 +113,8 @@ struct Tried {
     joins: usize,
 }
 
-/// The layout with the fewest pieces that the search finds: attempts from other starts until there is one piece for each
-/// component or the budget is spent, then the seams made shorter.
+/// The layout with the fewest pieces that the search finds: attempts from other starts, at most one more than there are
+/// steps of effort, until there are as few pieces as can be or the budget is spent; then seams of its own choice are made shorter.
 fn fewest<'a>(
     dual: &'a Dual,
     mesh: &Mesh,
@@ -123,12 +123,12 @@ fn fewest<'a>(
     progress: &dyn Progress,
 ) -> (Layout<'a>, Tried) {
     let mut random = Random::new(params.seed);
-    let components = dual.component_count();
+    let least = dual.least_pieces();
     let size = dual.face_count().max(LEAST_ATTEMPT) as u64;
     let mut budget = u64::from(params.effort) * STEP * dual.face_count().max(LEAST_SIZE) as u64;
     let mut tried = Tried::default();
     let mut best: Option<Layout> = None;
-    loop {
+    for _ in 0..=params.effort {
         let starts = if best.is_none() { STARTS } else { LATER_STARTS };
         let (start, starts) = best_start(dual, mesh, seams, (starts, tried.starts), &mut random, progress);
         tried.starts += starts;
@@ -137,12 +137,15 @@ fn fewest<'a>(
             best = Some(layout);
         }
         let pieces = best.as_ref().map_or(0, |best| best.forest.roots().len());
-        if pieces <= components || budget == 0 || progress.is_cancelled() {
+        if pieces <= least || budget == 0 || progress.is_cancelled() {
             break;
         }
     }
     let mut layout = best.expect("one attempt at least");
-    polish::polish(&mut layout, POLISH * size, progress);
+    // Where the seams are given, rings open at their least fold and stay so.
+    if seams.is_searched() {
+        polish::polish(&mut layout, POLISH * size, progress);
+    }
     (settled(layout), tried)
 }
 
@@ -158,8 +161,7 @@ fn attempt<'a>(
     let mut layout = repair.run(share / REPAIR_SHARE, progress);
     let (moves, work) = repair.effort();
     tried.moves += u64::from(moves);
-    // A start counts too, so that attempts end.
-    *budget = budget.saturating_sub(work + u64::from(moves == 0));
+    *budget = budget.saturating_sub(work);
     if !layout.overlaps.is_empty() {
         split::split_overlaps(&mut layout);
         split::join_pieces(&mut layout, || !progress.is_cancelled());

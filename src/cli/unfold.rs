@@ -9,6 +9,7 @@ use super::input::Input;
 use super::output::{command_line, model_text, short};
 use super::terminal::Terminal;
 use super::{Console, Outcome};
+use crate::progress::Progress;
 use crate::recipe::{FabricateParams, Fabrication, StepFailure, fabricate, fabrication_outputs, with_material};
 use crate::sheet::SheetParams;
 use crate::unfold::{Source, UnfoldParams};
@@ -38,7 +39,9 @@ pub(super) fn run(args: &UnfoldArgs, console: &Console) -> Result<Outcome, CliEr
     let fabrication = fabricate(&read.mesh, None, (&args.unfold, &args.choice, &sheet), &source, &progress)?;
     let command = command_line();
     let written = Console::write_folder(&args.output, fabrication_outputs(&fabrication, &sheet, &command)?)?;
-    let notes: Vec<String> = read.notes.iter().map(ToString::to_string).chain(fabrication.notes()).collect();
+    let stopped = progress.is_cancelled().then(|| "stopped on request; the files hold the best net so far".to_owned());
+    let notes: Vec<String> =
+        read.notes.iter().map(ToString::to_string).chain(fabrication.notes()).chain(stopped).collect();
     if console.json {
         let summary = json!({ "command": command, "written": written, "notes": notes, "fabrication": summary_json(&fabrication, &sheet) });
         console.result(&format!("{summary:#}\n"))?;

@@ -23,15 +23,17 @@ impl Room {
     }
 }
 
-/// The folds of a piece to open, by edge number, so that its parts fit. Where the folds of the piece form rings, all folds
+/// The folds of a piece that is too large to open, by edge number, so that its parts fit. It is halved once in any case:
+/// a piece that fits by itself may be too large with its flaps. Where the folds of the piece form rings, all folds
 /// between two parts are opened. A single face is never divided.
 pub(super) fn folds_to_open(net: &Net, id: PieceId, room: Room) -> Vec<usize> {
     let Some(graph) = FoldGraph::new(net, id) else { return Vec::new() };
     let mut open = Vec::new();
-    let mut parts = vec![(0..graph.polygons.len()).collect::<Vec<usize>>()];
+    let count = graph.polygons.len();
+    let mut parts = vec![(0..count).collect::<Vec<usize>>()];
     while let Some(part) = parts.pop() {
         let points: Vec<DVec2> = part.iter().flat_map(|&f| graph.polygons[f].iter().copied()).collect();
-        if part.len() > 1 && !room.holds(&points) {
+        if part.len() > 1 && (part.len() == count || !room.holds(&points)) {
             let (half, rest) = graph.halve(&part);
             open.extend(graph.folds_between(&half, &rest));
             parts.push(half);

@@ -14,7 +14,8 @@ use crate::net::{Net, PieceId};
 use crate::progress::Progress;
 use crate::select::{Context, Made, Selection};
 use crate::sheet::{SheetError, SheetParams, SheetSet, lay_out};
-use crate::unfold::{PiecesMode, Seams, Source, UnfoldParams, check_folded, check_seams, unfold};
+use crate::unfold::{PiecesMode, Seams, Source, UnfoldParams, check_folded, check_seams, seams_by_angle, unfold};
+use crate::units::Angle;
 
 /// Which edges open. Without either, marked seams of the file are used; without marks the unfolder chooses.
 #[derive(Debug, Clone, Default, clap::Args, Deserialize)]
@@ -27,6 +28,11 @@ pub struct FabricateParams {
     #[arg(long, value_name = "SELECTION")]
     #[serde(default)]
     pub folds: Option<Selection>,
+    /// Edges that fold by more than this angle open, e.g. 40deg, and the shortest ways from them to every vertex around which
+    /// the faces cannot lie flat; above 0. For meshes with more than three edges at a vertex.
+    #[arg(long, value_name = "ANGLE", conflicts_with_all = ["seams", "folds"])]
+    #[serde(default)]
+    pub sharp: Option<Angle>,
     /// Edges that must stay together as folds, whatever else opens; an error where they cannot.
     #[arg(long, value_name = "SELECTION")]
     #[serde(default)]
@@ -146,6 +152,10 @@ fn given_seams(
     if let Some(seams) = &choice.seams {
         let edges = seams.edges(context, source.split_vertices)?;
         return Ok(Some((open(edges), "the edges that were selected open")));
+    }
+    if let Some(angle) = choice.sharp {
+        let edges = seams_by_angle(context.mesh, angle.radians());
+        return Ok(Some((open(edges), "sharp edges open, and ways from them to all points that cannot lie flat")));
     }
     if let Some(folds) = &choice.folds {
         let mut edges = folds.edges(context)?;

@@ -165,3 +165,20 @@ fn a_piece_too_large_for_the_sheet_is_divided_until_it_fits() {
     let error = run(&recipe("100x100")).map(|_| ()).expect_err("a single face is too large").to_string();
     assert!(error.contains("single face") && error.contains("100 × 100"), "{error}");
 }
+
+#[test]
+fn a_piece_whose_flaps_do_not_fit_on_the_sheet_is_divided() {
+    // A cross of six squares needs 160 x 120 mm, with flaps 16 mm more.
+    let unfold = |rest: &str| {
+        let text = format!(
+            "[[step]]\nsolid = \"cube\"\nedge = \"40mm\"\n[[step]]\nunfold = \"auto\"\nsheet = \"165x125mm\"\nmargin = 1\n{rest}"
+        );
+        let job = run(&text).expect("two steps");
+        job.fabrication.expect("pieces").0
+    };
+    let bare = unfold("");
+    assert_eq!((bare.net.pieces.len(), bare.divided), (1, 0));
+    let flaps = unfold("joint = \"flaps\"\nflap_width = \"8mm\"");
+    assert!(flaps.net.pieces.len() > 1 && flaps.divided > 0);
+    assert!(flaps.sheets.report.joints.flaps > 0);
+}

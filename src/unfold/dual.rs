@@ -172,9 +172,18 @@ impl Dual {
 
     /// Number of parts of the mesh that hang together through any edge.
     pub fn component_count(&self) -> usize {
+        self.part_count(|s| self.across[s as usize] != NONE)
+    }
+
+    /// Number of parts that hang together through edges that may stay together: no net has fewer pieces.
+    pub fn least_pieces(&self) -> usize {
+        self.part_count(|s| self.hinge[s as usize] != NONE)
+    }
+
+    fn part_count(&self, is_joined: impl Fn(u32) -> bool) -> usize {
         let mut sets = super::start::Sets::new(self.face_count());
         let joined = (0..self.across.len() as u32)
-            .filter(|&s| self.across[s as usize] != NONE)
+            .filter(|&s| is_joined(s))
             .filter(|&s| sets.join(self.owner[s as usize], self.neighbour(s)))
             .count();
         self.face_count() - joined

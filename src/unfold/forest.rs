@@ -13,7 +13,7 @@ pub(super) struct Forest {
     rank: Vec<u32>,
     /// Face → number of faces in its subtree.
     size: Vec<u32>,
-    /// Face → number of folds up to the root.
+    /// Face → number of folds up to the root, up to a constant of its tree.
     depth: Vec<u32>,
     /// Face → the root of its tree.
     root: Vec<u32>,
@@ -161,11 +161,82 @@ impl Forest {
         }
     }
 
-    /// Joins the tree of the face of `s` to the tree beyond `s`. Call [`Self::refresh`] afterwards.
-    pub fn attach(&mut self, dual: &Dual, s: u32) {
-        let f = dual.owner[s as usize];
+    /// Opens the fold above `cut` (unless `NONE`) and joins the part with the face of `s` to the tree beyond `s`. The part is
+    /// the smaller one of the cut, or the whole tree of that face. Touches little more than the part and what lies between
+    /// its old and its new place in the order.
+    pub fn rehang(&mut self, dual: &Dual, cut: u32, s: u32) {
+        let (f, g) = (dual.owner[s as usize], dual.neighbour(s));
+        let (first, tree_end) = self.tree_run(f);
+        let start = if cut == NONE { first } else { self.rank[cut as usize] as usize };
+        let end = if cut == NONE { tree_end } else { start + self.size[cut as usize] as usize };
+        let is_inner = (start..end).contains(&(self.rank[f as usize] as usize));
+        // The part is one run of the order, or what a tree has before and after the run that stays.
+        let runs = if is_inner { [start..end, end..end] } else { [first..start, end..tree_end] };
+        let count = (runs[0].len() + runs[1].len()) as u32;
+        if cut != NONE {
+            if is_inner {
+                let above = self.parent(dual, cut);
+                self.grow_above(dual, above, count.wrapping_neg());
+            } else {
+                (start..end).for_each(|i| self.root[self.order[i] as usize] = cut);
+            }
+            self.parent_side[cut as usize] = NONE;
+        }
         self.hang_from(dual, f);
         self.parent_side[f as usize] = s;
+        let (root, depth) = (self.root[g as usize], self.depth[g as usize] + 1);
+        let part = self.laid_order(dual, f, root, depth);
+        self.grow_above(dual, g, count);
+        self.splice(&part, runs, self.rank[g as usize] as usize + 1);
+    }
+
+    /// Where the tree of `f` stands in the order.
+    fn tree_run(&self, f: u32) -> (usize, usize) {
+        let root = self.root[f as usize] as usize;
+        (self.rank[root] as usize, (self.rank[root] + self.size[root]) as usize)
+    }
+
+    /// Adds to the sizes of `f` and all above it.
+    fn grow_above(&mut self, dual: &Dual, mut f: u32, by: u32) {
+        while f != NONE {
+            self.size[f as usize] = self.size[f as usize].wrapping_add(by);
+            f = self.parent(dual, f);
+        }
+    }
+
+    /// The faces that hang on `f`, `f` first, with new roots, depths and sizes.
+    fn laid_order(&mut self, dual: &Dual, f: u32, root: u32, depth: u32) -> Vec<u32> {
+        let (mut part, mut stack) = (Vec::new(), vec![f]);
+        self.depth[f as usize] = depth;
+        while let Some(f) = stack.pop() {
+            part.push(f);
+            (self.root[f as usize], self.size[f as usize]) = (root, 1);
+            let first_child = stack.len();
+            stack.extend(self.children(dual, f));
+            for &child in &stack[first_child..] {
+                self.depth[child as usize] = self.depth[f as usize] + 1;
+            }
+        }
+        for &f in part[1..].iter().rev() {
+            let above = self.parent(dual, f);
+            self.size[above as usize] += self.size[f as usize];
+        }
+        part
+    }
+
+    /// Takes `runs` out of the order and puts `part`, which are the same faces, in before the place `to`.
+    fn splice(&mut self, part: &[u32], runs: [std::ops::Range<usize>; 2], to: usize) {
+        let low = runs[0].start.min(runs[1].start).min(to);
+        let high = runs[0].end.max(runs[1].end).max(to);
+        let stays = |range: std::ops::Range<usize>| range.filter(|i| !runs.iter().any(|run| run.contains(i)));
+        let mut window = Vec::with_capacity(high - low);
+        window.extend(stays(low..to).map(|i| self.order[i]));
+        window.extend_from_slice(part);
+        window.extend(stays(to..high).map(|i| self.order[i]));
+        for (i, &f) in window.iter().enumerate() {
+            self.rank[f as usize] = (low + i) as u32;
+        }
+        self.order[low..high].copy_from_slice(&window);
     }
 
     /// Whether the edge of `s` is a fold of some tree.
@@ -188,5 +259,51 @@ impl Forest {
             self.hang_from(dual, middle);
         }
         self.refresh(dual);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::unfold::Seams;
+    use crate::unfold::random::Random;
+
+    #[test]
+    fn rehanging_keeps_order_sizes_and_roots_as_a_refresh_would() {
+        let mesh = crate::shape::random_tangent_polytope(60, 3);
+        let dual = Dual::new(&mesh, &Seams::Free).expect("planar faces");
+        let mut forest = Forest::scattered(&dual);
+        let mut random = Random::new(5);
+        let mut part = Vec::new();
+        for turn in 0..2000 {
+            let c = random.below(dual.face_count()) as u32;
+            let cut = if forest.parent_side[c as usize] == NONE { NONE } else { c };
+            if cut == NONE {
+                part.clear();
+                part.extend_from_slice(forest.subtree(c));
+            } else {
+                forest.smaller_part(cut, &mut part);
+            }
+            let leads_out = |&s: &u32| dual.across[s as usize] != NONE && !part.contains(&dual.neighbour(s));
+            let sides: Vec<u32> = part.iter().flat_map(|&f| dual.sides(f)).filter(leads_out).collect();
+            if sides.is_empty() {
+                continue;
+            }
+            forest.rehang(&dual, cut, sides[random.below(sides.len())]);
+            let fresh = Forest::new(&dual, forest.parent_side.clone());
+            assert_eq!((&forest.size, &forest.root), (&fresh.size, &fresh.root), "{turn}");
+            for f in 0..dual.face_count() as u32 {
+                let sorted = |forest: &Forest| {
+                    let mut faces = forest.subtree(f).to_vec();
+                    faces.sort_unstable();
+                    faces
+                };
+                assert_eq!(forest.subtree(f)[0], f);
+                assert_eq!(sorted(&forest), sorted(&fresh), "{turn}");
+                let above = forest.parent(&dual, f);
+                assert!(above == NONE || forest.depth[f as usize] == forest.depth[above as usize] + 1);
+            }
+        }
+        assert_eq!(forest.roots().len(), 1);
     }
 }

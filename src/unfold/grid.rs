@@ -167,15 +167,18 @@ impl Grid {
     }
 }
 
+#[inline]
 fn touch(a: [DVec2; 2], b: [DVec2; 2]) -> bool {
     a[0].cmple(b[1]).all() && b[0].cmple(a[1]).all()
 }
 
+#[inline]
 fn cells(bounds: [DVec2; 2], size: f64) -> [(i32, i32); 2] {
     bounds.map(|p| (floor(p.x / size), floor(p.y / size)))
 }
 
 /// Rounds down by a cast: the library call for it shows in profiles of the search.
+#[inline]
 fn floor(x: f64) -> i32 {
     let towards_zero = x as i32;
     towards_zero - i32::from(x < f64::from(towards_zero))

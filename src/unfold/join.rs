@@ -10,6 +10,8 @@ use crate::progress::Progress;
 const HINGES: usize = 24;
 /// Overlaps that are worth repairing.
 const OVERLAPS: usize = 40;
+/// How often each piece is tried before the search gives up.
+const TURNS: usize = 40;
 /// What one repair may cost, in times that every face is laid.
 const REPAIR: u64 = 12;
 
@@ -31,14 +33,16 @@ impl<'a> Joiner<'a> {
         Self { layout, joins: 0, moves: 0, random: Random::new(random.bits()), budget }
     }
 
-    /// Joins pieces until there is one for each component or the budget is spent. Small pieces come first, then by turns.
-    pub fn run(&mut self, progress: &dyn Progress) {
-        let components = self.layout.dual.component_count();
-        let mut turn = 0;
+    /// Joins pieces until there are as few as can be, every one was tried `TURNS` times in vain, or the budget is
+    /// spent. Small pieces come first, then by turns. Returns how many faces were laid.
+    pub fn run(&mut self, progress: &dyn Progress) -> u64 {
+        let least = self.layout.dual.least_pieces();
+        let (start, mut turn) = (self.budget, 0);
         loop {
             let mut roots = self.layout.forest.roots();
-            if roots.len() <= components || self.budget == 0 || progress.is_cancelled() {
-                return;
+            let is_stuck = roots.len() <= least || turn >= TURNS * (roots.len() - 1);
+            if is_stuck || self.budget == 0 || progress.is_cancelled() {
+                return start - self.budget;
             }
             roots.sort_by_key(|&root| self.layout.forest.size(root));
             progress.report("joining pieces", self.joins, 0);

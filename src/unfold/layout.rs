@@ -36,6 +36,8 @@ pub(super) struct Layout<'a> {
     grid: Grid,
     /// All pairs that overlap, in no particular but a repeatable order.
     pub overlaps: Vec<(u32, u32)>,
+    /// Face → the faces that it overlaps.
+    partners: Vec<Vec<u32>>,
     /// Face → number of the move that it takes part in.
     moved: Vec<u32>,
     moves: u32,
@@ -55,6 +57,7 @@ impl<'a> Layout<'a> {
             bounds: vec![[DVec2::ZERO; 2]; n],
             grid: Grid::new(&dual.diameter),
             overlaps: Vec::new(),
+            partners: vec![Vec::new(); n],
             moved: vec![0; n],
             moves: 0,
             pieces: n as u32,
@@ -94,10 +97,9 @@ impl<'a> Layout<'a> {
 
     /// Fills the grid and finds all overlaps; false when there are more than `limit`.
     fn find_all(&mut self, limit: usize) -> bool {
-        self.overlaps.clear();
+        let mut found = Vec::new();
         for f in 0..self.dual.face_count() as u32 {
             let (own, piece) = (self.bounds[f as usize], self.piece[f as usize]);
-            let mut found = std::mem::take(&mut self.overlaps);
             let corners = &self.flat[self.dual.corners(f)];
             self.grid.visit(piece, own, &self.bounds, |g| {
                 if self.meets(f, corners, own, g) {
@@ -105,12 +107,12 @@ impl<'a> Layout<'a> {
                 }
                 found.len() <= limit
             });
-            self.overlaps = found;
-            if self.overlaps.len() > limit {
+            if found.len() > limit {
                 return false;
             }
             self.grid.insert(f, piece, own);
         }
+        self.set_overlaps(found);
         true
     }
 
@@ -120,9 +122,14 @@ impl<'a> Layout<'a> {
             && overlap(self.dual, f, corners, g, &self.flat[self.dual.corners(g)])
     }
 
-    /// Number of overlapping pairs with exactly one face among the marked ones.
-    fn crossing(&self) -> usize {
-        self.overlaps.iter().filter(|&&pair| self.is_crossing(pair)).count()
+    fn set_overlaps(&mut self, overlaps: Vec<(u32, u32)>) {
+        for (f, g) in std::mem::replace(&mut self.overlaps, overlaps) {
+            [f, g].into_iter().for_each(|f| self.partners[f as usize].clear());
+        }
+        for &(f, g) in &self.overlaps {
+            self.partners[f as usize].push(g);
+            self.partners[g as usize].push(f);
+        }
     }
 
     fn is_crossing(&self, (f, g): (u32, u32)) -> bool {
@@ -138,7 +145,7 @@ impl<'a> Layout<'a> {
     pub fn mark(&mut self, faces: &[u32]) -> usize {
         self.moves += 1;
         faces.iter().for_each(|&f| self.moved[f as usize] = self.moves);
-        self.crossing()
+        faces.iter().flat_map(|&f| &self.partners[f as usize]).filter(|&&g| !self.is_marked(g)).count()
     }
 
     /// How the marked faces would move when the face of `s`, one of them, were hung on its neighbour across `s`.
@@ -185,9 +192,9 @@ impl<'a> Layout<'a> {
     /// `s`, and `found` are their overlaps with the rest.
     pub fn carry_out(&mut self, faces: &[u32], cut: u32, s: u32, motion: Motion, found: &[(u32, u32)]) {
         let piece = self.piece[self.dual.neighbour(s) as usize];
-        let overlaps = std::mem::take(&mut self.overlaps);
-        self.overlaps =
-            overlaps.into_iter().filter(|&pair| !self.is_crossing(pair)).chain(found.iter().copied()).collect();
+        let kept = self.overlaps.iter().filter(|&&pair| !self.is_crossing(pair));
+        let overlaps = kept.chain(found).copied().collect();
+        self.set_overlaps(overlaps);
         for &f in faces {
             self.grid.remove(f);
             for c in self.dual.corners(f) {
@@ -199,11 +206,7 @@ impl<'a> Layout<'a> {
             self.piece[f as usize] = piece;
             self.grid.insert(f, piece, self.bounds[f as usize]);
         }
-        if cut != NONE {
-            self.forest.parent_side[cut as usize] = NONE;
-        }
-        self.forest.attach(self.dual, s);
-        self.forest.refresh(self.dual);
+        self.forest.rehang(self.dual, cut, s);
     }
 
     /// Opens the fold above `c`: its subtree becomes a piece of its own.
@@ -217,8 +220,9 @@ impl<'a> Layout<'a> {
         }
         self.forest.parent_side[c as usize] = NONE;
         self.forest.refresh(self.dual);
-        let piece = &self.piece;
-        self.overlaps.retain(|&(f, g)| piece[f as usize] == piece[g as usize]);
+        let is_within = |&&(f, g): &&(u32, u32)| self.piece[f as usize] == self.piece[g as usize];
+        let overlaps = self.overlaps.iter().filter(is_within).copied().collect();
+        self.set_overlaps(overlaps);
     }
 
     /// The same forest laid out afresh, each piece from its middle, free of what the moves have lost to rounding.

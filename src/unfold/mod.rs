@@ -14,6 +14,7 @@ mod join;
 mod layout;
 mod overlap;
 mod params;
+mod polish;
 mod proof;
 mod random;
 mod repair;
@@ -22,7 +23,7 @@ mod split;
 mod start;
 
 pub use error::UnfoldError;
-pub use given::{check_folded, check_seams};
+pub use given::{check_folded, check_seams, seams_by_angle};
 pub use params::{PiecesMode, PiecesModeError, Seams, Source, UnfoldParams};
 pub use proof::{EdgeFault, LENGTH as LENGTH_LIMIT, ProofError, REFOLD as REFOLD_LIMIT, prove, renumbered};
 
@@ -36,8 +37,19 @@ use random::Random;
 use repair::Repair;
 use start::Rule;
 
-/// Spanning forests to choose the start from.
+/// Spanning forests to choose the first start from, and that of later attempts.
 const STARTS: usize = 30;
+const LATER_STARTS: usize = 8;
+/// Faces laid for each step of effort, in times that every face is laid; of a small mesh as if it had so many faces.
+const STEP: u64 = 150;
+const LEAST_SIZE: usize = 2000;
+/// The same for one attempt.
+const LEAST_ATTEMPT: usize = 100;
+/// What making the seams shorter may take, in the same unit.
+const POLISH: u64 = 20;
+/// The most that one attempt may take, in the same unit, and the share of it for moving branches before pieces are joined.
+const ATTEMPT: u64 = 750;
+const REPAIR_SHARE: u64 = 3;
 
 /// Unfolds a mesh into flat pieces that do not overlap themselves.
 ///
@@ -46,7 +58,8 @@ const STARTS: usize = 30;
 ///
 /// Which edges fold: a forest over the faces, within what `seams` allows. Two faces of a piece whose common edge comes to lie
 /// on itself fold there too (around a flat vertex, for instance), so no slit of zero width is ever cut. With
-/// [`Seams::Free`] the forest is the best of several rules, then repaired; the piece count is as low as the search finds.
+/// [`Seams::Free`] the forest is the best of several rules, then repaired; the piece count is as low as the search finds, and
+/// the seams are then made shorter where nothing overlaps.
 /// [`Seams::Within`] holds that search to edges that stay and edges that open. [`PiecesMode::Strips`], and two pieces of a
 /// closed 3-valent mesh, choose seams as D-forms do: the folds meet every vertex once.
 /// With given seams or folds every ring of faces opens at the fold with the least fold angle × length, flat ones last.
@@ -100,7 +113,8 @@ struct Tried {
     joins: usize,
 }
 
-/// The layout with the fewest pieces that the search finds.
+/// The layout with the fewest pieces that the search finds: attempts from other starts, at most one more than there are
+/// steps of effort, until there are as few pieces as can be or the budget is spent; then seams of its own choice are made shorter.
 fn fewest<'a>(
     dual: &'a Dual,
     mesh: &Mesh,
@@ -109,46 +123,86 @@ fn fewest<'a>(
     progress: &dyn Progress,
 ) -> (Layout<'a>, Tried) {
     let mut random = Random::new(params.seed);
-    let (start, starts) = best_start(dual, mesh, seams, &mut random, progress);
-    let mut tried = Tried { starts, ..Tried::default() };
-    let budget = u64::from(params.effort) * 30 * dual.face_count().max(100) as u64;
-    let mut repair = Repair::new(start, random.bits());
-    let mut layout = repair.run(budget, progress);
-    let (moves, work) = repair.effort();
-    tried.moves = u64::from(moves);
-    if !layout.overlaps.is_empty() {
-        split::split_overlaps(&mut layout);
-        split::join_pieces(&mut layout, || !progress.is_cancelled());
-        let mut joiner = join::Joiner::new(layout, &mut random, budget.saturating_sub(work));
-        joiner.run(progress);
-        (tried.joins, tried.moves) = (joiner.joins, tried.moves + joiner.moves);
-        layout = joiner.layout;
+    let least = dual.least_pieces();
+    let size = dual.face_count().max(LEAST_ATTEMPT) as u64;
+    let mut budget = u64::from(params.effort) * STEP * dual.face_count().max(LEAST_SIZE) as u64;
+    let mut tried = Tried::default();
+    let mut best: Option<Layout> = None;
+    for _ in 0..=params.effort {
+        let starts = if best.is_none() { STARTS } else { LATER_STARTS };
+        let (start, starts) = best_start(dual, mesh, seams, (starts, tried.starts), &mut random, progress);
+        tried.starts += starts;
+        let layout = attempt(start, budget.min(ATTEMPT * size), (&mut budget, &mut tried), &mut random, progress);
+        if best.as_ref().is_none_or(|best| layout.forest.roots().len() < best.forest.roots().len()) {
+            best = Some(layout);
+        }
+        let pieces = best.as_ref().map_or(0, |best| best.forest.roots().len());
+        if pieces <= least || budget == 0 || progress.is_cancelled() {
+            break;
+        }
+    }
+    let mut layout = best.expect("one attempt at least");
+    // Where the seams are given, rings open at their least fold and stay so.
+    if seams.is_searched() {
+        polish::polish(&mut layout, POLISH * size, progress);
     }
     (settled(layout), tried)
 }
 
-/// The start with the fewest overlaps, the first without any, and how many were tried.
+/// One way from a start to pieces without overlaps: branches are moved, what still overlaps is parted, pieces are joined.
+fn attempt<'a>(
+    start: Layout<'a>,
+    share: u64,
+    (budget, tried): (&mut u64, &mut Tried),
+    random: &mut Random,
+    progress: &dyn Progress,
+) -> Layout<'a> {
+    let mut repair = Repair::new(start, random.bits());
+    let mut layout = repair.run(share / REPAIR_SHARE, progress);
+    let (moves, work) = repair.effort();
+    tried.moves += u64::from(moves);
+    *budget = budget.saturating_sub(work);
+    if !layout.overlaps.is_empty() {
+        split::split_overlaps(&mut layout);
+        split::join_pieces(&mut layout, || !progress.is_cancelled());
+        let limit = share.saturating_sub(work);
+        let mut joiner = join::Joiner::new(layout, random, limit);
+        let spent = joiner.run(progress);
+        *budget = budget.saturating_sub(spent);
+        tried.joins += joiner.joins;
+        tried.moves += joiner.moves;
+        layout = joiner.layout;
+    }
+    layout
+}
+
+/// The start with the fewest overlaps, the first without any, and how many were tried: `count` rules from turn `first` on.
 fn best_start<'a>(
     dual: &'a Dual,
     mesh: &Mesh,
     seams: &Seams,
+    (count, first): (usize, usize),
     random: &mut Random,
     progress: &dyn Progress,
 ) -> (Layout<'a>, usize) {
-    let first = if seams.is_searched() { Rule::of_turn(0, random) } else { Rule::Sharpest };
+    let rule = |turn: usize, random: &mut Random| match first + turn {
+        0 if !seams.is_searched() => Rule::Sharpest,
+        turn => Rule::of_turn(turn, random),
+    };
     let lay = |rule, limit, random: &mut Random| Layout::new(dual, start::forest(dual, mesh, rule, random), limit);
+    let first = rule(0, random);
     let mut best = lay(first, usize::MAX, random).expect("no limit, no giving up");
-    for turn in 1..STARTS {
+    for turn in 1..count {
         if best.overlaps.is_empty() || progress.is_cancelled() {
             return (best, turn);
         }
-        progress.report("choosing a start", turn, STARTS);
-        let rule = Rule::of_turn(turn, random);
+        progress.report("choosing a start", turn, count);
+        let rule = rule(turn, random);
         if let Some(better) = lay(rule, best.overlaps.len() - 1, random) {
             best = better;
         }
     }
-    (best, STARTS)
+    (best, count)
 }
 
 /// Laid out afresh until that shows no overlap: what the moves have lost to rounding may hide one at the bound.

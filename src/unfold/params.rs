@@ -84,7 +84,7 @@ pub struct UnfoldParams {
     #[serde(default)]
     pub pieces: PiecesMode,
 
-    /// How long to search before a net is divided, 0 or more; each step lays every face about thirty times
+    /// How long to search before a net is divided, 0 or more; each step lays every face about 150 times
     #[arg(long, default_value_t = DEFAULT_EFFORT, value_name = "N")]
     #[serde(default = "default_effort")]
     pub effort: u32,

@@ -15,6 +15,11 @@ use crate::progress::Progress;
 const FOLDS: usize = 8;
 /// Edges by which one step tries to hang on a part.
 const HINGES: usize = 8;
+/// Sides of a part that one step looks at for such edges: of a larger part a random choice.
+const LOOKS: usize = 192;
+/// What other work costs, as a share of laying a face: gathering a face of a part, keeping one of the forest in order.
+const GATHER: u64 = 16;
+const REFRESH: u64 = 64;
 /// Steps for which an edge that was cut stays open.
 const TABU: u32 = 30;
 /// How often a move that makes matters worse by one overlap is taken, to get out of dead ends.
@@ -116,10 +121,10 @@ impl<'a> Repair<'a> {
     /// Tries to hang on the smaller part of the cut above `cut` by other edges; better moves replace `best`.
     fn try_cut(&mut self, cut: u32, best: &mut Option<Move>) {
         self.layout.forest.smaller_part(cut, &mut self.faces);
+        self.work += self.faces.len() as u64 / GATHER;
         let before = self.layout.mark(&self.faces) as i64;
         self.gather_hinges(cut);
-        self.random.shuffle_front(&mut self.hinges, HINGES);
-        for &side in self.hinges.iter().take(HINGES) {
+        for &side in &self.hinges {
             // One worse than now is worth a thought, after that only what beats the best so far.
             let Ok(limit) = usize::try_from(before - best.as_ref().map_or(-1, |m| m.gain + 1)) else { return };
             let motion = self.layout.motion(side);
@@ -136,21 +141,34 @@ impl<'a> Repair<'a> {
         }
     }
 
-    /// The sides of the marked part, on its boundary, by which it may be hung on.
+    /// Some sides of the marked part, on its boundary, by which it may be hung on.
     fn gather_hinges(&mut self, cut: u32) {
-        let Self { layout, hinges, faces, tabu, step, .. } = self;
+        let Self { layout, hinges, faces, tabu, step, random, .. } = self;
         let dual = layout.dual;
         let above = layout.forest.parent_side[cut as usize];
-        let is_open = |&s: &u32| {
-            let g = dual.neighbour(s);
+        let is_open = |s: u32| {
             dual.hinge[s as usize] != NONE
-                && !layout.is_marked(g)
+                && !layout.is_marked(dual.neighbour(s))
                 && s != above
                 && dual.across[s as usize] != above
                 && tabu[s as usize] <= *step
         };
         hinges.clear();
-        hinges.extend(faces.iter().flat_map(|&f| dual.sides(f)).filter(is_open));
+        if faces.len() * 3 <= LOOKS {
+            hinges.extend(faces.iter().flat_map(|&f| dual.sides(f)).filter(|&s| is_open(s)));
+            random.shuffle_front(hinges, HINGES);
+            return hinges.truncate(HINGES);
+        }
+        for _ in 0..LOOKS {
+            let sides = dual.sides(faces[random.below(faces.len())]);
+            let side = sides.start + random.below(sides.len()) as u32;
+            if is_open(side) && !hinges.contains(&side) {
+                hinges.push(side);
+                if hinges.len() == HINGES {
+                    return;
+                }
+            }
+        }
     }
 
     fn take(&mut self, chosen: Move) {
@@ -159,6 +177,7 @@ impl<'a> Repair<'a> {
         for s in [opened, dual.across[opened as usize]] {
             self.tabu[s as usize] = self.step + TABU;
         }
+        self.work += dual.face_count() as u64 / REFRESH;
         // Others may have been marked since the move was tried.
         self.layout.mark(&chosen.faces);
         self.layout.carry_out(&chosen.faces, chosen.cut, chosen.side, chosen.motion, &chosen.found);

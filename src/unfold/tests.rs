@@ -1,5 +1,7 @@
 //! Unfolding small solids whose nets are known.
 
+mod hard;
+
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;

@@ -271,8 +271,8 @@ impl Across {
     fn is_stepped(&self) -> bool {
         let [t, u] = [self.own, self.other].map(|[front, back]| front - back);
         let exact = (u - t * self.fold.cos()) / (t * self.fold.sin());
-        // Written so that a flat edge (0/0, or a number over 0) is stepped too.
-        t != u && !(exact.abs() <= STEEPEST.to_radians().tan())
+        // At a flat edge this is 0/0, or a number over 0.
+        t != u && (exact.is_nan() || exact.abs() > STEEPEST.to_radians().tan())
     }
 
     fn mitre(&self, gap: f64) -> Inset {
@@ -283,7 +283,7 @@ impl Across {
     }
 
     /// The same edge with concave turned into convex: seen from behind.
-    fn from_convex(&self) -> Across {
+    fn convex_view(&self) -> Across {
         if self.fold >= 0.0 {
             return Across { fold: self.fold, own: self.own, other: self.other };
         }
@@ -304,21 +304,21 @@ impl Across {
 
     /// Of a butt joint, the plate that runs through to the outer side of the other.
     fn through(&self) -> Inset {
-        let view = self.from_convex();
+        let view = self.convex_view();
         let [outer, inner] = view.own.map(|o| view.at_plane(o, view.other[0]));
         self.seen(outer, inner)
     }
 
     /// Of a butt joint, the plate that stops at the inner side of the other.
     fn stopped(&self, gap: f64) -> Inset {
-        let view = self.from_convex();
+        let view = self.convex_view();
         let [outer, inner] = view.own.map(|o| view.at_plane(o, view.other[1] - gap));
         self.seen(outer, inner)
     }
 
     /// Fingers: the roots leave room for the slab of the neighbour, the tips are flush with its outer side.
     fn finger(&self) -> Inset {
-        let view = self.from_convex();
+        let view = self.convex_view();
         let inmost = |p: f64| view.own.map(|o| view.at_plane(o, p)).into_iter().fold(f64::NEG_INFINITY, f64::max);
         let [tip, root] = view.other.map(inmost);
         Inset { front: root, back: root, tip: Some(tip) }

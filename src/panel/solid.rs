@@ -46,10 +46,7 @@ pub enum SolidSide {
 pub fn solid(plate: &Plate) -> Solid {
     let n = plate.front.len();
     let mut solid = Solid::default();
-    let lifted = |points: &[DVec2]| {
-        let front = points.iter().map(|&p| plate.on_front(p)).collect::<Vec<_>>();
-        front
-    };
+    let lifted = |points: &[DVec2]| points.iter().map(|&p| plate.on_front(p)).collect::<Vec<_>>();
     solid.points.extend(lifted(&plate.front));
     solid.points.extend(plate.back.iter().map(|&p| plate.on_back(p)));
     let ring = |start: usize, len: usize| (start..start + len).map(|i| i as u32);

@@ -22,7 +22,7 @@ fn made(mesh: &Mesh, mm: f64, params: &PanelParams) -> Result<Plates, PanelError
 }
 
 fn all_solids() -> impl Iterator<Item = Mesh> {
-    solid_names().filter(|n| !n.contains('N') && !n.contains('A')).map(|n| named(&n.to_string()))
+    solid_names().filter(|n| !n.contains('N') && !n.contains('A')).map(named)
 }
 
 /// The corner of a plate at the origin of a side, at front and back, in space.

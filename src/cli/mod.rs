@@ -14,6 +14,7 @@ mod kerf_test;
 mod lint;
 mod manual;
 mod output;
+mod panels;
 mod render;
 mod run;
 mod seams;
@@ -52,6 +53,7 @@ enum Verb {
     Unfold(unfold::UnfoldArgs),
     Seams(seams::SeamsArgs),
     Dform(dform::DformArgs),
+    Panels(panels::PanelsArgs),
     Verify(verify::VerifyArgs),
     Lint(lint::LintArgs),
     KerfTest(kerf_test::KerfTestArgs),
@@ -87,6 +89,7 @@ pub fn run() -> ExitCode {
         Verb::Unfold(args) => unfold::run(&args, &console),
         Verb::Seams(args) => seams::run(&args, &console),
         Verb::Dform(args) => dform::run(&args, &console),
+        Verb::Panels(args) => panels::run(&args, &console),
         Verb::Verify(args) => verify::run(&args, &console),
         Verb::Lint(args) => lint::run(&args, &console),
         Verb::KerfTest(args) => kerf_test::run(&args, &console),

@@ -163,7 +163,8 @@ fn shape(face: &FlatFace, cutter: &Cutter<'_>, combs: &EdgeMap<Option<Comb>>) ->
     let unrelieved = if relief > 0.0 { convex - levels.iter().flatten().count() } else { 0 };
     let (mut begins, mut ends) = (Vec::new(), Vec::new());
     let mut finish = |base: &[DVec2]| {
-        (begins.clear(), ends.clear());
+        begins.clear();
+        ends.clear();
         let mut outline = Vec::new();
         for i in 0..face.len() {
             let corner = base[i];

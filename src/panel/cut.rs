@@ -172,7 +172,7 @@ impl<'a> Cutter<'a> {
     }
 
     fn styled(&self, inset: Inset) -> Inset {
-        match self.params.cut {
+        match self.params.cutting {
             CutStyle::Bevel => inset,
             CutStyle::Square => squared(inset),
         }

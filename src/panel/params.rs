@@ -32,7 +32,7 @@ pub struct PanelParams {
     /// Whether edges may be cut at an angle, or only square as a laser does
     #[arg(long, value_enum, default_value = "bevel")]
     #[serde(default)]
-    pub cut: CutStyle,
+    pub cutting: CutStyle,
     /// What the edges are: mitre, butt, finger, stitch or hinge; or by dihedral angle, 30-100:finger,100-180:stitch, where
     /// other angles are mitred. Concave edges have angles above 180
     #[arg(long, value_name = "KIND|RULES", default_value = "mitre")]
@@ -79,7 +79,7 @@ impl Default for PanelParams {
             gap: Length::default(),
             thickness_of: Vec::new(),
             rim: RimCut::default(),
-            cut: CutStyle::default(),
+            cutting: CutStyle::default(),
             edges: EdgeRules::default(),
             shallow: Shallow::default(),
             corner_relief: Length::default(),

@@ -246,7 +246,7 @@ fn rim_cuts(mesh: &Mesh, rim: RimCut) -> Vec<(DVec3, DVec3)> {
 fn square_cuts_stay_inside_the_bevelled_plates_and_open_a_v() {
     let mesh = named("dodecahedron");
     let bevelled = made(&mesh, 3.0, &PanelParams::default()).expect("fits");
-    let params = PanelParams { cut: CutStyle::Square, ..PanelParams::default() };
+    let params = PanelParams { cutting: CutStyle::Square, ..PanelParams::default() };
     let square = made(&mesh, 3.0, &params).expect("fits");
     for (bevel, square) in bevelled.plates.iter().zip(&square.plates) {
         assert_eq!((&square.front, &square.back), (&square.back, &square.blank));

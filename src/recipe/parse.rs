@@ -11,9 +11,10 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::{Position, RecipeError};
-use super::{DformParams, FabricateParams, PlanesStep, ReadStep, Recipe, Step};
+use super::{DformParams, FabricateParams, PanelFiles, PlanesStep, ReadStep, Recipe, Step};
 use crate::check::CheckParams;
 use crate::op::{HullParams, ResolveParams, SliceParams, TruncateEdge, TruncateFace, TruncateVertex};
+use crate::panel::PanelParams;
 use crate::picture::RenderParams;
 use crate::shape::SolidParams;
 use crate::sheet::SheetParams;
@@ -31,6 +32,7 @@ const VERBS: [(&str, &str); 10] = [
     ("check", "profile"),
     ("unfold", "pieces"),
     ("dform", "matching"),
+    ("panels", "side"),
     ("render", "view"),
 ];
 
@@ -147,6 +149,7 @@ impl Source<'_> {
             ("render", _) => Step::Render(fields.read1::<RenderParams>()?),
             ("unfold", _) => fields.unfold()?,
             ("dform", _) => fields.dform()?,
+            ("panels", _) => fields.panels()?,
             ("cut", "vertex") => Step::CutVertex(fields.read1::<TruncateVertex>()?),
             ("cut", "edge") => Step::CutEdge(fields.read1::<TruncateEdge>()?),
             ("cut", "face") => Step::CutFace(fields.read1::<TruncateFace>()?),
@@ -180,6 +183,12 @@ impl StepFields<'_> {
     fn dform(&self) -> Result<Step, RecipeError> {
         self.check_keys(&[field_names::<DformParams>(), field_names::<SheetParams>()].concat())?;
         Ok(Step::Dform { dform: self.read()?, sheet: self.read()? })
+    }
+
+    fn panels(&self) -> Result<Step, RecipeError> {
+        let known = [field_names::<PanelParams>(), field_names::<PanelFiles>(), field_names::<SheetParams>()].concat();
+        self.check_keys(&known)?;
+        Ok(Step::Panels { panels: self.read()?, files: self.read()?, sheet: self.read()? })
     }
 
     fn check_keys(&self, known: &[String]) -> Result<(), RecipeError> {

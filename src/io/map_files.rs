@@ -13,8 +13,8 @@ const NAME_HEIGHTS: [f64; 2] = [0.2, 4.0];
 /// Height of the titles in mm.
 const TITLE: f64 = 4.0;
 /// Widths of lines in mm.
-const OUTLINE: f64 = 0.1;
-const NAME: f64 = 0.08;
+const OUTLINE: f64 = 0.12;
+const NAME: f64 = 0.15;
 
 /// What is drawn, in order, page coordinates in mm with y up.
 enum Shape {

@@ -25,11 +25,15 @@ from OCP.IFSelect import IFSelect_RetDone
 from OCP.STEPCAFControl import STEPCAFControl_Reader
 from OCP.TCollection import TCollection_ExtendedString
 from OCP.TDataStd import TDataStd_Name
-from OCP.TDF import TDF_LabelSequence
 from OCP.TDocStd import TDocStd_Document
 from OCP.TopAbs import TopAbs_SOLID
 from OCP.TopExp import TopExp_Explorer
 from OCP.XCAFDoc import XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
+
+try:
+    from OCP.TDF import TDF_LabelSequence
+except ImportError:  # OpenCASCADE 8
+    from OCP.collections import Sequence_TDF_Label as TDF_LabelSequence
 
 PLATONIC = ["tetrahedron", "cube", "octahedron", "dodecahedron", "icosahedron"]
 ARCHIMEDEAN = [

@@ -12,6 +12,9 @@ use super::params::Hardware;
 use super::rule::EdgeKind;
 use crate::mesh::{EdgeId, EdgeMap, FaceMap, HalfEdgeId};
 
+/// The least distance of fingers from the corners, in thicknesses.
+const CLEAR: f64 = 0.25;
+
 /// The finger zones of an edge, measured from the first vertex of its first half-edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Comb {
@@ -73,9 +76,10 @@ fn free(face: &FlatFace, h: HalfEdgeId, cutter: &Cutter<'_>) -> Free {
             free.high = face.corner(next, level, other).map_or(free.high, |(p, _)| free.high.min(along(p)));
         }
     }
-    let relief = cutter.params.corner_relief.mm();
     // The relief takes as much of the side as it is deep where the corner is right-angled; twice that covers the sharper ones.
-    (free.low, free.high) = (free.low + 2.0 * relief, free.high - 2.0 * relief);
+    // And no finger begins in a corner, where its root would have no length.
+    let clear = 2.0 * cutter.params.corner_relief.mm() + CLEAR * cutter.thickness[face.face];
+    (free.low, free.high) = (free.low + clear, free.high - clear);
     free
 }
 

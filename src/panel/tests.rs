@@ -6,10 +6,10 @@ use glam::{DVec2, DVec3};
 
 use super::*;
 use crate::geom::polygon::signed_area;
-use crate::measure::{dihedral_angle, volume};
+use crate::measure::{dihedral_angle, size, volume};
 use crate::mesh::{HalfEdgeId, Mesh};
 use crate::progress::Silent;
-use crate::shape::{SolidParams, random_tangent_polytope, solid, solid_names};
+use crate::shape::{SolidParams, hexagonal_facade, random_tangent_polytope, solid, solid_names};
 use crate::units::Length;
 
 fn named(name: &str) -> Mesh {
@@ -271,10 +271,10 @@ fn fingers_interlock_and_never_overlap() {
         assert_eq!(plate.front, plate.back);
         assert!(plate.front.len() > 12, "{}", plate.front.len());
     }
-    // Together the plates fill the shell but for the three-way corners and the ends of the edges where no finger reaches.
+    // Together the plates fill the shell but for the three-way corners, and a quarter of the thickness at the ends of the edges.
     let sum: f64 = made.plates.iter().map(Plate::volume).sum();
     let shell = 80.0 * 60.0 * 50.0 - 72.0 * 52.0 * 42.0;
-    assert!((shell - sum - 8.0 * 64.0).abs() < 1e-6, "{sum} {shell}");
+    assert!((shell - sum - 8.0 * 64.0 - 24.0 * 16.0).abs() < 1e-6, "{sum} {shell}");
 }
 
 #[test]
@@ -328,6 +328,47 @@ fn relieved_corners_take_the_depth_asked_for() {
     let deep = PanelParams { corner_relief: Length::from_mm(40.0), ..PanelParams::default() };
     let made = super::tests::made(&mesh, 3.0, &deep).expect("fits");
     assert_eq!(made.unrelieved_corners, 24);
+}
+
+#[test]
+fn facades_are_exact_and_saddles_have_concave_panels() {
+    for (radii, has_concave) in [([60_000.0, 40_000.0], false), ([40_000.0, -40_000.0], true)] {
+        let mesh = hexagonal_facade(12, 10, 1000.0, radii);
+        let gap = 8.0;
+        let params = PanelParams { gap: Length::from_mm(gap), ..PanelParams::default() };
+        let made = made(&mesh, 10.0, &params).expect("fits");
+        assert_eq!(made.plates.iter().any(Plate::is_concave), has_concave);
+        let size = size(&mesh).length();
+        for cut in &made.edges {
+            let Some([front, back]) = cut.opening else { continue };
+            assert!((front - gap).abs() < 1e-12 * size && (back - gap).abs() < 1e-12 * size, "{front} {back}");
+        }
+        assert!(made.nodes.iter().all(|n| n.valence <= 3 && n.residual == 0.0));
+        let listed = schedule(&mesh, &made, &params);
+        // The surface has two mirror planes or its panels come at least in pairs turned by half a turn.
+        assert!(listed.groups.len() <= 60, "{} groups", listed.groups.len());
+        assert!(listed.panels.iter().all(|p| p.planarity < 1e-9 && p.mass > 15.0 && p.mass < 22.0));
+    }
+}
+
+#[test]
+fn mirror_images_are_told_from_copies() {
+    let snub = made(&named("snub-cube"), 2.0, &PanelParams::default()).expect("fits");
+    let rows = schedule(&named("snub-cube"), &snub, &PanelParams::default()).groups;
+    // Squares, triangles among triangles, and triangles beside squares, which have one bevel of another kind.
+    let mut sizes: Vec<usize> = rows.iter().map(|r| r.panels.len()).collect();
+    sizes.sort_unstable();
+    assert_eq!(sizes, [6, 8, 24]);
+    let mesh = random_tangent_polytope(12, 3);
+    let plates = made(&mesh, 0.05, &PanelParams::default()).expect("fits").plates;
+    let plate = plates.iter().find(|p| p.front.len() > 4).expect("a panel without symmetry");
+    let mut mirrored = plate.clone();
+    let flipped = |points: &[DVec2]| points.iter().rev().map(|p| DVec2::new(5.0 - p.x, p.y + 3.0)).collect::<Vec<_>>();
+    (mirrored.front, mirrored.back) = (flipped(&plate.front), flipped(&plate.back));
+    let found = twins(&[plate.clone(), mirrored, plate.clone()], 1e-6);
+    assert_eq!(found[1], Twin { first: 0, is_mirrored: true });
+    assert_eq!(found[2], Twin { first: 0, is_mirrored: false });
+    assert_eq!(twins(&plates, 1e-6).iter().filter(|t| t.is_mirrored).count(), 0);
 }
 
 #[test]

@@ -202,7 +202,7 @@ impl Step {
 
     fn placement(&mut self, origin: DVec3, axis: DVec3, x: DVec3) -> usize {
         let [origin, axis, x] = [self.point(origin), self.direction(axis), self.direction(x)];
-        self.add(&format!("AXIS2_PLACEMENT3D('',#{origin},#{axis},#{x})"))
+        self.add(&format!("AXIS2_PLACEMENT_3D('',#{origin},#{axis},#{x})"))
     }
 }
 
@@ -252,12 +252,50 @@ fn quoted(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geom::Frame;
+    use crate::mesh::{EdgeId, FaceId};
+    use glam::DVec2;
 
     #[test]
     fn numbers_have_a_point() {
         for (value, text) in [(1.0, "1.0"), (1e-7, "1.E-7"), (2.5e-9, "2.5E-9"), (-0.0, "0.0"), (1e22, "1.E22")] {
             assert_eq!(real(value), text);
         }
+    }
+
+    #[test]
+    fn every_number_that_is_used_is_defined_and_every_edge_has_two_sides() {
+        let hole = |at: DVec2| Hole { centre: at, radius: 1.0, edge: EdgeId::new(0) };
+        let square = [(0.0, 0.0), (20.0, 0.0), (20.0, 20.0), (0.0, 20.0)].map(DVec2::from).to_vec();
+        let plate = Plate {
+            face: FaceId::new(0),
+            thickness: 2.0,
+            frame: Frame { origin: DVec3::ZERO, x: DVec3::X, y: DVec3::Y, normal: DVec3::Z },
+            half_edges: vec![],
+            reference: square.clone(),
+            back: square.iter().map(|&p| DVec2::splat(10.0) + (p - DVec2::splat(10.0)) * 0.8).collect(),
+            blank: square.clone(),
+            inner: square.clone(),
+            front: square,
+            begins: vec![0, 1, 2, 3],
+            ends: vec![1, 2, 3, 0],
+            holes: vec![hole(DVec2::new(5.0, 5.0)), hole(DVec2::new(15.0, 5.0))],
+        };
+        let bytes = step_bytes([StepPart { name: "P01", plate: &plate }].into_iter(), "kerfold panels");
+        let text = String::from_utf8(bytes).expect("ASCII");
+        let ids = |line: &str| -> Vec<usize> {
+            let digits = |t: &str| t.split(|c: char| !c.is_ascii_digit()).next().and_then(|d| d.parse().ok());
+            line.split('#').skip(1).filter_map(digits).collect()
+        };
+        let mut defined = std::collections::BTreeSet::new();
+        for line in text.lines().filter(|l| l.starts_with('#')) {
+            let ids = ids(line);
+            assert!(ids[1..].iter().all(|id| defined.contains(id)), "{line}");
+            assert!(defined.insert(ids[0]), "{line}");
+        }
+        let count = |word: &str| text.matches(word).count();
+        assert_eq!((count("ADVANCED_FACE("), count("CYLINDRICAL_SURFACE("), count("PLANE('',#")), (6 + 2, 2, 6));
+        assert_eq!(count("ORIENTED_EDGE("), 2 * count("EDGE_CURVE("));
     }
 
     #[test]

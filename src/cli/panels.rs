@@ -1,6 +1,6 @@
 //! `kerfold panels`
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
@@ -12,7 +12,7 @@ use super::unfold::summary_json;
 use super::{Console, Outcome};
 use crate::io::panels_json::finding;
 use crate::panel::{PanelFinding, PanelParams, PanelRequirement};
-use crate::recipe::{PanelFiles, Panelled, panel_model, panel_outputs};
+use crate::recipe::{PanelFiles, Panelled, StepFailure, panel_model, panel_outputs, with_material};
 use crate::sheet::SheetParams;
 use crate::unfold::Source;
 
@@ -38,16 +38,17 @@ pub(super) struct PanelsArgs {
 
 pub(super) fn run(args: &PanelsArgs, console: &Console) -> Result<Outcome, CliError> {
     let read = args.input.read()?;
+    let sheet = with_material(&args.sheet, Path::new("")).map_err(StepFailure::from)?;
     let progress = Terminal::new(console.quiet);
     let source = Source { scale: read.scale, split_vertices: &read.splits };
-    let panelled = panel_model(&read.mesh, (&args.panels, &args.files, &args.sheet), &source, &progress)?;
+    let panelled = panel_model(&read.mesh, (&args.panels, &args.files, &sheet), &source, &progress)?;
     let command = command_line();
-    let written = Console::write_folder(&args.output, panel_outputs(&panelled, &args.sheet, &command)?)?;
+    let written = Console::write_folder(&args.output, panel_outputs(&panelled, &sheet, &command)?)?;
     let notes: Vec<String> = read.notes.iter().map(ToString::to_string).chain(panelled.notes()).collect();
     if console.json {
         let summary = json!({
             "command": command, "written": written, "notes": notes, "model": model_json(&read.mesh),
-            "panels": panels_json(&panelled), "fabrication": summary_json(&panelled.fabrication),
+            "panels": panels_json(&panelled), "fabrication": summary_json(&panelled.fabrication, &sheet),
         });
         console.result(&format!("{summary:#}\n"))?;
     } else {

@@ -75,7 +75,7 @@ pub struct Panelled {
 #[non_exhaustive]
 pub enum PanelOptionError {
     /// No thickness.
-    #[error("panels need a thickness; give it, for example thickness 10mm")]
+    #[error("panels need a thickness; give it, for example thickness 10mm, or a material")]
     NoThickness,
     /// A joint of the sheets instead of one of the panels.
     #[error("panels do not take joint; say what their edges are with edges, for example edges finger")]
@@ -91,7 +91,7 @@ pub enum PanelOptionError {
 }
 
 /// Makes the plates of a mesh in millimetres, lists them and lays them out on sheets. The thickness, the width of fingers and
-/// the sizes of holes are those of the sheet's parameters.
+/// the sizes of holes are those of the sheet's parameters; without a thickness that of the material is taken.
 ///
 /// # Errors
 /// [`StepFailure::PanelOption`] for options that do not fit together, [`StepFailure::Panel`] for a mesh that cannot be made of
@@ -129,7 +129,8 @@ fn hardware(params: &PanelParams, sheet: &SheetParams) -> Result<(Length, Hardwa
     {
         unused(option, value.is_some(), has_holes, "stitch or hinge")?;
     }
-    let thickness = sheet.thickness.ok_or(PanelOptionError::NoThickness)?;
+    let of_material = sheet.made_of.as_ref().map(|material| material.thickness);
+    let thickness = sheet.thickness.or(of_material).ok_or(PanelOptionError::NoThickness)?;
     let hardware = Hardware {
         finger_width: sheet.finger_width,
         hole_spacing: sheet.hole_spacing,

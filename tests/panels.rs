@@ -98,8 +98,12 @@ fn an_octahedron_is_a_finding_when_three_edges_are_required() {
     );
     // Regular: the offsets of all four planes still meet.
     assert_eq!(panels(&["--require", "conical"]).status.code(), Some(0));
-    let skewed = folder.read("octahedron.obj").replacen("v -", "v -1", 1);
-    fs::write(&model, skewed).expect("a file");
+    // One vertex moved off all planes of symmetry.
+    let text = folder.read("octahedron.obj");
+    let first = text.lines().find(|l| l.starts_with("v ")).expect("a vertex");
+    let shift = |(word, by): (&str, f64)| format!("{}", word.parse::<f64>().expect("a number") + by);
+    let moved: Vec<String> = first.split_whitespace().skip(1).zip([6.0, 9.0, -4.0]).map(shift).collect();
+    fs::write(&model, text.replacen(first, &format!("v {}", moved.join(" ")), 1)).expect("a file");
     let ran = panels(&["--require", "conical"]);
     assert_eq!(ran.status.code(), Some(1), "{}", stderr(&ran));
     let told: Value = serde_json::from_slice(&ran.stdout).expect("JSON");

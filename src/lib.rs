@@ -16,6 +16,7 @@ pub mod shape;
 
 pub mod check;
 pub mod op;
+pub mod panel;
 pub mod sheet;
 pub mod unfold;
 

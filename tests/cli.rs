@@ -104,6 +104,7 @@ const READERS: &[(&[&str], &str)] = &[
     (&["unfold", "IN", "--sheet", "600x400", "-o", "OUT"], "out"),
     (&["seams", "IN"], ""),
     (&["dform", "IN", "--rounds", "1", "-o", "OUT"], "out"),
+    (&["panels", "IN", "--thickness", "2mm", "--gap", "1mm", "-o", "OUT"], "panels"),
     (&["render", "IN", "--width", "64", "-o", "OUT"], "out.png"),
 ];
 
@@ -312,6 +313,7 @@ fn every_verb_has_an_example_in_its_help() {
         "unfold",
         "seams",
         "dform",
+        "panels",
         "verify",
         "lint",
         "kerf-test",

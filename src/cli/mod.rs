@@ -15,6 +15,7 @@ mod lint;
 mod manual;
 mod operator;
 mod output;
+mod panels;
 mod render;
 mod run;
 mod seams;
@@ -61,6 +62,7 @@ enum Verb {
     Unfold(unfold::UnfoldArgs),
     Seams(seams::SeamsArgs),
     Dform(dform::DformArgs),
+    Panels(panels::PanelsArgs),
     Verify(verify::VerifyArgs),
     Lint(lint::LintArgs),
     KerfTest(kerf_test::KerfTestArgs),
@@ -98,6 +100,7 @@ pub fn run() -> ExitCode {
         Verb::Unfold(args) => unfold::run(&args, &console),
         Verb::Seams(args) => seams::run(&args, &console),
         Verb::Dform(args) => dform::run(&args, &console),
+        Verb::Panels(args) => panels::run(&args, &console),
         Verb::Verify(args) => verify::run(&args, &console),
         Verb::Lint(args) => lint::run(&args, &console),
         Verb::KerfTest(args) => kerf_test::run(&args, &console),

@@ -6,6 +6,7 @@ use serde_json::json;
 
 use super::error::CliError;
 use super::output::{command_line, model_json, model_text};
+use super::panels::{panels_json, panels_text};
 use super::terminal::Terminal;
 use super::unfold::{summary_json, summary_text};
 use super::{Console, Outcome};
@@ -37,10 +38,12 @@ pub(super) fn finish(job: &Job, name: Option<String>, folder: &Path, console: &C
     let written = Console::write_folder(folder, job_outputs(job, &command)?)?;
     let report = job.report()?;
     let has_findings = report.has_findings();
+    let panelled = job.panelled.as_ref().map(|(panelled, _)| panelled);
     if console.json {
         let summary = json!({
             "command": command, "name": name, "written": written, "notes": job.notes, "model": model_json(job.mesh()?),
             "verdict": report.verdict().name(), "fabrication": job.fabrication.as_ref().map(|(f, sheet)| summary_json(f, sheet)),
+            "panels": panelled.map(panels_json),
         });
         console.result(&format!("{summary:#}\n"))?;
     } else {
@@ -53,12 +56,14 @@ pub(super) fn finish(job: &Job, name: Option<String>, folder: &Path, console: &C
             job.check.profile.name()
         );
         text += &job.fabrication.as_ref().map_or_else(String::new, |(f, sheet)| summary_text(f, sheet));
+        text += &panelled.map_or_else(String::new, panels_text);
         for path in &written {
             text += &format!("wrote {}\n", path.display());
         }
         console.result(&text)?;
     }
-    Ok(if has_findings && job.is_check_asked { Outcome::Findings } else { Outcome::Clean })
+    let has_panel_findings = panelled.is_some_and(|p| !p.findings.is_empty());
+    Ok(if has_findings && job.is_check_asked || has_panel_findings { Outcome::Findings } else { Outcome::Clean })
 }
 
 fn read_recipe(path: &Path) -> Result<Recipe, CliError> {

@@ -122,6 +122,77 @@ fn outside_faces(net: &ConstrainedDelaunayTriangulation<Point2<f64>>) -> Vec<boo
     outside
 }
 
+/// Cuts a region into triangles, counter-clockwise, given by their corners' numbers in the contours one after another. A point
+/// belongs to the region when an odd number of contours lies around it, so holes may run either way. Where contours touch or
+/// cross, only the first one is cut, without its holes.
+pub fn triangulate_region(contours: &[Vec<DVec2>]) -> Vec<[usize; 3]> {
+    region_by_delaunay(contours)
+        .unwrap_or_else(|| contours.first().map_or_else(Vec::new, |outline| triangulate(outline)))
+}
+
+fn region_by_delaunay(contours: &[Vec<DVec2>]) -> Option<Vec<[usize; 3]>> {
+    let mut net = ConstrainedDelaunayTriangulation::<Point2<f64>>::new();
+    let mut loops = Vec::with_capacity(contours.len());
+    let mut count = 0;
+    for contour in contours {
+        let mut handles = Vec::with_capacity(contour.len());
+        for p in contour {
+            let handle = net.insert(Point2::new(p.x, p.y)).ok()?;
+            if handle.index() != count {
+                return None;
+            }
+            count += 1;
+            handles.push(handle);
+        }
+        loops.push(handles);
+    }
+    for handles in &loops {
+        for (i, &from) in handles.iter().enumerate() {
+            let to = handles[(i + 1) % handles.len()];
+            if !net.can_add_constraint(from, to) {
+                return None;
+            }
+            net.add_constraint(from, to);
+        }
+    }
+    let inside = odd_faces(&net);
+    let mut triangles: Vec<[usize; 3]> = net
+        .inner_faces()
+        .filter(|face| inside[face.fix().index()] == Some(true))
+        .map(|face| lowest_first(face.vertices().map(|v| v.fix().index())))
+        .collect();
+    triangles.sort_unstable();
+    // Every hole adds its corners and two triangles more.
+    (triangles.len() + 4 == count + 2 * contours.len()).then_some(triangles)
+}
+
+/// For each face whether an odd number of constraints lies between it and the outside; `None` for the outer face.
+fn odd_faces(net: &ConstrainedDelaunayTriangulation<Point2<f64>>) -> Vec<Option<bool>> {
+    let mut odd = vec![None; net.num_all_faces()];
+    let mut open = Vec::new();
+    for edge in net.convex_hull() {
+        let sides = [edge.face(), edge.rev().face()];
+        for face in sides.into_iter().filter_map(|f| f.as_inner()) {
+            if odd[face.fix().index()].is_none() {
+                odd[face.fix().index()] = Some(edge.is_constraint_edge());
+                open.push(face.fix());
+            }
+        }
+    }
+    while let Some(at) = open.pop() {
+        let here = odd[at.index()] == Some(true);
+        for edge in net.face(at).adjacent_edges() {
+            if let Some(next) = edge.rev().face().as_inner()
+                && odd[next.fix().index()].is_none()
+            {
+                odd[next.fix().index()] = Some(here != edge.is_constraint_edge());
+                open.push(next.fix());
+            }
+        }
+    }
+    odd
+}
+
 fn lowest_first([a, b, c]: [usize; 3]) -> [usize; 3] {
     if a < b && a < c {
         [a, b, c]
@@ -221,6 +292,22 @@ mod tests {
         assert_eq!(triangles.len(), 8);
         let areas = triangles.iter().map(|t| orient2d(slit[t[0]], slit[t[1]], slit[t[2]]) / 2.0);
         assert_eq!(areas.inspect(|&a| assert!(a >= 0.0)).sum::<f64>(), 12.0);
+    }
+
+    #[test]
+    fn regions_leave_their_holes_free() {
+        let square = |low: f64, high: f64| polygon(&[(low, low), (high, low), (high, high), (low, high)]);
+        let mut turned = square(6.0, 7.0);
+        turned.reverse();
+        let contours = [square(0.0, 10.0), square(1.0, 3.0), turned];
+        let corners = contours.concat();
+        let triangles = triangulate_region(&contours);
+        assert_eq!(triangles.len(), 12 + 2 * 2 - 2);
+        let areas = triangles.iter().map(|t| orient2d(corners[t[0]], corners[t[1]], corners[t[2]]) / 2.0);
+        assert_eq!(areas.inspect(|&a| assert!(a > 0.0)).sum::<f64>(), 95.0);
+        // A hole that reaches out of its outline is left alone.
+        assert_eq!(triangulate_region(&[square(0.0, 10.0), square(5.0, 15.0)]).len(), 2);
+        assert!(triangulate_region(&[]).is_empty());
     }
 
     #[test]

@@ -3,10 +3,12 @@
 use std::fmt;
 
 use super::materials::MaterialError;
+use super::panels::PanelOptionError;
 use crate::check::CheckError;
 use crate::io::IoError;
 use crate::io::planes_csv::PlanesError;
 use crate::op::OpError;
+use crate::panel::PanelError;
 use crate::picture::PictureError;
 use crate::seam::SeamError;
 use crate::select::SelectError;
@@ -136,6 +138,12 @@ pub enum StepFailure {
     /// The material could not be taken.
     #[error(transparent)]
     Material(#[from] MaterialError),
+    /// The faces could not be made into plates.
+    #[error(transparent)]
+    Panel(#[from] PanelError),
+    /// Options of panels that do not fit together.
+    #[error(transparent)]
+    PanelOption(#[from] PanelOptionError),
     /// The picture could not be drawn.
     #[error(transparent)]
     Picture(#[from] PictureError),

@@ -3,13 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use super::{
-    DformParams, FabricateParams, Fabrication, OperatorStep, Recipe, Step, StepError, StepFailure, carve_dform,
-    fabricate, solid_of_planes, with_material,
+    DformParams, FabricateParams, Fabrication, OperatorStep, PanelFiles, Panelled, Recipe, Step, StepError,
+    StepFailure, carve_dform, fabricate, panel_model, solid_of_planes, with_material,
 };
 use crate::check::{CheckParams, Report, check};
 use crate::io::{ReadMesh, read_mesh};
 use crate::mesh::{Mesh, SplitVertex};
 use crate::op::{HullParams, HullStep, OpContext, OpError, hull};
+use crate::panel::PanelParams;
 use crate::picture::RenderParams;
 use crate::progress::Progress;
 use crate::select::{Made, Selection};
@@ -34,6 +35,8 @@ pub struct Job {
     pub is_check_asked: bool,
     /// Pieces and sheets, once unfolded, with how the sheets are drawn.
     pub fabrication: Option<(Fabrication, SheetParams)>,
+    /// Plates, once panelled, with how their sheets are drawn.
+    pub panelled: Option<(Panelled, SheetParams)>,
 }
 
 impl Job {
@@ -107,6 +110,9 @@ impl Job {
             Step::Unfold { unfold, fabricate, sheet } => {
                 self.unfold(unfold, fabricate, &with_material(sheet, folder)?, folder, progress)?
             }
+            Step::Panels { panels, files, sheet } => {
+                self.panels(panels, files, &with_material(sheet, folder)?, progress)?
+            }
         }
         Ok(())
     }
@@ -131,6 +137,21 @@ impl Job {
         self.unfold(&UnfoldParams::default(), &folds, sheet, Path::new(""), progress)
     }
 
+    /// Panels take the place of pieces unfolded before, since both would go to the same files.
+    fn panels(
+        &mut self,
+        params: &PanelParams,
+        files: &PanelFiles,
+        sheet: &SheetParams,
+        progress: &dyn Progress,
+    ) -> Result<(), StepFailure> {
+        let source = Source { scale: 1.0, split_vertices: &[] };
+        let panelled = panel_model(self.mesh()?, (params, files, sheet), &source, progress)?;
+        self.notes.extend(panelled.notes());
+        (self.panelled, self.fabrication) = (Some((panelled, sheet.clone())), None);
+        Ok(())
+    }
+
     fn unfold(
         &mut self,
         unfold: &UnfoldParams,
@@ -144,7 +165,7 @@ impl Job {
         let choice = choice.in_folder(folder);
         let fabrication = fabricate(self.mesh()?, self.made.as_ref(), (unfold, &choice, sheet), &source, progress)?;
         self.notes.extend(fabrication.notes());
-        self.fabrication = Some((fabrication, sheet.clone()));
+        (self.fabrication, self.panelled) = (Some((fabrication, sheet.clone())), None);
         Ok(())
     }
 }

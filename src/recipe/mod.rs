@@ -12,6 +12,7 @@ mod fabricate;
 mod job;
 mod materials;
 mod outputs;
+mod panels;
 mod parse;
 mod planes;
 mod seam_choice;
@@ -31,12 +32,14 @@ pub use fabricate::{FabricateParams, Fabrication, fabricate};
 pub use job::Job;
 pub use materials::{MaterialError, material, with_material};
 pub use outputs::{fabrication_outputs, job_outputs, sheet_picture};
+pub use panels::{PanelFiles, PanelOptionError, Panelled, SolidFile, panel_model, panel_outputs};
 pub use planes::{PlanesStep, solid_of_planes};
 pub use seam_choice::SeamChoice;
 
 use crate::check::CheckParams;
 use crate::io::ReadOptions;
 use crate::op::{HullParams, Operate};
+use crate::panel::PanelParams;
 use crate::picture::RenderParams;
 use crate::shape::SolidParams;
 use crate::sheet::SheetParams;
@@ -104,6 +107,15 @@ pub enum Step {
         /// Where the pieces go.
         sheet: SheetParams,
     },
+    /// `panels = "out"`: every face becomes a plate.
+    Panels {
+        /// How the plates are made.
+        panels: PanelParams,
+        /// What is written.
+        files: PanelFiles,
+        /// Where the panels go; their thickness.
+        sheet: SheetParams,
+    },
     /// `render = "iso"`: how the picture of the model looks.
     Render(RenderParams),
 }
@@ -120,6 +132,7 @@ impl Step {
             Self::Check(_) => "check",
             Self::Unfold { .. } => "unfold",
             Self::Dform { .. } => "dform",
+            Self::Panels { .. } => "panels",
             Self::Render(_) => "render",
         }
     }

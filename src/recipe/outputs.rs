@@ -1,7 +1,7 @@
 //! What a job leaves in its folder, as names and bytes; nothing is written here.
 
 use super::fabricate::piece_list;
-use super::{Fabrication, Job, StepFailure};
+use super::{Fabrication, Job, StepFailure, panel_outputs};
 use crate::io::layout_json::write_layout_json;
 use crate::io::pieces_json::write_pieces_json;
 use crate::io::report_json::check_json;
@@ -29,8 +29,14 @@ pub fn job_outputs(job: &Job, command: &str) -> Result<Vec<Output>, StepFailure>
     for step in &job.hull_steps {
         outputs.push((step.file_name("model"), render_model(&step.mesh, &job.render)?.to_png()));
     }
+    if let Some((panelled, sheet)) = &job.panelled {
+        outputs.extend(panel_outputs(panelled, sheet, command)?);
+    }
     if let Some((fabrication, sheet)) = &job.fabrication {
         outputs.extend(fabrication_outputs(fabrication, sheet, command)?);
+    }
+    let made = job.fabrication.as_ref().map(|(f, _)| f).or(job.panelled.as_ref().map(|(p, _)| &p.fabrication));
+    if let Some(fabrication) = made {
         for drawing in &fabrication.sheets.drawings {
             let picture = sheet_picture(drawing, job.render.width)?;
             outputs.push((format!("{}.png", drawing.file_stem()), picture));

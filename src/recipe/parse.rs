@@ -12,12 +12,13 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::{Position, RecipeError};
-use super::{DformParams, FabricateParams, OperatorStep, PlanesStep, ReadStep, Recipe, Step};
+use super::{DformParams, FabricateParams, OperatorStep, PanelFiles, PlanesStep, ReadStep, Recipe, Step};
 use crate::check::CheckParams;
 use crate::op::{
     HullParams, Operate, PlanarizeParams, ResolveParams, SliceParams, SubdivideParams, TruncateEdge, TruncateFace,
     TruncateVertex,
 };
+use crate::panel::PanelParams;
 use crate::picture::RenderParams;
 use crate::shape::SolidParams;
 use crate::sheet::SheetParams;
@@ -25,7 +26,7 @@ use crate::unfold::UnfoldParams;
 use crate::units::nearest_word;
 
 /// The keys that say what a step does, with the field of its parameters that the value goes to.
-const VERBS: [(&str, &str); 12] = [
+const VERBS: [(&str, &str); 13] = [
     ("solid", "name"),
     ("read", "path"),
     ("planes", "path"),
@@ -37,6 +38,7 @@ const VERBS: [(&str, &str); 12] = [
     ("check", "profile"),
     ("unfold", "pieces"),
     ("dform", "matching"),
+    ("panels", "side"),
     ("render", "view"),
 ];
 
@@ -155,6 +157,7 @@ impl Source<'_> {
             ("render", _) => Step::Render(fields.read1::<RenderParams>()?),
             ("unfold", _) => fields.unfold()?,
             ("dform", _) => fields.dform()?,
+            ("panels", _) => fields.panels()?,
             ("cut", "vertex") => fields.operator::<TruncateVertex>("cut vertex")?,
             ("cut", "edge") => fields.operator::<TruncateEdge>("cut edge")?,
             ("cut", "face") => fields.operator::<TruncateFace>("cut face")?,
@@ -195,6 +198,12 @@ impl StepFields<'_> {
     fn dform(&self) -> Result<Step, RecipeError> {
         self.check_keys(&[field_names::<DformParams>(), field_names::<SheetParams>()].concat())?;
         Ok(Step::Dform { dform: self.read()?, sheet: self.read()? })
+    }
+
+    fn panels(&self) -> Result<Step, RecipeError> {
+        let known = [field_names::<PanelParams>(), field_names::<PanelFiles>(), field_names::<SheetParams>()].concat();
+        self.check_keys(&known)?;
+        Ok(Step::Panels { panels: self.read()?, files: self.read()?, sheet: self.read()? })
     }
 
     fn check_keys(&self, known: &[String]) -> Result<(), RecipeError> {

@@ -5,11 +5,13 @@
 //! order, each beginning at its lowest vertex; the other families say theirs. The vertices of all but boxes count as
 //! computed, not given ([`Mesh::is_given`]), because their coordinates are rounded from irrational numbers.
 
+mod facade;
 mod name;
 mod random;
 mod round;
 mod uniform;
 
+pub use facade::hexagonal_facade;
 pub use name::{SolidName, solid_names};
 pub use random::random_tangent_polytope;
 pub use uniform::{Archimedean, Platonic};

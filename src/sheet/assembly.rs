@@ -4,7 +4,8 @@
 //! then the rest is closed like a zip: always a stretch at one of whose ends nothing else is open, for as long as there is
 //! one. What closes the body at last is then one stretch, at which one can still reach inside.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::cmp::Ordering;
+use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 
 use super::stretch::Stretch;
 use crate::geom::polygon::signed_area;
@@ -30,33 +31,73 @@ pub struct Step {
 
 pub(crate) fn assembly(net: &Net, stretches: Vec<Stretch>) -> Assembly {
     let mut steps = attach_all(net, &stretches);
-    let mut open: BTreeMap<usize, usize> = BTreeMap::new();
-    let ends: Vec<[usize; 2]> = stretches.iter().map(|s| ends(net, s)).collect();
-    ends.iter().flatten().for_each(|&v| *open.entry(v).or_default() += 1);
-    let mut waiting: BTreeSet<usize> = (0..stretches.len()).collect();
-    let mut reached: BTreeSet<usize> = BTreeSet::new();
-    let mut close = |i: usize, waiting: &mut BTreeSet<usize>, reached: &mut BTreeSet<usize>| {
-        waiting.remove(&i);
-        reached.extend(ends[i]);
-        ends[i].iter().for_each(|v| *open.entry(*v).or_default() -= 1);
-        open.clone()
-    };
-    let mut left = BTreeMap::new();
-    for step in &steps {
-        left = close(step.number - 1, &mut waiting, &mut reached);
-    }
-    while !waiting.is_empty() {
-        // Nothing else open at an end is best, then an end where something is closed already, then the lowest number.
-        let rank = |&&i: &&usize| {
-            let is_last = |v: &usize| left.get(v).is_some_and(|&n| n == 1);
-            let zips = ends[i].iter().any(is_last);
-            (!zips, !ends[i].iter().any(|v| reached.contains(v)), i)
-        };
-        let Some(&next) = waiting.iter().min_by_key(rank) else { break };
-        left = close(next, &mut waiting, &mut reached);
+    let mut zip = Zip::new(stretches.iter().map(|s| ends(net, s)).collect());
+    steps.iter().for_each(|step| zip.close(step.number - 1));
+    while let Some(next) = zip.best() {
+        zip.close(next);
         steps.push(Step { number: next + 1, attaches: None });
     }
     Assembly { stretches, steps }
+}
+
+/// How soon a stretch is closed, the least first: nothing else open at an end is best, then an end where something is closed
+/// already, then the lowest number.
+type Rank = (bool, bool, usize);
+
+/// The stretches that are still open, in the order in which they would be closed.
+struct Zip {
+    ends: Vec<[usize; 2]>,
+    /// The stretches that end at a vertex.
+    at: BTreeMap<usize, Vec<usize>>,
+    /// How many open ends there are at a vertex.
+    open: BTreeMap<usize, usize>,
+    reached: BTreeSet<usize>,
+    ranks: Vec<Option<Rank>>,
+    waiting: BTreeSet<Rank>,
+    is_begun: bool,
+}
+
+impl Zip {
+    fn new(ends: Vec<[usize; 2]>) -> Self {
+        let (mut at, mut open) = (BTreeMap::<usize, Vec<usize>>::new(), BTreeMap::new());
+        for (i, v) in ends.iter().enumerate().flat_map(|(i, both)| both.map(|v| (i, v))) {
+            at.entry(v).or_default().push(i);
+            *open.entry(v).or_default() += 1;
+        }
+        // Before anything is closed nothing can be closed like a zip.
+        let ranks: Vec<Option<Rank>> = (0..ends.len()).map(|i| Some((true, true, i))).collect();
+        let waiting = ranks.iter().flatten().copied().collect();
+        Self { ends, at, open, reached: BTreeSet::new(), ranks, waiting, is_begun: false }
+    }
+
+    fn best(&self) -> Option<usize> {
+        self.waiting.first().map(|rank| rank.2)
+    }
+
+    fn close(&mut self, i: usize) {
+        if let Some(rank) = self.ranks[i].take() {
+            self.waiting.remove(&rank);
+        }
+        for v in self.ends[i] {
+            self.reached.insert(v);
+            *self.open.entry(v).or_default() -= 1;
+        }
+        let changed: Vec<usize> = if std::mem::replace(&mut self.is_begun, true) {
+            self.ends[i].iter().flat_map(|v| &self.at[v]).copied().collect()
+        } else {
+            (0..self.ends.len()).collect()
+        };
+        for j in changed {
+            if let Some(old) = self.ranks[j] {
+                let ends = &self.ends[j];
+                let zips = ends.iter().any(|v| self.open[v] == 1);
+                let rank = (!zips, !ends.iter().any(|v| self.reached.contains(v)), j);
+                self.waiting.remove(&old);
+                self.waiting.insert(rank);
+                self.ranks[j] = Some(rank);
+            }
+        }
+    }
 }
 
 /// The vertices at the two ends of a stretch.
@@ -71,26 +112,53 @@ fn ends(net: &Net, stretch: &Stretch) -> [usize; 2] {
     }
 }
 
+/// A stretch that could attach a piece: the longest comes first, of equal ones that with the lowest number.
+#[derive(Debug, PartialEq)]
+struct Reach {
+    length: f64,
+    number: usize,
+}
+
+impl Eq for Reach {}
+
+impl Ord for Reach {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.length.total_cmp(&other.length).then(other.number.cmp(&self.number))
+    }
+}
+
+impl PartialOrd for Reach {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
 /// One step for every piece but the first of each body.
 fn attach_all(net: &Net, stretches: &[Stretch]) -> Vec<Step> {
-    let mut loose: BTreeSet<PieceId> = net.pieces.iter().map(|p| p.id).collect();
+    let mut of_piece: BTreeMap<PieceId, Vec<usize>> = BTreeMap::new();
+    for (i, piece) in stretches.iter().enumerate().flat_map(|(i, s)| s.pieces.map(|p| (i, p))) {
+        of_piece.entry(piece).or_default().push(i);
+    }
+    let reaches = |piece: PieceId| {
+        let own = of_piece.get(&piece).into_iter().flatten();
+        own.map(|&i| Reach { length: stretches[i].length(net), number: stretches[i].number })
+    };
+    let mut by_size: Vec<(f64, PieceId)> = net.pieces.iter().map(|p| (signed_area(&p.outline), p.id)).collect();
+    by_size.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    let mut placed: BTreeSet<PieceId> = BTreeSet::new();
     let mut steps = Vec::new();
-    while !loose.is_empty() {
-        let largest = net.pieces.iter().filter(|p| loose.contains(&p.id));
-        let largest =
-            largest.max_by(|a, b| signed_area(&a.outline).total_cmp(&signed_area(&b.outline)).then(b.id.cmp(&a.id)));
-        let Some(first) = largest.map(|p| p.id) else { break };
-        loose.remove(&first);
-        let mut body = BTreeSet::from([first]);
-        loop {
-            let joins = |s: &&Stretch| body.contains(&s.pieces[0]) != body.contains(&s.pieces[1]);
-            let longer =
-                |a: &&Stretch, b: &&Stretch| a.length(net).total_cmp(&b.length(net)).then(b.number.cmp(&a.number));
-            let Some(next) = stretches.iter().filter(joins).max_by(longer) else { break };
-            let new = if body.contains(&next.pieces[0]) { next.pieces[1] } else { next.pieces[0] };
-            body.insert(new);
-            loose.remove(&new);
-            steps.push(Step { number: next.number, attaches: Some(new) });
+    for (_, first) in by_size {
+        if !placed.insert(first) {
+            continue;
+        }
+        let mut waiting: BinaryHeap<Reach> = reaches(first).collect();
+        while let Some(Reach { number, .. }) = waiting.pop() {
+            let new = stretches[number - 1].pieces.into_iter().find(|p| !placed.contains(p));
+            if let Some(new) = new {
+                placed.insert(new);
+                waiting.extend(reaches(new));
+                steps.push(Step { number, attaches: Some(new) });
+            }
         }
     }
     steps

@@ -76,8 +76,10 @@ pub(crate) fn draw(
             draw_folds(&mut drawing, here, placed, (&score, &hinges), &mut report);
             let flaps = jointed.iter().flat_map(|j| &j.flap_folds).filter(|f| f.piece == piece.id);
             draw_flap_folds(&mut drawing, flaps, placed, &score);
+            // The cut of a panel is not the border of its face: there are gaps, fingers and holes.
+            let is_panel = piece.faces.len() == 1 && piece.outline != piece.faces[0].polygon;
             let mut obstacles: Vec<Vec<DVec2>> =
-                if jointed.is_some() { shape.contours().cloned().collect() } else { Vec::new() };
+                if jointed.is_some() || is_panel { shape.contours().cloned().collect() } else { Vec::new() };
             obstacles.extend(hinges.rows.iter().flat_map(|r| &r.slits).map(|slit| slit.to_vec()));
             let lettering = Lettering { net, piece, here, placed, obstacles: &obstacles, params };
             lettering.draw(&mut drawing, &mut report)?;

@@ -11,8 +11,10 @@ use crate::mesh::Mesh;
 pub mod glb;
 mod obj;
 mod off;
+pub mod plates;
 mod ply;
 mod polygons;
+pub mod step;
 mod stl;
 
 /// How a mesh file is written.

@@ -40,7 +40,11 @@ impl Surface<'_> {
     /// Divides the surface by what `part_of` says of each facet's first corner. `room` tells for each part how many facets can be added there.
     ///
     /// Until [`Self::join`] the surface itself is of no use.
-    pub(in super::super) fn divide(&mut self, room: &[usize], part_of: impl Fn(u32) -> usize) -> (Vec<Surface<'_>>, Division) {
+    pub(in super::super) fn divide(
+        &mut self,
+        room: &[usize],
+        part_of: impl Fn(u32) -> usize,
+    ) -> (Vec<Surface<'_>>, Division) {
         let whole: Vec<Slot> = self.facets[..self.used].to_vec();
         self.facets[..self.used].fill([0; 6]);
         let mut sizes = vec![0; room.len()];

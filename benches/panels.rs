@@ -1,0 +1,133 @@
+//! A façade of 20 000 glass panels and a random solid of 1000: `cargo bench --bench panels`.
+//!
+//! Prints CPU seconds and peak memory of plates, schedule and sheets without nesting, then of the 3D files, and says when the bar of
+//! 10 s and 1 GB is missed. No peer is known that makes plates with mitres and schedules from a file, so none is compared.
+
+#![allow(clippy::print_stdout, reason = "a bench prints")]
+
+use kerfold::io::svg::write_svg;
+use kerfold::mesh::Mesh;
+use kerfold::panel::{Hardware, PanelParams, ReferenceSide, panel_net, plates, schedule};
+use kerfold::progress::Silent;
+use kerfold::recipe::{PanelFiles, SolidFile, panel_model, panel_outputs};
+use kerfold::shape::{hexagonal_facade, random_tangent_polytope};
+use kerfold::sheet::{Labels, SheetParams, lay_out};
+use kerfold::unfold::Source;
+use kerfold::units::Length;
+
+/// What the façade may take.
+const MOST_SECONDS: f64 = 10.0;
+const MOST_MEGABYTES: f64 = 1000.0;
+
+fn main() {
+    println!("peer: none known");
+    facade();
+    let small = random_tangent_polytope(1000, 1);
+    exactness(&small);
+}
+
+fn facade() {
+    let mesh = hexagonal_facade(200, 100, 1000.0, [180_000.0, 120_000.0]);
+    let thickness = Length::from_mm(10.0);
+    let params = PanelParams { gap: Length::from_mm(8.0), side: ReferenceSide::Out, ..PanelParams::default() };
+    let sheet = SheetParams {
+        sheet: "3210x6000".parse().expect("a size"),
+        labels: Labels::Edges,
+        thickness: Some(thickness),
+        ..SheetParams::default()
+    };
+    let mut clock = Clock::start();
+    let made = plates(&mesh, thickness, (&params, &Hardware::default()), &Silent).expect("plates");
+    clock.lap("plates");
+    let listed = schedule(&mesh, &made, &params);
+    clock.lap("schedule");
+    let net = panel_net(&mesh, &made, 1.0, &[]);
+    let bare = SheetParams { thickness: None, ..sheet.clone() };
+    let sheets = lay_out(&net, &bare).expect("sheets");
+    clock.lap("sheets laid out");
+    let bytes: usize = sheets.drawings.iter().map(|d| write_svg(d, bare.preset, "bench").len()).sum();
+    clock.lap("sheets written");
+    let (seconds, megabytes) = (clock.total(), peak_megabytes());
+    println!(
+        "façade: {} panels, {} groups, {} sheets, {} MB of SVG, largest residual {:.1e}",
+        listed.panels.len(),
+        listed.groups.len(),
+        sheets.drawings.len(),
+        bytes / 1_000_000,
+        listed.totals.residual
+    );
+    let verdict = if seconds > MOST_SECONDS || megabytes > MOST_MEGABYTES { "MISSED" } else { "kept" };
+    println!("plates, schedule, sheets: {seconds:.2} CPU s, {megabytes:.0} MB; bar 10 s and 1000 MB {verdict}");
+    drop((made, listed, net, sheets));
+    let mut clock = Clock::start();
+    let source = Source { scale: 1.0, split_vertices: &[] };
+    for solids in [vec![SolidFile::None], vec![SolidFile::Step, SolidFile::Obj, SolidFile::Glb, SolidFile::Stl]] {
+        let files = PanelFiles { solids };
+        let panelled = panel_model(&mesh, (&params, &files, &sheet), &source, &Silent).expect("panels");
+        let outputs = panel_outputs(&panelled, &sheet, "bench").expect("files");
+        let bytes: usize = outputs.iter().map(|(_, bytes)| bytes.len()).sum();
+        clock.lap(&format!("all {} files, {} MB", outputs.len(), bytes / 1_000_000));
+    }
+}
+
+/// The promises about random 3-valent solids, on a size that tests do not take.
+fn exactness(mesh: &Mesh) {
+    let mut clock = Clock::start();
+    let made =
+        plates(mesh, Length::from_mm(0.05), (&PanelParams::default(), &Hardware::default()), &Silent).expect("plates");
+    clock.lap("1000 random faces");
+    let worst = made
+        .plates
+        .iter()
+        .flat_map(|p| {
+            p.front
+                .iter()
+                .zip(&p.back)
+                .map(|(&f, &b)| ((p.on_front(f) - p.on_back(b)).dot(p.frame.normal) - 0.05).abs())
+        })
+        .fold(0.0, f64::max);
+    println!(
+        "thickness off by at most {worst:.1e} of a solid of size 2; bar 1e-12 of the size {}",
+        if worst > 2e-12 { "MISSED" } else { "kept" }
+    );
+}
+
+/// CPU time between laps.
+struct Clock {
+    start: f64,
+    last: f64,
+}
+
+impl Clock {
+    fn start() -> Self {
+        let now = cpu_seconds();
+        Self { start: now, last: now }
+    }
+
+    fn lap(&mut self, what: &str) {
+        let now = cpu_seconds();
+        println!("  {:>8.2} CPU s  {what}", now - self.last);
+        self.last = now;
+    }
+
+    fn total(&self) -> f64 {
+        cpu_seconds() - self.start
+    }
+}
+
+/// CPU seconds of this process, all threads; on Linux only, else not a number.
+fn cpu_seconds() -> f64 {
+    let text = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    // After the name in brackets: state is the first field, user and system ticks the 12th and 13th; 100 ticks a second.
+    let rest = text.rsplit(") ").next().unwrap_or_default();
+    let fields: Vec<f64> = rest.split(' ').filter_map(|w| w.parse().ok()).collect();
+    fields.get(10).zip(fields.get(11)).map_or(f64::NAN, |(user, system)| (user + system) / 100.0)
+}
+
+fn peak_megabytes() -> f64 {
+    let text = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = text.lines().find(|line| line.starts_with("VmHWM:"));
+    let kilobytes: Option<f64> =
+        line.and_then(|line| line.split_whitespace().nth(1)).and_then(|word| word.parse().ok());
+    kilobytes.map_or(f64::NAN, |k| k / 1024.0)
+}

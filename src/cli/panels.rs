@@ -1,0 +1,133 @@
+//! `kerfold panels`
+
+use std::path::{Path, PathBuf};
+
+use serde_json::{Value, json};
+
+use super::error::CliError;
+use super::input::Input;
+use super::output::{command_line, model_json, model_text, short};
+use super::terminal::Terminal;
+use super::unfold::summary_json;
+use super::{Console, Outcome};
+use crate::io::panels_json::finding;
+use crate::panel::{PanelFinding, PanelParams, PanelRequirement};
+use crate::recipe::{PanelFiles, Panelled, StepFailure, panel_model, panel_outputs, with_material};
+use crate::sheet::SheetParams;
+use crate::unfold::Source;
+
+/// Make every face a plate of constant thickness: mitres, gaps, joints, schedule, sheets, assembly map and 3D files
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Example: kerfold panels facade.obj --thickness 10mm --gap 8mm --side out --sheet 3210x6000 -o out\n\
+    Example: kerfold panels box.obj --thickness 4mm --edges 30-140:finger --cutting square --kerf 0.2mm -o out"
+)]
+pub(super) struct PanelsArgs {
+    #[command(flatten)]
+    input: Input,
+    #[command(flatten)]
+    panels: PanelParams,
+    #[command(flatten)]
+    files: PanelFiles,
+    #[command(flatten)]
+    sheet: SheetParams,
+    /// The folder for schedule, sheets, map and 3D files; made if it is missing
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+}
+
+pub(super) fn run(args: &PanelsArgs, console: &Console) -> Result<Outcome, CliError> {
+    let read = args.input.read()?;
+    let sheet = with_material(&args.sheet, Path::new("")).map_err(StepFailure::from)?;
+    let progress = Terminal::new(console.quiet);
+    let source = Source { scale: read.scale, split_vertices: &read.splits };
+    let panelled = panel_model(&read.mesh, (&args.panels, &args.files, &sheet), &source, &progress)?;
+    let command = command_line();
+    let written = Console::write_folder(&args.output, panel_outputs(&panelled, &sheet, &command)?)?;
+    let notes: Vec<String> = read.notes.iter().map(ToString::to_string).chain(panelled.notes()).collect();
+    if console.json {
+        let summary = json!({
+            "command": command, "written": written, "notes": notes, "model": model_json(&read.mesh),
+            "panels": panels_json(&panelled), "fabrication": summary_json(&panelled.fabrication, &sheet),
+        });
+        console.result(&format!("{summary:#}\n"))?;
+    } else {
+        console.notes(&notes);
+        console.result(&format!("{}\n{}", model_text(&read.mesh), panels_text(&panelled)))?;
+    }
+    Ok(if panelled.findings.is_empty() { Outcome::Clean } else { Outcome::Findings })
+}
+
+/// How many findings are printed before they are only counted.
+const LISTED: usize = 20;
+
+/// Panels, edges, nodes and sheets in a few lines.
+pub(super) fn panels_text(panelled: &Panelled) -> String {
+    let (schedule, totals) = (&panelled.schedule, &panelled.schedule.totals);
+    let mirrored: usize = schedule.groups.iter().map(|g| g.mirrored).sum();
+    let mut text = format!(
+        "{} panels, {} different ({mirrored} are mirror images of another), {} m², {} kg\n",
+        schedule.panels.len(),
+        schedule.groups.len(),
+        short(totals.area * 1e-6),
+        short(totals.mass),
+    );
+    let mitres = || schedule.edges.iter().flat_map(|e| e.mitres.into_iter().flatten());
+    let (least, most) = mitres().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), m| (a.min(m), b.max(m)));
+    if least <= most {
+        text += &format!("{} edges, mitres {least:.2}° to {most:.2}° off square, ", schedule.edges.len());
+        text += &format!("{} m of edges cut at an angle\n", short(totals.bevelled * 1e-3));
+    }
+    let openings = schedule.edges.iter().filter_map(|e| e.opening).map(|[front, back]| (front - back).abs());
+    let widest = openings.fold(0.0, f64::max);
+    // Less than the finest file can show is rounding.
+    if widest > 1e-6 {
+        text += &format!("V-gaps of square cuts: up to {} mm\n", short(widest));
+    }
+    text += &format!(
+        "{} nodes, {} with more than three edges; residual up to {:.2e} mm per mm, plates miss by up to {:.2e} mm\n",
+        schedule.nodes.len(),
+        totals.nodes_above_three,
+        totals.residual,
+        totals.miss_mm,
+    );
+    let layout = &panelled.fabrication.sheets.layout;
+    if !layout.sheets.is_empty() {
+        text += &format!(
+            "{} sheets, {:.0} % used, {} m to cut\n",
+            layout.sheets.len(),
+            100.0 * layout.density,
+            short(layout.cut_length * 1e-3)
+        );
+    }
+    for finding in panelled.findings.iter().take(LISTED) {
+        text += &finding_text(finding);
+    }
+    if panelled.findings.len() > LISTED {
+        text += &format!("and {} more findings, listed in panels.json\n", panelled.findings.len() - LISTED);
+    }
+    text
+}
+
+fn finding_text(finding: &PanelFinding) -> String {
+    match finding.requirement {
+        PanelRequirement::Valence3 => {
+            format!("finding: vertex {} has {} edges instead of 3\n", finding.vertex, finding.measured)
+        }
+        PanelRequirement::Conical => format!(
+            "finding: the plates of vertex {} miss each other by {:.3e} mm per mm of offset (at most {:e})\n",
+            finding.vertex, finding.measured, finding.limit
+        ),
+    }
+}
+
+pub(super) fn panels_json(panelled: &Panelled) -> Value {
+    let (schedule, totals) = (&panelled.schedule, &panelled.schedule.totals);
+    json!({
+        "count": schedule.panels.len(), "different": schedule.groups.len(), "area_mm2": totals.area, "mass_kg": totals.mass,
+        "edge_work_mm": totals.bevelled, "nodes_above_valence_3": totals.nodes_above_three,
+        "largest_residual_mm_per_mm": totals.residual, "largest_miss_mm": totals.miss_mm,
+        "verdict": if panelled.findings.is_empty() { "pass" } else { "fail" },
+        "findings": panelled.findings.iter().map(finding).collect::<Vec<_>>(),
+    })
+}

@@ -1,0 +1,151 @@
+//! The assembly map as SVG and PDF: filled outlines and single-stroke names, so that both look alike without a font.
+
+use std::fmt::Write as _;
+
+use glam::DVec2;
+
+use crate::panel::{AssemblyMap, MapPanel};
+use crate::sheet::lettering;
+
+/// Share of the free room in a panel that its name takes; names are never higher than this, nor drawn below that, in mm.
+const NAME_SHARE: f64 = 0.7;
+const NAME_HEIGHTS: [f64; 2] = [0.2, 4.0];
+/// Height of the titles in mm.
+const TITLE: f64 = 4.0;
+/// Widths of lines in mm.
+const OUTLINE: f64 = 0.12;
+const NAME: f64 = 0.15;
+
+/// What is drawn, in order, page coordinates in mm with y up.
+enum Shape {
+    /// A closed outline, filled with white.
+    Panel { name: String, outline: Vec<DVec2> },
+    /// Open lines.
+    Text(Vec<Vec<DVec2>>),
+}
+
+fn shapes(map: &AssemblyMap) -> Vec<Shape> {
+    let mut shapes = Vec::new();
+    for view in &map.views {
+        for panel in &view.panels {
+            shapes.push(Shape::Panel { name: panel.panel.to_string(), outline: panel.outline.clone() });
+            shapes.extend(name(panel).map(Shape::Text));
+        }
+        shapes.extend(text(view.title, view.title_at, TITLE).map(Shape::Text));
+    }
+    let scale = format!("SCALE 1:{:.1}", map.scale);
+    shapes.extend(text(&scale, DVec2::new(map.width - 70.0, 3.0), TITLE).map(Shape::Text));
+    shapes
+}
+
+/// Lettering that begins at a point.
+fn text(words: &str, at: DVec2, height: f64) -> Option<Vec<Vec<DVec2>>> {
+    let letters = lettering(words, height).ok()?;
+    Some(letters.strokes.into_iter().map(|s| s.into_iter().map(|p| p + at).collect()).collect())
+}
+
+/// The name of a panel about its middle, as large as there is room.
+fn name(panel: &MapPanel) -> Option<Vec<Vec<DVec2>>> {
+    let words = panel.panel.to_string();
+    let unit = lettering(&words, 1.0).ok()?;
+    let size = unit.high - unit.low;
+    let height = (NAME_SHARE * (panel.room / size).min_element()).min(NAME_HEIGHTS[1]);
+    if height.is_nan() || height < NAME_HEIGHTS[0] {
+        return None;
+    }
+    text(&words, panel.label_at - unit.low.midpoint(unit.high) * height, height)
+}
+
+/// The map as SVG; `command` is the command line that made it.
+pub fn map_svg(map: &AssemblyMap, command: &str) -> String {
+    let (width, height) = (map.width, map.height);
+    let mut svg = format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}mm\" \
+         height=\"{height}mm\" viewBox=\"0 0 {width} {height}\">\n<metadata>{}</metadata>\n\
+         <g fill=\"none\" stroke=\"#000000\" stroke-width=\"{NAME}\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n",
+        escaped(command)
+    );
+    let point = |p: &DVec2| format!("{} {}", decimal(p.x), decimal(height - p.y));
+    let path = |points: &[DVec2]| points.iter().map(point).collect::<Vec<_>>().join(" L ");
+    for shape in shapes(map) {
+        let _ = match shape {
+            Shape::Panel { name, outline } => writeln!(
+                svg,
+                "<path class=\"{name}\" fill=\"#FFFFFF\" stroke=\"#707070\" stroke-width=\"{OUTLINE}\" d=\"M {} Z\"/>",
+                path(&outline)
+            ),
+            Shape::Text(strokes) => {
+                let data: Vec<String> = strokes.iter().map(|s| format!("M {}", path(s))).collect();
+                writeln!(svg, "<path d=\"{}\"/>", data.join(" "))
+            }
+        };
+    }
+    svg + "</g>\n</svg>\n"
+}
+
+/// The map as PDF, at true size on one page; `command` is the command line that made it.
+pub fn map_pdf(map: &AssemblyMap, command: &str) -> Vec<u8> {
+    let mut content = format!("{0} 0 0 {0} 0 0 cm 1 J 1 j\n", 72.0 / 25.4);
+    let point = |p: &DVec2| format!("{} {}", decimal(p.x), decimal(p.y));
+    for shape in shapes(map) {
+        let (setup, strokes, end) = match &shape {
+            Shape::Panel { outline, .. } => (format!("1 g 0.44 G {OUTLINE} w"), std::slice::from_ref(outline), "b"),
+            Shape::Text(strokes) => (format!("0 G {NAME} w"), strokes.as_slice(), "S"),
+        };
+        content += &setup;
+        for points in strokes {
+            for (i, p) in points.iter().enumerate() {
+                let _ = write!(content, " {} {}", point(p), if i == 0 { 'm' } else { 'l' });
+            }
+        }
+        let _ = writeln!(content, " {end}");
+    }
+    pdf_page(map.width, map.height, &content, command)
+}
+
+/// A PDF of one page, size in mm.
+fn pdf_page(width: f64, height: f64, content: &str, command: &str) -> Vec<u8> {
+    let points = |mm: f64| decimal(mm * 72.0 / 25.4);
+    let objects = [
+        "<< /Type /Catalog /Pages 2 0 R >>".to_owned(),
+        "<< /Type /Pages /Kids [3 0 R] /Count 1 >>".to_owned(),
+        format!(
+            "<< /Type /Page /Parent 2 0 R /MediaBox [0 0 {} {}] /Resources << >> /Contents 4 0 R >>",
+            points(width),
+            points(height)
+        ),
+        format!("<< /Length {} >>\nstream\n{content}endstream", content.len()),
+        format!("<< /Title (assembly map) /Creator (kerfold) /Subject {} >>", pdf_text(command)),
+    ];
+    let mut file = b"%PDF-1.4\n%\xe2\xe3\xcf\xd3\n".to_vec();
+    let mut places = Vec::new();
+    for (i, object) in objects.iter().enumerate() {
+        places.push(file.len());
+        file.extend(format!("{} 0 obj\n{object}\nendobj\n", i + 1).bytes());
+    }
+    let table = file.len();
+    file.extend(format!("xref\n0 {}\n0000000000 65535 f \n", objects.len() + 1).bytes());
+    places.iter().for_each(|place| file.extend(format!("{place:010} 00000 n \n").bytes()));
+    let trailer =
+        format!("trailer\n<< /Size {} /Root 1 0 R /Info 5 0 R >>\nstartxref\n{table}\n%%EOF\n", objects.len() + 1);
+    file.extend(trailer.bytes());
+    file
+}
+
+/// A PDF text string as UTF-16 in hexadecimal, which needs no escapes.
+fn pdf_text(text: &str) -> String {
+    let units: String = text.encode_utf16().map(|unit| format!("{unit:04X}")).collect();
+    format!("<FEFF{units}>")
+}
+
+fn escaped(text: &str) -> String {
+    let shown = text.replace(|c: char| c.is_control(), " ");
+    shown.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
+/// At most four decimals, never −0.
+fn decimal(value: f64) -> String {
+    let text = format!("{value:.4}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}

@@ -1,0 +1,120 @@
+//! `panels.json`: plates, edges and nodes with all their digits; lengths in millimetres, angles in degrees, masses in kilograms.
+//!
+//! A flat point (x, y) of a panel's front is at `origin + x·x_axis + y·y_axis` in space, one of its back at that minus the
+//! thickness along `normal`. One panel, edge, node or group to a line.
+
+use glam::{DVec2, DVec3};
+use serde::Serialize;
+use serde_json::{Value, json};
+
+use super::panels_csv::{edge_name, group_name, node_name, sheet_of};
+use crate::net::PieceId;
+use crate::panel::{EdgeRow, GroupRow, NodeRow, PanelFinding, PanelRequirement, PanelRow, Plate, Plates, Schedule};
+use crate::sheet::Layout;
+
+/// The text of `panels.json`; `command` is the command line that made it.
+pub fn panels_json(
+    schedule: &Schedule,
+    plates: &Plates,
+    layout: &Layout,
+    findings: &[PanelFinding],
+    command: &str,
+) -> String {
+    let sheets = sheet_of(layout);
+    let panels = schedule.panels.iter().zip(&plates.plates).map(|(row, plate)| compact(&panel(row, plate, &sheets)));
+    let totals = &schedule.totals;
+    let sums = json!({
+        "panels": schedule.panels.len(), "groups": schedule.groups.len(), "area_mm2": totals.area, "mass_kg": totals.mass,
+        "perimeter_mm": totals.perimeter, "edge_work_mm": totals.bevelled, "nodes_above_valence_3": totals.nodes_above_three,
+        "largest_residual_mm_per_mm": totals.residual, "largest_miss_mm": totals.miss_mm,
+    });
+    let lists = [
+        ("command", compact(command)),
+        ("units", compact("mm")),
+        ("totals", compact(&sums)),
+        ("findings", lines(findings.iter().map(|f| compact(&finding(f))))),
+        ("groups", lines(schedule.groups.iter().map(|g| compact(&group(g))))),
+        ("panels", lines(panels)),
+        ("edges", lines(schedule.edges.iter().map(|e| compact(&edge(e))))),
+        ("nodes", lines(schedule.nodes.iter().map(|n| compact(&node(n))))),
+    ];
+    let body = lists.map(|(key, value)| format!("  \"{key}\": {value}")).join(",\n");
+    format!("{{\n{body}\n}}\n")
+}
+
+fn panel(row: &PanelRow, plate: &Plate, sheets: &std::collections::BTreeMap<PieceId, String>) -> Value {
+    let holes: Vec<Value> = plate
+        .holes
+        .iter()
+        .map(|h| json!({ "x": h.centre.x, "y": h.centre.y, "diameter": 2.0 * h.radius, "edge": edge_name(h.edge) }))
+        .collect();
+    json!({
+        "id": row.id.to_string(), "face": row.face, "layer": row.layer, "group": group_name(row.group),
+        "mirrored": row.is_mirrored, "copies": row.copies, "thickness": row.thickness, "area": row.area,
+        "blank_area": row.blank_area, "volume": row.volume, "mass": row.mass, "box": row.size, "perimeter": row.perimeter,
+        "edge_work": row.bevelled, "edges": row.edges.iter().map(|&e| edge_name(e)).collect::<Vec<_>>(),
+        "side_lengths": row.sides, "angles": row.angles, "mitres": row.bevels, "planarity": row.planarity,
+        "concave": row.is_concave, "sheet": sheets.get(&row.id),
+        "frame": {
+            "origin": array(row.frame.origin), "x_axis": array(row.frame.x), "y_axis": array(row.frame.y),
+            "normal": array(row.frame.normal)
+        },
+        "front": flat(&plate.front), "back": flat(&plate.back), "blank": flat(&plate.blank), "holes": holes,
+    })
+}
+
+fn edge(row: &EdgeRow) -> Value {
+    json!({
+        "id": edge_name(row.id), "nodes": row.nodes.map(|v| node_name(v.index())),
+        "panels": row.panels.map(|p| p.map(|p| p.to_string())), "length": row.length, "dihedral": row.dihedral,
+        "mitres": row.mitres, "shape": row.shape.name(), "joint": row.kind.name(),
+        "fallback": row.fallback.map(|(kind, why)| json!({ "wanted": kind.name(), "why": why.name() })),
+        "opening": row.opening.map(|[front, back]| json!({ "front": front, "back": back })), "stepped": row.is_stepped,
+    })
+}
+
+fn node(row: &NodeRow) -> Value {
+    let node = &row.node;
+    json!({
+        "id": node_name(node.vertex.index()), "valence": node.valence, "rim": node.is_rim,
+        "edges": row.edges.iter().map(|&e| edge_name(e)).collect::<Vec<_>>(), "angles": row.angles, "tilts": row.tilts,
+        "position": array(row.position), "axis": array(node.axis), "front": array(node.front), "back": array(node.back),
+        "residual": node.residual, "miss": node.miss_mm,
+    })
+}
+
+fn group(row: &GroupRow) -> Value {
+    json!({
+        "id": group_name(row.number), "first": row.first.to_string(), "copies": row.copies, "mirrored": row.mirrored,
+        "turns_over": row.turns_over, "panels": row.panels.iter().map(ToString::to_string).collect::<Vec<_>>(),
+    })
+}
+
+/// A finding as `panels.json` and `--json` show it.
+pub fn finding(finding: &PanelFinding) -> Value {
+    let (check, unit) = match finding.requirement {
+        PanelRequirement::Valence3 => ("valence3", "edges"),
+        PanelRequirement::Conical => ("conical", "mm/mm"),
+    };
+    json!({
+        "check": check, "element": "node", "id": finding.vertex.index(), "measured": finding.measured, "limit": finding.limit,
+        "unit": unit,
+    })
+}
+
+fn array(v: DVec3) -> [f64; 3] {
+    v.to_array()
+}
+
+fn flat(outline: &[DVec2]) -> Vec<[f64; 2]> {
+    outline.iter().map(|p| p.to_array()).collect()
+}
+
+fn compact<T: Serialize + ?Sized>(value: &T) -> String {
+    serde_json::to_string(value).expect("plain numbers and text become JSON")
+}
+
+fn lines(rows: impl Iterator<Item = String>) -> String {
+    let rows: Vec<String> = rows.map(|row| format!("    {row}")).collect();
+    if rows.is_empty() { "[]".to_owned() } else { format!("[\n{}\n  ]", rows.join(",\n")) }
+}

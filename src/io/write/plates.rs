@@ -1,0 +1,197 @@
+//! Plates as meshes: OBJ with a group for each panel, STL, and GLB with names, colours and lettering.
+
+use std::io::Write as _;
+
+use glam::{DQuat, DVec2, DVec3};
+
+use super::glb::{GlbNode, GlbScene, GlbSurface, glb_bytes};
+use super::one_line;
+use crate::geom::{Frame, Plane, triangulate_region};
+use crate::io::error::IoError;
+use crate::panel::{Plate, Solid, SolidFace, label_room, solid};
+use crate::sheet::lettering;
+
+/// A plate with its name and the number of its group of congruent panels.
+#[derive(Debug, Clone)]
+pub struct NamedPlate<'a> {
+    /// Its name, as `P01`.
+    pub name: String,
+    /// Decides its colour.
+    pub group: usize,
+    /// The plate.
+    pub plate: &'a Plate,
+}
+
+/// An OBJ with a group for each plate. Faces stay polygons where they are convex and without holes, else they are triangles.
+pub fn plates_obj(plates: &[NamedPlate<'_>], command: &str) -> Vec<u8> {
+    let mut text = Vec::new();
+    write_obj(&mut text, plates, command).expect("writing into memory does not fail");
+    text
+}
+
+fn write_obj(text: &mut Vec<u8>, plates: &[NamedPlate<'_>], command: &str) -> std::io::Result<()> {
+    writeln!(text, "# {}", one_line(command))?;
+    let mut before = 1;
+    for named in plates {
+        let body = solid(named.plate);
+        writeln!(text, "g {}", named.name)?;
+        for p in &body.points {
+            writeln!(text, "v {} {} {}", p.x, p.y, p.z)?;
+        }
+        for face in &body.faces {
+            let polygons = if is_simple_polygon(&body, face) {
+                vec![face.outline.clone()]
+            } else {
+                as_polygons(&triangles(&body, face))
+            };
+            for polygon in polygons {
+                text.push(b'f');
+                for corner in polygon {
+                    write!(text, " {}", corner + before)?;
+                }
+                text.push(b'\n');
+            }
+        }
+        before += body.points.len() as u32;
+    }
+    Ok(())
+}
+
+fn as_polygons(triangles: &[[u32; 3]]) -> Vec<Vec<u32>> {
+    triangles.iter().map(|t| t.to_vec()).collect()
+}
+
+const STL_HEADER: usize = 80;
+
+/// A binary STL of all plates.
+///
+/// # Errors
+/// [`IoError::TooFarForStl`] when a coordinate does not fit into single precision.
+pub fn plates_stl(plates: &[NamedPlate<'_>], command: &str) -> Result<Vec<u8>, IoError> {
+    let mut bytes: Vec<u8> = one_line(command).bytes().take(STL_HEADER).collect();
+    // A header that begins with `solid` is taken for a text file.
+    if bytes.starts_with(b"solid") {
+        bytes[0] = b'S';
+    }
+    bytes.resize(STL_HEADER + 4, b' ');
+    let mut count: u32 = 0;
+    for named in plates {
+        let body = solid(named.plate);
+        if let Some(vertex) = body.points.iter().position(|p| !p.as_vec3().is_finite()) {
+            return Err(IoError::TooFarForStl { vertex });
+        }
+        for face in &body.faces {
+            for triangle in triangles(&body, face) {
+                count += 1;
+                let corners = triangle.map(|i| body.points[i as usize]);
+                for p in std::iter::once(face.normal).chain(corners) {
+                    bytes.extend(p.as_vec3().to_array().into_iter().flat_map(f32::to_le_bytes));
+                }
+                bytes.extend([0; 2]);
+            }
+        }
+    }
+    bytes[STL_HEADER..STL_HEADER + 4].copy_from_slice(&count.to_le_bytes());
+    Ok(bytes)
+}
+
+/// Colours that are told apart; groups of congruent panels take them in turn.
+const COLOURS: [[u8; 3]; 12] = [
+    [141, 188, 216],
+    [244, 190, 120],
+    [163, 207, 142],
+    [229, 150, 150],
+    [190, 170, 214],
+    [214, 194, 150],
+    [150, 210, 200],
+    [240, 214, 130],
+    [200, 160, 180],
+    [170, 190, 240],
+    [205, 220, 160],
+    [180, 180, 180],
+];
+
+/// A GLB with a node for each plate: its name, the colour of its group, its edges, and its name lettered on the front.
+///
+/// # Errors
+/// [`IoError`] when a number does not fit into single precision.
+pub fn plates_glb(plates: &[NamedPlate<'_>], command: &str) -> Result<Vec<u8>, IoError> {
+    let mut scene = GlbScene::new("panels");
+    let used = plates.iter().map(|p| p.group + 1).max().unwrap_or(0).min(COLOURS.len());
+    let colours: Vec<_> = (0..used).map(|i| scene.add_material(format!("colour {}", i + 1), COLOURS[i], 1.0)).collect();
+    let ink = scene.add_material("lines", [40, 40, 40], 1.0);
+    for named in plates {
+        let body = solid(named.plate);
+        // Every node stands where its plate does, so that single precision has its digits for the plate.
+        let origin = named.plate.frame.origin;
+        let mut surface =
+            GlbSurface { material: colours.get(named.group % COLOURS.len()).copied(), ..GlbSurface::default() };
+        surface.points = body.points.iter().map(|&p| p - origin).collect();
+        surface.triangles = body.faces.iter().flat_map(|face| triangles(&body, face)).collect();
+        let loops = body.faces.iter().take(2).flat_map(|f| std::iter::once(&f.outline).chain(&f.holes));
+        surface.lines = loops.flat_map(|l| (0..l.len()).map(|i| [l[i], l[(i + 1) % l.len()]])).collect();
+        let n = named.plate.front.len() as u32;
+        surface.lines.extend((0..n).map(|i| [i, n + i]));
+        letter(&mut surface, named, origin);
+        surface.line_material = Some(ink);
+        scene.add_node(GlbNode {
+            name: named.name.clone(),
+            parent: None,
+            translation: origin,
+            rotation: DQuat::IDENTITY,
+            surface: Some(surface),
+        });
+    }
+    glb_bytes(&scene, command)
+}
+
+/// The share of the free room on the front that the name takes, and how far it floats above the front, relative to its height.
+const NAME_SHARE: f64 = 0.5;
+const FLOAT: f64 = 0.02;
+
+fn letter(surface: &mut GlbSurface, named: &NamedPlate<'_>, origin: DVec3) {
+    let (at, room) = label_room(&named.plate.inner);
+    let Ok(unit) = lettering(&named.name, 1.0) else { return };
+    let size = unit.high - unit.low;
+    let height = NAME_SHARE * (room.x / size.x).min(room.y / size.y);
+    if !(height > 0.0 && height.is_finite()) {
+        return;
+    }
+    let middle = unit.low.midpoint(unit.high);
+    let normal = named.plate.frame.normal;
+    for stroke in &unit.strokes {
+        let first = surface.points.len() as u32;
+        let lifted = |&p: &DVec2| named.plate.on_front(at + (p - middle) * height) + normal * (FLOAT * height) - origin;
+        surface.points.extend(stroke.iter().map(lifted));
+        surface.lines.extend((first..first + stroke.len() as u32 - 1).map(|i| [i, i + 1]));
+    }
+}
+
+fn flat(body: &Solid, face: &SolidFace) -> Vec<Vec<DVec2>> {
+    let first = body.points[face.outline[0] as usize];
+    let Some(plane) = Plane::new(face.normal, first) else { return Vec::new() };
+    let frame = Frame::on_plane(&plane);
+    let flatten = |l: &Vec<u32>| l.iter().map(|&i| frame.flatten(body.points[i as usize])).collect();
+    std::iter::once(&face.outline).chain(&face.holes).map(flatten).collect()
+}
+
+/// Whether a face is a convex polygon without holes.
+fn is_simple_polygon(body: &Solid, face: &SolidFace) -> bool {
+    let contours = flat(body, face);
+    let [outline] = contours.as_slice() else { return false };
+    let n = outline.len();
+    (0..n).all(|i| (outline[(i + 1) % n] - outline[i]).perp_dot(outline[(i + 2) % n] - outline[(i + 1) % n]) >= 0.0)
+}
+
+/// The triangles of a face, counter-clockwise from outside.
+fn triangles(body: &Solid, face: &SolidFace) -> Vec<[u32; 3]> {
+    if let [a, b, c, d] = face.outline[..]
+        && face.holes.is_empty()
+        && is_simple_polygon(body, face)
+    {
+        return vec![[a, b, c], [a, c, d]];
+    }
+    let corners: Vec<u32> = std::iter::once(&face.outline).chain(&face.holes).flatten().copied().collect();
+    let found = triangulate_region(&flat(body, face));
+    found.into_iter().map(|t| t.map(|i| corners[i])).collect()
+}

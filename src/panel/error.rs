@@ -1,0 +1,131 @@
+//! What can go wrong between faces and plates.
+
+use std::fmt;
+
+use crate::mesh::{EdgeId, FaceId, VertexId};
+
+/// Why a mesh cannot be made of plates.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PanelError {
+    /// A parameter outside its range.
+    #[error("{name} is {value}, but must be {wanted} and finite")]
+    OutOfRange {
+        /// Which parameter.
+        name: String,
+        /// What it was.
+        value: f64,
+        /// What it must be.
+        wanted: &'static str,
+    },
+    /// A thickness for a group that the model does not have.
+    #[error("there is no group `{group}` in the model; {}", groups(known))]
+    UnknownGroup {
+        /// What was asked for.
+        group: String,
+        /// The groups that there are.
+        known: Vec<String>,
+    },
+    /// A face without a plane.
+    #[error("face {face} has no area, so it has no plane and no plate; remove it or weld its neighbours over it")]
+    NoPlane {
+        /// The face.
+        face: FaceId,
+    },
+    /// Two faces that lie on each other.
+    #[error(
+        "the faces of edge {edge} lie on each other (dihedral angle {degrees:.3}°), so no plate of any thickness fits between \
+         them; move a vertex, or use a butt joint (--edges 0-10:butt)"
+    )]
+    KnifeEdge {
+        /// The edge.
+        edge: EdgeId,
+        /// The dihedral angle.
+        degrees: f64,
+    },
+    /// A face that runs back on itself.
+    #[error("face {face} turns back on itself at vertex {vertex}, so its plate has no corner there; move the vertex")]
+    Spike {
+        /// The face.
+        face: FaceId,
+        /// The vertex.
+        vertex: VertexId,
+    },
+    /// Sides of a plate that run past each other.
+    #[error("{}", collisions(found))]
+    Collision {
+        /// All of them, those with the least thickness first.
+        found: Vec<Collision>,
+    },
+    /// The user asked to stop.
+    #[error("stopped before all plates were made; nothing was written")]
+    Cancelled,
+}
+
+/// A place where the sides of one plate run past each other.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Collision {
+    /// The face.
+    pub face: FaceId,
+    /// The edge that shrinks to nothing; `None` where sides cross that are no neighbours.
+    pub edge: Option<EdgeId>,
+    /// The thickness that was asked for, in mm.
+    pub thickness: f64,
+    /// The largest thickness of this plate that works, all others growing in proportion, in mm; 0 when the gap alone is too
+    /// wide.
+    pub largest: f64,
+}
+
+/// How many collisions a message lists before it only counts.
+const LISTED: usize = 10;
+
+fn collisions(found: &[Collision]) -> String {
+    let mut text = String::new();
+    for (i, c) in found.iter().take(LISTED).enumerate() {
+        text += if i == 0 { "" } else { "; " };
+        text += &c.to_string();
+    }
+    if found.len() > LISTED {
+        text += &format!("; and {} more", found.len() - LISTED);
+    }
+    let share = found.iter().map(|c| c.largest / c.thickness).fold(f64::INFINITY, f64::min);
+    let thickness = found.iter().find(|c| c.largest / c.thickness == share).map_or(0.0, |c| c.largest);
+    let advice = if share <= 0.0 {
+        "make the gap narrower, or merge short edges".to_owned()
+    } else {
+        format!(
+            "the largest thickness that works everywhere is {} mm ({:.1} % of what was asked)",
+            floor(thickness),
+            100.0 * share
+        )
+    };
+    format!("plates run into themselves: {text}; {advice}")
+}
+
+impl fmt::Display for Collision {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.edge {
+            Some(edge) => write!(f, "edge {edge} of face {} vanishes", self.face)?,
+            None => write!(f, "sides of face {} cross", self.face)?,
+        }
+        if self.largest > 0.0 {
+            write!(f, " (at most {} mm)", floor(self.largest))
+        } else {
+            write!(f, " (the gap is too wide)")
+        }
+    }
+}
+
+/// Four significant digits, never more than the value: what is advised must work.
+fn floor(value: f64) -> String {
+    let digits = (3 - value.abs().log10().floor() as i32).clamp(0, 12);
+    let scale = 10f64.powi(digits);
+    format!("{}", (value * scale).floor() / scale)
+}
+
+fn groups(known: &[String]) -> String {
+    match known {
+        [] => "it has no groups".to_owned(),
+        _ => format!("its groups are {}", known.join(", ")),
+    }
+}

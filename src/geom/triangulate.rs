@@ -3,7 +3,7 @@
 use glam::DVec2;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
-use super::polygon::signed_area;
+use super::polygon::{Location, locate, signed_area};
 use super::predicate::orient2d;
 
 /// Cuts a polygon into triangles between its corners, which are named by their places in `polygon`.
@@ -84,6 +84,48 @@ fn by_delaunay(polygon: &[DVec2]) -> Option<Vec<[usize; 3]>> {
     }
     // A corner that lies on another side splits it; then the count is off.
     (triangles.len() == n - 2).then_some(triangles)
+}
+
+/// Cuts the area between an outline and its holes into triangles: the corners, those at one point being one, and the
+/// triangles, counter-clockwise, by places in that list. What lies inside an odd number of contours is kept.
+///
+/// `None` when sides cross, when a number is not finite, or when there is no area.
+pub fn triangulate_region(contours: &[&[DVec2]]) -> Option<(Vec<DVec2>, Vec<[usize; 3]>)> {
+    let all: Vec<DVec2> = contours.iter().flat_map(|c| c.iter().copied()).collect();
+    let all = scaled(&all)?;
+    let mut net = ConstrainedDelaunayTriangulation::<Point2<f64>>::new();
+    let mut corners = Vec::new();
+    let mut rest = all.as_slice();
+    for contour in contours {
+        let (here, after) = rest.split_at(contour.len());
+        rest = after;
+        let mut handles = Vec::with_capacity(here.len());
+        for (p, &given) in here.iter().zip(*contour) {
+            let handle = net.insert(Point2::new(p.x, p.y)).ok()?;
+            if handle.index() == corners.len() {
+                corners.push(given);
+            }
+            handles.push(handle);
+        }
+        for (i, &from) in handles.iter().enumerate() {
+            let to = handles[(i + 1) % handles.len()];
+            if from == to {
+                continue;
+            }
+            if !net.can_add_constraint(from, to) {
+                return None;
+            }
+            net.add_constraint(from, to);
+        }
+    }
+    let is_inside = |triangle: [usize; 3]| {
+        let middle = triangle.iter().map(|&i| corners[i]).sum::<DVec2>() / 3.0;
+        contours.iter().filter(|c| locate(c, middle) == Location::Inside).count() % 2 == 1
+    };
+    let faces = net.inner_faces().map(|face| lowest_first(face.vertices().map(|v| v.fix().index())));
+    let mut triangles: Vec<[usize; 3]> = faces.filter(|&t| is_inside(t)).collect();
+    triangles.sort_unstable();
+    (!triangles.is_empty()).then_some((corners, triangles))
 }
 
 /// The turn at the lowest of the leftmost corners: its sign is the sense of a simple polygon. `None` when it is flat,

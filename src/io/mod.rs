@@ -9,6 +9,7 @@ mod format;
 pub mod layout_json;
 pub mod lbrn2;
 mod number;
+pub mod order_json;
 pub mod output;
 pub mod pdf;
 pub mod pieces_json;

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::{
     DformParams, FabricateParams, Fabrication, Recipe, Step, StepError, StepFailure, carve_dform, fabricate,
-    solid_of_planes, with_material,
+    nest_files, solid_of_planes, with_material,
 };
 use crate::check::{CheckParams, Report, check};
 use crate::io::{ReadMesh, read_mesh};
@@ -64,6 +64,11 @@ impl Job {
         self.mesh.as_ref().ok_or(StepFailure::NoMesh)
     }
 
+    /// Whether there is a mesh; a job that only nests pieces has none.
+    pub fn has_mesh(&self) -> bool {
+        self.mesh.is_some()
+    }
+
     /// The report on the mesh as it is by now.
     ///
     /// # Errors
@@ -119,6 +124,12 @@ impl Job {
             Step::Dform { dform, sheet } => self.dform(dform, &with_material(sheet, folder)?, progress)?,
             Step::Unfold { unfold, fabricate, sheet } => {
                 self.unfold(unfold, fabricate, &with_material(sheet, folder)?, folder, progress)?
+            }
+            Step::Nest { nest, sheet } => {
+                let sheet = with_material(sheet, folder)?;
+                let fabrication = nest_files(nest, &sheet, folder, progress)?;
+                self.notes.extend(fabrication.notes());
+                self.fabrication = Some((fabrication, sheet));
             }
         }
         Ok(())

@@ -11,6 +11,7 @@ mod error;
 mod fabricate;
 mod job;
 mod materials;
+mod nest;
 mod outputs;
 mod parse;
 mod planes;
@@ -29,6 +30,7 @@ pub use error::{Position, RecipeError, StepError, StepFailure};
 pub use fabricate::{FabricateParams, Fabrication, fabricate};
 pub use job::Job;
 pub use materials::{MaterialError, material, with_material};
+pub use nest::{NestError, NestStep, nest_files};
 pub use outputs::{fabrication_outputs, job_outputs, sheet_picture};
 pub use planes::{PlanesStep, solid_of_planes};
 pub use seam_choice::SeamChoice;
@@ -102,6 +104,13 @@ pub enum Step {
         /// Where the pieces go.
         sheet: SheetParams,
     },
+    /// `nest = "pieces.json"`: anybody's pieces onto sheets.
+    Nest {
+        /// Which pieces.
+        nest: NestStep,
+        /// Where they go.
+        sheet: SheetParams,
+    },
     /// `render = "iso"`: how the picture of the model looks.
     Render(RenderParams),
 }
@@ -122,6 +131,7 @@ impl Step {
             Self::Check(_) => "check",
             Self::Unfold { .. } => "unfold",
             Self::Dform { .. } => "dform",
+            Self::Nest { .. } => "nest",
             Self::Render(_) => "render",
         }
     }

@@ -11,7 +11,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::{Position, RecipeError};
-use super::{DformParams, FabricateParams, PlanesStep, ReadStep, Recipe, Step};
+use super::{DformParams, FabricateParams, NestStep, PlanesStep, ReadStep, Recipe, Step};
 use crate::check::CheckParams;
 use crate::op::{HullParams, ResolveParams, SliceParams, TruncateEdge, TruncateFace, TruncateVertex};
 use crate::picture::RenderParams;
@@ -21,7 +21,7 @@ use crate::unfold::UnfoldParams;
 use crate::units::nearest_word;
 
 /// The keys that say what a step does, with the field of its parameters that the value goes to.
-const VERBS: [(&str, &str); 10] = [
+const VERBS: [(&str, &str); 11] = [
     ("solid", "name"),
     ("read", "path"),
     ("planes", "path"),
@@ -31,6 +31,7 @@ const VERBS: [(&str, &str); 10] = [
     ("check", "profile"),
     ("unfold", "pieces"),
     ("dform", "matching"),
+    ("nest", "pieces"),
     ("render", "view"),
 ];
 
@@ -147,6 +148,7 @@ impl Source<'_> {
             ("render", _) => Step::Render(fields.read1::<RenderParams>()?),
             ("unfold", _) => fields.unfold()?,
             ("dform", _) => fields.dform()?,
+            ("nest", _) => fields.nest()?,
             ("cut", "vertex") => Step::CutVertex(fields.read1::<TruncateVertex>()?),
             ("cut", "edge") => Step::CutEdge(fields.read1::<TruncateEdge>()?),
             ("cut", "face") => Step::CutFace(fields.read1::<TruncateFace>()?),
@@ -180,6 +182,11 @@ impl StepFields<'_> {
     fn dform(&self) -> Result<Step, RecipeError> {
         self.check_keys(&[field_names::<DformParams>(), field_names::<SheetParams>()].concat())?;
         Ok(Step::Dform { dform: self.read()?, sheet: self.read()? })
+    }
+
+    fn nest(&self) -> Result<Step, RecipeError> {
+        self.check_keys(&[field_names::<NestStep>(), field_names::<SheetParams>()].concat())?;
+        Ok(Step::Nest { nest: self.read()?, sheet: self.read()? })
     }
 
     fn check_keys(&self, known: &[String]) -> Result<(), RecipeError> {

@@ -149,7 +149,7 @@ impl Explore<'_, '_, '_, '_> {
         }
         let axis = self.bins.get(spot.bin).axis();
         let mut step = self.field.shapes[i].diameter;
-        let least = 1e-6 * step;
+        let least = 1e-4 * step;
         let mut search = Search::new(self.field, self.chance, &self.turns[i], &only, i);
         while step > least {
             let moved = [axis.unit(), axis.other().unit()].into_iter().find_map(|way| {

@@ -59,7 +59,9 @@ pub(super) struct Search<'f, 'a> {
     /// The bins in which it may lie.
     pub bins: &'f [usize],
     pub piece: usize,
+    /// The piece as it is turned now; its parts only once they are measured.
     scratch: Posed,
+    is_posed: bool,
 }
 
 impl<'f, 'a> Search<'f, 'a> {
@@ -70,13 +72,20 @@ impl<'f, 'a> Search<'f, 'a> {
         bins: &'f [usize],
         piece: usize,
     ) -> Self {
-        Self { field, chance, turns, bins, piece, scratch: Posed::default() }
+        Self { field, chance, turns, bins, piece, scratch: Posed::default(), is_posed: false }
     }
 
     fn pose(&mut self, angle: f64) {
-        if self.scratch.parts.is_empty() || self.scratch.angle != angle {
-            self.scratch.turn(&self.field.shapes[self.piece], angle);
+        if !self.is_posed || self.scratch.angle != angle {
+            self.is_posed = true;
+            self.field.work += self.scratch.turn_box(&self.field.shapes[self.piece], angle);
         }
+    }
+
+    /// The loss of the piece as it is turned now.
+    fn measure(&mut self, spot: Spot, most: f64) -> f64 {
+        self.field.work += self.scratch.turn_parts(&self.field.shapes[self.piece]);
+        self.field.loss(self.piece, &self.scratch, spot.bin, spot.at, most)
     }
 
     /// The upper right corner of the box of the piece as it is turned now.
@@ -87,7 +96,7 @@ impl<'f, 'a> Search<'f, 'a> {
     /// Whether a place inside its bin is free.
     pub fn is_free(&mut self, spot: Spot) -> bool {
         self.pose(spot.angle);
-        self.field.loss(self.piece, &self.scratch, spot.bin, spot.at, f64::MIN_POSITIVE) == 0.0
+        self.measure(spot, f64::MIN_POSITIVE) == 0.0
     }
 
     /// Where the holes of pieces in a bin are, large enough for this piece to think of.
@@ -120,7 +129,7 @@ impl<'f, 'a> Search<'f, 'a> {
     /// The loss at a place, which is moved into its bin.
     fn try_at(&mut self, spot: Spot, most: f64) -> Option<Found> {
         let spot = self.inside(spot)?;
-        let loss = self.field.loss(self.piece, &self.scratch, spot.bin, spot.at, most);
+        let loss = self.measure(spot, most);
         (loss < most).then_some(Found { spot, loss })
     }
 

@@ -85,18 +85,33 @@ pub(super) struct Posed {
 impl Posed {
     /// Turns a shape, reusing the memory.
     pub fn turn(&mut self, shape: &Shape, angle: f64) {
-        self.angle = angle;
+        self.turn_box(shape, angle);
+        self.turn_parts(shape);
+    }
+
+    /// Finds the box of a turned shape, and leaves its parts for later. Returns the work, in parts measured.
+    pub fn turn_box(&mut self, shape: &Shape, angle: f64) -> u64 {
         let turn = Turn::degrees(angle);
+        self.angle = angle;
         self.parts.clear();
-        self.xs.clear();
-        self.ys.clear();
-        self.normals.clear();
-        self.reach.clear();
         (self.low, self.high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         for &p in &shape.hull {
             let p = turn.apply(p);
             (self.low, self.high) = (self.low.min(p), self.high.max(p));
         }
+        shape.hull.len() as u64 / 16
+    }
+
+    /// Turns the parts by the angle that the box was found for, if that has not been done. Returns the work.
+    pub fn turn_parts(&mut self, shape: &Shape) -> u64 {
+        if !self.parts.is_empty() {
+            return 0;
+        }
+        let turn = Turn::degrees(self.angle);
+        self.xs.clear();
+        self.ys.clear();
+        self.normals.clear();
+        self.reach.clear();
         for corners in &shape.parts {
             let first = self.xs.len();
             let (mut low, mut high, mut sum) = (DVec2::INFINITY, DVec2::NEG_INFINITY, DVec2::ZERO);
@@ -125,6 +140,7 @@ impl Posed {
             let inner = inner.max(0.0);
             self.parts.push(Part { first, corners: n, padded, low, high, middle, inner, outer });
         }
+        self.xs.len() as u64 / 16
     }
 
     fn corner(&self, i: usize) -> DVec2 {

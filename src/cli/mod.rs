@@ -13,6 +13,7 @@ mod input;
 mod kerf_test;
 mod lint;
 mod manual;
+mod nest;
 mod operator;
 mod output;
 mod panels;
@@ -26,7 +27,7 @@ mod verify;
 
 use std::process::ExitCode;
 
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use output::Console;
 
@@ -63,6 +64,7 @@ enum Verb {
     Seams(seams::SeamsArgs),
     Dform(dform::DformArgs),
     Panels(panels::PanelsArgs),
+    Nest(nest::NestArgs),
     Verify(verify::VerifyArgs),
     Lint(lint::LintArgs),
     KerfTest(kerf_test::KerfTestArgs),
@@ -81,12 +83,17 @@ enum Outcome {
 
 /// The whole command line definition, for completions and manual pages.
 fn command() -> clap::Command {
-    Cli::command()
+    // `unfold` has an effort and a seed of its own; where there is only one of each, the short names do.
+    let short = |nest: clap::Command| {
+        nest.mut_arg("nest_effort", |a| a.visible_alias("effort")).mut_arg("nest_seed", |a| a.visible_alias("seed"))
+    };
+    Cli::command().mut_subcommand("nest", short)
 }
 
 /// Reads the arguments of the process, does what they say, and returns the exit code.
 pub fn run() -> ExitCode {
-    let cli = Cli::parse();
+    let matches = command().get_matches();
+    let cli = Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
     let console = cli.console;
     terminal::watch_for_ctrl_c();
     let result = match cli.verb {
@@ -101,6 +108,7 @@ pub fn run() -> ExitCode {
         Verb::Seams(args) => seams::run(&args, &console),
         Verb::Dform(args) => dform::run(&args, &console),
         Verb::Panels(args) => panels::run(&args, &console),
+        Verb::Nest(args) => nest::run(&args, &console),
         Verb::Verify(args) => verify::run(&args, &console),
         Verb::Lint(args) => lint::run(&args, &console),
         Verb::KerfTest(args) => kerf_test::run(&args, &console),

@@ -10,7 +10,8 @@ use super::panels::{panels_json, panels_text};
 use super::terminal::Terminal;
 use super::unfold::{summary_json, summary_text};
 use super::{Console, Outcome};
-use crate::recipe::{Job, Recipe, job_outputs};
+use crate::recipe::{Fabrication, Job, Recipe, job_outputs};
+use crate::sheet::SheetParams;
 
 /// Run a recipe: model, picture, report, pieces and sheets into a folder
 #[derive(Debug, clap::Args)]
@@ -36,6 +37,9 @@ pub(super) fn run(args: &RunArgs, console: &Console) -> Result<Outcome, CliError
 pub(super) fn finish(job: &Job, name: Option<String>, folder: &Path, console: &Console) -> Result<Outcome, CliError> {
     let command = command_line();
     let written = Console::write_folder(folder, job_outputs(job, &command)?)?;
+    if let (false, Some(made)) = (job.has_mesh(), &job.fabrication) {
+        return nested(made, job, (name, &command, &written), console);
+    }
     let report = job.report()?;
     let has_findings = report.has_findings();
     let panelled = job.panelled.as_ref().map(|(panelled, _)| panelled);
@@ -64,6 +68,26 @@ pub(super) fn finish(job: &Job, name: Option<String>, folder: &Path, console: &C
     }
     let has_panel_findings = panelled.is_some_and(|p| !p.findings.is_empty());
     Ok(if has_findings && job.is_check_asked || has_panel_findings { Outcome::Findings } else { Outcome::Clean })
+}
+
+/// Tells about a job that had pieces and no model.
+fn nested(
+    (fabrication, sheet): &(Fabrication, SheetParams),
+    job: &Job,
+    (name, command, written): (Option<String>, &str, &[PathBuf]),
+    console: &Console,
+) -> Result<Outcome, CliError> {
+    if console.json {
+        let fabrication = summary_json(fabrication, sheet);
+        let told = json!({ "command": command, "name": name, "written": written, "notes": job.notes, "fabrication": fabrication });
+        console.result(&format!("{told:#}\n"))?;
+    } else {
+        console.notes(&job.notes);
+        let name = name.map_or_else(String::new, |name| name + "\n");
+        let paths: String = written.iter().map(|path| format!("wrote {}\n", path.display())).collect();
+        console.result(&format!("{name}{}{paths}", summary_text(fabrication, sheet)))?;
+    }
+    Ok(Outcome::Clean)
 }
 
 fn read_recipe(path: &Path) -> Result<Recipe, CliError> {

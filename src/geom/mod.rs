@@ -21,4 +21,4 @@ pub use meet_three::meet_three;
 pub use plane::Plane;
 pub use predicate::Side;
 pub use rounding::RoundingBound;
-pub use triangulate::{triangulate, triangulate_region};
+pub use triangulate::{triangulate, triangulate_contours, triangulate_region};

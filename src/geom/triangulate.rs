@@ -3,7 +3,7 @@
 use glam::DVec2;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
-use super::polygon::signed_area;
+use super::polygon::{Location, locate, signed_area};
 use super::predicate::orient2d;
 
 /// Cuts a polygon into triangles between its corners, which are named by their places in `polygon`.
@@ -86,6 +86,48 @@ fn by_delaunay(polygon: &[DVec2]) -> Option<Vec<[usize; 3]>> {
     (triangles.len() == n - 2).then_some(triangles)
 }
 
+/// Cuts the area between an outline and its holes into triangles: the corners, those at one point being one, and the
+/// triangles, counter-clockwise, by places in that list. What lies inside an odd number of contours is kept.
+///
+/// `None` when sides cross, when a number is not finite, or when there is no area.
+pub fn triangulate_region(contours: &[&[DVec2]]) -> Option<(Vec<DVec2>, Vec<[usize; 3]>)> {
+    let all: Vec<DVec2> = contours.iter().flat_map(|c| c.iter().copied()).collect();
+    let all = scaled(&all)?;
+    let mut net = ConstrainedDelaunayTriangulation::<Point2<f64>>::new();
+    let mut corners = Vec::new();
+    let mut rest = all.as_slice();
+    for contour in contours {
+        let (here, after) = rest.split_at(contour.len());
+        rest = after;
+        let mut handles = Vec::with_capacity(here.len());
+        for (p, &given) in here.iter().zip(*contour) {
+            let handle = net.insert(Point2::new(p.x, p.y)).ok()?;
+            if handle.index() == corners.len() {
+                corners.push(given);
+            }
+            handles.push(handle);
+        }
+        for (i, &from) in handles.iter().enumerate() {
+            let to = handles[(i + 1) % handles.len()];
+            if from == to {
+                continue;
+            }
+            if !net.can_add_constraint(from, to) {
+                return None;
+            }
+            net.add_constraint(from, to);
+        }
+    }
+    let is_inside = |triangle: [usize; 3]| {
+        let middle = triangle.iter().map(|&i| corners[i]).sum::<DVec2>() / 3.0;
+        contours.iter().filter(|c| locate(c, middle) == Location::Inside).count() % 2 == 1
+    };
+    let faces = net.inner_faces().map(|face| lowest_first(face.vertices().map(|v| v.fix().index())));
+    let mut triangles: Vec<[usize; 3]> = faces.filter(|&t| is_inside(t)).collect();
+    triangles.sort_unstable();
+    (!triangles.is_empty()).then_some((corners, triangles))
+}
+
 /// The turn at the lowest of the leftmost corners: its sign is the sense of a simple polygon. `None` when it is flat,
 /// which no simple polygon is there.
 fn turn_at_lowest(polygon: &[DVec2]) -> Option<f64> {
@@ -122,75 +164,16 @@ fn outside_faces(net: &ConstrainedDelaunayTriangulation<Point2<f64>>) -> Vec<boo
     outside
 }
 
-/// Cuts a region into triangles, counter-clockwise, given by their corners' numbers in the contours one after another. A point
-/// belongs to the region when an odd number of contours lies around it, so holes may run either way. Where contours touch or
-/// cross, only the first one is cut, without its holes.
-pub fn triangulate_region(contours: &[Vec<DVec2>]) -> Vec<[usize; 3]> {
-    region_by_delaunay(contours)
-        .unwrap_or_else(|| contours.first().map_or_else(Vec::new, |outline| triangulate(outline)))
-}
-
-fn region_by_delaunay(contours: &[Vec<DVec2>]) -> Option<Vec<[usize; 3]>> {
-    let mut net = ConstrainedDelaunayTriangulation::<Point2<f64>>::new();
-    let mut loops = Vec::with_capacity(contours.len());
-    let mut count = 0;
-    for contour in contours {
-        let mut handles = Vec::with_capacity(contour.len());
-        for p in contour {
-            let handle = net.insert(Point2::new(p.x, p.y)).ok()?;
-            if handle.index() != count {
-                return None;
-            }
-            count += 1;
-            handles.push(handle);
-        }
-        loops.push(handles);
+/// The same with the triangles' corners numbered in the contours one after another. Where contours touch or cross, only the first one
+/// is cut, without its holes.
+pub fn triangulate_contours(contours: &[Vec<DVec2>]) -> Vec<[usize; 3]> {
+    let count: usize = contours.iter().map(Vec::len).sum();
+    let references: Vec<&[DVec2]> = contours.iter().map(Vec::as_slice).collect();
+    match triangulate_region(&references) {
+        // No corner met another one, so their numbers are those of the contours.
+        Some((corners, triangles)) if corners.len() == count => triangles,
+        _ => contours.first().map_or_else(Vec::new, |outline| triangulate(outline)),
     }
-    for handles in &loops {
-        for (i, &from) in handles.iter().enumerate() {
-            let to = handles[(i + 1) % handles.len()];
-            if !net.can_add_constraint(from, to) {
-                return None;
-            }
-            net.add_constraint(from, to);
-        }
-    }
-    let inside = odd_faces(&net);
-    let mut triangles: Vec<[usize; 3]> = net
-        .inner_faces()
-        .filter(|face| inside[face.fix().index()] == Some(true))
-        .map(|face| lowest_first(face.vertices().map(|v| v.fix().index())))
-        .collect();
-    triangles.sort_unstable();
-    // Every hole adds its corners and two triangles more.
-    (triangles.len() + 4 == count + 2 * contours.len()).then_some(triangles)
-}
-
-/// For each face whether an odd number of constraints lies between it and the outside; `None` for the outer face.
-fn odd_faces(net: &ConstrainedDelaunayTriangulation<Point2<f64>>) -> Vec<Option<bool>> {
-    let mut odd = vec![None; net.num_all_faces()];
-    let mut open = Vec::new();
-    for edge in net.convex_hull() {
-        let sides = [edge.face(), edge.rev().face()];
-        for face in sides.into_iter().filter_map(|f| f.as_inner()) {
-            if odd[face.fix().index()].is_none() {
-                odd[face.fix().index()] = Some(edge.is_constraint_edge());
-                open.push(face.fix());
-            }
-        }
-    }
-    while let Some(at) = open.pop() {
-        let here = odd[at.index()] == Some(true);
-        for edge in net.face(at).adjacent_edges() {
-            if let Some(next) = edge.rev().face().as_inner()
-                && odd[next.fix().index()].is_none()
-            {
-                odd[next.fix().index()] = Some(here != edge.is_constraint_edge());
-                open.push(next.fix());
-            }
-        }
-    }
-    odd
 }
 
 fn lowest_first([a, b, c]: [usize; 3]) -> [usize; 3] {
@@ -301,13 +284,13 @@ mod tests {
         turned.reverse();
         let contours = [square(0.0, 10.0), square(1.0, 3.0), turned];
         let corners = contours.concat();
-        let triangles = triangulate_region(&contours);
+        let triangles = triangulate_contours(&contours);
         assert_eq!(triangles.len(), 12 + 2 * 2 - 2);
         let areas = triangles.iter().map(|t| orient2d(corners[t[0]], corners[t[1]], corners[t[2]]) / 2.0);
         assert_eq!(areas.inspect(|&a| assert!(a > 0.0)).sum::<f64>(), 95.0);
         // A hole that reaches out of its outline is left alone.
-        assert_eq!(triangulate_region(&[square(0.0, 10.0), square(5.0, 15.0)]).len(), 2);
-        assert!(triangulate_region(&[]).is_empty());
+        assert_eq!(triangulate_contours(&[square(0.0, 10.0), square(5.0, 15.0)]).len(), 2);
+        assert!(triangulate_contours(&[]).is_empty());
     }
 
     #[test]

@@ -10,6 +10,7 @@ pub mod layout_json;
 pub mod lbrn2;
 pub mod map_files;
 mod number;
+pub mod order_json;
 pub mod output;
 pub mod panels_csv;
 pub mod panels_json;

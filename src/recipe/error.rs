@@ -132,6 +132,9 @@ pub enum StepFailure {
     /// The mesh could not be unfolded.
     #[error(transparent)]
     Unfold(#[from] UnfoldError),
+    /// A file of pieces could not be taken.
+    #[error(transparent)]
+    Nest(#[from] super::NestError),
     /// The pieces could not be laid out.
     #[error(transparent)]
     Sheet(#[from] SheetError),

@@ -9,11 +9,12 @@ use super::StepFailure;
 use super::divide::{Room, folds_to_open};
 use super::dull_folds;
 use super::seam_choice::SeamChoice;
+use crate::io::order_json;
 use crate::mesh::{EdgeId, FaceMap, Mesh};
 use crate::net::{Net, PieceId};
 use crate::progress::Progress;
 use crate::select::{Context, Made, Selection};
-use crate::sheet::{SheetError, SheetParams, SheetSet, lay_out};
+use crate::sheet::{SheetError, SheetParams, SheetSet, lay_out_watched};
 use crate::unfold::{PiecesMode, Seams, Source, UnfoldParams, check_folded, check_seams, seams_by_angle, unfold};
 use crate::units::Angle;
 
@@ -61,6 +62,8 @@ pub struct Fabrication {
     pub seams: &'static str,
     /// How many folds were opened because a piece was too large for the sheet.
     pub divided: usize,
+    /// For each piece the file that it comes from; empty when the pieces were unfolded here.
+    pub sources: Vec<order_json::Source>,
 }
 
 /// Unfolds a mesh, in millimetres, and lays the pieces out. Pieces too large for the sheet are opened at the fold that
@@ -83,10 +86,10 @@ pub fn fabricate(
     let mut divided = 0;
     loop {
         let net = unfold(mesh, &seams, &params, source, progress)?;
-        match lay_out(&net, sheet) {
+        match lay_out_watched(&net, sheet, progress) {
             Ok(sheets) => {
                 check_folded(&net, &keep)?;
-                return Ok(Fabrication { net, sheets, seams: words, divided });
+                return Ok(Fabrication { net, sheets, seams: words, divided, sources: Vec::new() });
             }
             Err(SheetError::PiecesTooLarge { pieces, width, height, margin }) if pieces.iter().all(|p| p.faces > 1) => {
                 let mut open: BTreeSet<usize> = net.seams.iter().map(|s| s.id.0).collect();

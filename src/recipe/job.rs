@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::{
     DformParams, FabricateParams, Fabrication, OperatorStep, PanelFiles, Panelled, Recipe, Step, StepError,
-    StepFailure, carve_dform, fabricate, panel_model, solid_of_planes, with_material,
+    StepFailure, carve_dform, fabricate, nest_files, panel_model, solid_of_planes, with_material,
 };
 use crate::check::{CheckParams, Report, check};
 use crate::io::{ReadMesh, read_mesh};
@@ -64,6 +64,11 @@ impl Job {
         self.mesh.as_ref().ok_or(StepFailure::NoMesh)
     }
 
+    /// Whether there is a mesh; a job that only nests pieces has none.
+    pub fn has_mesh(&self) -> bool {
+        self.mesh.is_some()
+    }
+
     /// The report on the mesh as it is by now.
     ///
     /// # Errors
@@ -112,6 +117,12 @@ impl Job {
             }
             Step::Panels { panels, files, sheet } => {
                 self.panels(panels, files, &with_material(sheet, folder)?, progress)?
+            }
+            Step::Nest { nest, sheet } => {
+                let sheet = with_material(sheet, folder)?;
+                let fabrication = nest_files(nest, &sheet, folder, progress)?;
+                self.notes.extend(fabrication.notes());
+                self.fabrication = Some((fabrication, sheet));
             }
         }
         Ok(())

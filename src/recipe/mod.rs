@@ -11,6 +11,7 @@ mod error;
 mod fabricate;
 mod job;
 mod materials;
+mod nest;
 mod outputs;
 mod panels;
 mod parse;
@@ -31,6 +32,7 @@ pub use error::{Position, RecipeError, StepError, StepFailure};
 pub use fabricate::{FabricateParams, Fabrication, fabricate};
 pub use job::Job;
 pub use materials::{MaterialError, material, with_material};
+pub use nest::{NestError, NestStep, nest_files};
 pub use outputs::{fabrication_outputs, job_outputs, sheet_picture};
 pub use panels::{PanelFiles, PanelOptionError, Panelled, SolidFile, panel_model, panel_outputs};
 pub use planes::{PlanesStep, solid_of_planes};
@@ -116,6 +118,13 @@ pub enum Step {
         /// Where the panels go; their thickness.
         sheet: SheetParams,
     },
+    /// `nest = "pieces.json"`: anybody's pieces onto sheets.
+    Nest {
+        /// Which pieces.
+        nest: NestStep,
+        /// Where they go.
+        sheet: SheetParams,
+    },
     /// `render = "iso"`: how the picture of the model looks.
     Render(RenderParams),
 }
@@ -133,6 +142,7 @@ impl Step {
             Self::Unfold { .. } => "unfold",
             Self::Dform { .. } => "dform",
             Self::Panels { .. } => "panels",
+            Self::Nest { .. } => "nest",
             Self::Render(_) => "render",
         }
     }

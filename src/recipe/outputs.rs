@@ -2,7 +2,7 @@
 
 use super::fabricate::piece_list;
 use super::{Fabrication, Job, StepFailure, panel_outputs};
-use crate::io::layout_json::write_layout_json;
+use crate::io::layout_json::write_order_layout_json;
 use crate::io::pieces_json::write_pieces_json;
 use crate::io::report_json::check_json;
 use crate::io::sheet_files::sheet_files;
@@ -19,13 +19,15 @@ pub type Output = (String, Vec<u8>);
 /// # Errors
 /// [`StepFailure`] when the model cannot be written, checked or drawn.
 pub fn job_outputs(job: &Job, command: &str) -> Result<Vec<Output>, StepFailure> {
-    let mesh = job.mesh()?;
-    let options = WriteOptions { command: Some(command.to_owned()), ..WriteOptions::default() };
-    let mut outputs = vec![
-        ("model.obj".to_owned(), mesh_bytes(MeshFormat::Obj, mesh, &options)?),
-        ("model.png".to_owned(), render_model(mesh, &job.render)?.to_png()),
-        ("report.json".to_owned(), check_json(&job.report()?, command).into_bytes()),
-    ];
+    let mut outputs = Vec::new();
+    // A recipe that only nests pieces has no model.
+    if job.has_mesh() || job.fabrication.is_none() {
+        let mesh = job.mesh()?;
+        let options = WriteOptions { command: Some(command.to_owned()), ..WriteOptions::default() };
+        outputs.push(("model.obj".to_owned(), mesh_bytes(MeshFormat::Obj, mesh, &options)?));
+        outputs.push(("model.png".to_owned(), render_model(mesh, &job.render)?.to_png()));
+        outputs.push(("report.json".to_owned(), check_json(&job.report()?, command).into_bytes()));
+    }
     for step in &job.hull_steps {
         outputs.push((step.file_name("model"), render_model(&step.mesh, &job.render)?.to_png()));
     }
@@ -56,7 +58,7 @@ pub fn fabrication_outputs(
 ) -> Result<Vec<Output>, StepFailure> {
     let mut outputs = vec![("pieces.json".to_owned(), write_pieces_json(&fabrication.net, command).into_bytes())];
     if !fabrication.sheets.drawings.is_empty() {
-        let layout = write_layout_json(&fabrication.sheets.layout, command);
+        let layout = write_order_layout_json(&fabrication.sheets.layout, &fabrication.sources, command);
         outputs.push(("layout.json".to_owned(), layout.into_bytes()));
         outputs.push(("assembly.txt".to_owned(), assembly_text(fabrication, command).into_bytes()));
     }
@@ -115,6 +117,7 @@ impl Fabrication {
         note(report.lost_holes, format!("{} holes are narrower than the kerf and were left out", report.lost_holes));
         let closed = report.closed_notches;
         note(closed, format!("{closed} notches are narrower than the kerf: flaps hang together there"));
+        note(usize::from(report.is_stopped), "the search was stopped; this is the best layout so far".to_owned());
         note(report.unmarked_angles, format!("no room for the angles of {} folds", report.unmarked_angles));
         notes.extend(joint_notes(&report.joints));
         notes

@@ -109,7 +109,7 @@ pub fn panel_model(
     let net = panel_net(mesh, &plates, source.scale, source.split_vertices);
     progress.report("sheets", 0, 0);
     let sheets = lay_out(&net, &bare(sheet))?;
-    let fabrication = Fabrication { net, sheets, seams: "every face is a panel", divided: 0 };
+    let fabrication = Fabrication { net, sheets, seams: "every face is a panel", divided: 0, sources: Vec::new() };
     Ok(Panelled { plates, schedule, findings, fabrication, files: files.clone() })
 }
 

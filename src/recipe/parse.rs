@@ -12,7 +12,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::{Position, RecipeError};
-use super::{DformParams, FabricateParams, OperatorStep, PanelFiles, PlanesStep, ReadStep, Recipe, Step};
+use super::{DformParams, FabricateParams, NestStep, OperatorStep, PanelFiles, PlanesStep, ReadStep, Recipe, Step};
 use crate::check::CheckParams;
 use crate::op::{
     HullParams, Operate, PlanarizeParams, ResolveParams, SliceParams, SubdivideParams, TruncateEdge, TruncateFace,
@@ -26,7 +26,7 @@ use crate::unfold::UnfoldParams;
 use crate::units::nearest_word;
 
 /// The keys that say what a step does, with the field of its parameters that the value goes to.
-const VERBS: [(&str, &str); 13] = [
+const VERBS: [(&str, &str); 14] = [
     ("solid", "name"),
     ("read", "path"),
     ("planes", "path"),
@@ -39,6 +39,7 @@ const VERBS: [(&str, &str); 13] = [
     ("unfold", "pieces"),
     ("dform", "matching"),
     ("panels", "side"),
+    ("nest", "pieces"),
     ("render", "view"),
 ];
 
@@ -157,6 +158,7 @@ impl Source<'_> {
             ("render", _) => Step::Render(fields.read1::<RenderParams>()?),
             ("unfold", _) => fields.unfold()?,
             ("dform", _) => fields.dform()?,
+            ("nest", _) => fields.nest()?,
             ("panels", _) => fields.panels()?,
             ("cut", "vertex") => fields.operator::<TruncateVertex>("cut vertex")?,
             ("cut", "edge") => fields.operator::<TruncateEdge>("cut edge")?,
@@ -204,6 +206,11 @@ impl StepFields<'_> {
         let known = [field_names::<PanelParams>(), field_names::<PanelFiles>(), field_names::<SheetParams>()].concat();
         self.check_keys(&known)?;
         Ok(Step::Panels { panels: self.read()?, files: self.read()?, sheet: self.read()? })
+    }
+
+    fn nest(&self) -> Result<Step, RecipeError> {
+        self.check_keys(&[field_names::<NestStep>(), field_names::<SheetParams>()].concat())?;
+        Ok(Step::Nest { nest: self.read()?, sheet: self.read()? })
     }
 
     fn check_keys(&self, known: &[String]) -> Result<(), RecipeError> {

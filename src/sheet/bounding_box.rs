@@ -47,7 +47,7 @@ pub(crate) fn fitting_box(points: &[DVec2], room: DVec2, rounding: f64) -> Optio
 }
 
 /// The box of the hull after a turn of `angle` degrees.
-fn box_at(hull: &[DVec2], angle: f64) -> MinBox {
+pub(crate) fn box_at(hull: &[DVec2], angle: f64) -> MinBox {
     let turn = Turn::degrees(angle);
     let turned: Vec<DVec2> = hull.iter().map(|&p| turn.apply(p - hull[0])).collect();
     let (low, high) = bounds(&turned).unwrap_or_default();

@@ -84,7 +84,8 @@ pub(crate) fn draw(
             let lettering = Lettering { net, piece, here, placed, obstacles: &obstacles, params };
             lettering.draw(&mut drawing, &mut report)?;
         }
-        draw_info(&mut drawing, stock, params)?;
+        let stock = Stock { size: DVec2::new(sheet.width, sheet.height), ..*stock };
+        draw_info(&mut drawing, &stock, params)?;
         drawing.arrange();
         drawings.push(drawing);
     }
@@ -445,7 +446,7 @@ mod tests {
         let mut engraved = ids(&drawing, LayerKind::Engrave);
         engraved.sort_unstable();
         assert_eq!(engraved, ["E016-number-1", "E016-number-2", "P01-name", "P02-name"]);
-        assert_eq!(ids(&drawing, LayerKind::Info), ["reference", "note"]);
+        assert_eq!(ids(&drawing, LayerKind::Info), ["reference", "note", "offcut"]);
         assert_eq!(report, SheetReport::default());
         let mut seen: Vec<[DVec2; 2]> = Vec::new();
         for (_, a, b) in lines(&drawing) {

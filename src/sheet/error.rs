@@ -93,6 +93,75 @@ pub enum SheetError {
         /// The free border.
         margin: f64,
     },
+    /// A polygon of the sheet that is none.
+    #[error("{name}: {why}; give corners in order around the polygon, within the sheet")]
+    BadPolygon {
+        /// The parameter.
+        name: &'static str,
+        /// What is wrong.
+        why: String,
+    },
+    /// Guillotine cuts with what they cannot do.
+    #[error(
+        "guillotine cuts need whole rectangular sheets and no groups; leave out sheet-outline, defects and together"
+    )]
+    GuillotineOption,
+    /// A parameter names a piece that is not there.
+    #[error("{name} names piece {piece}, but there are only {pieces} pieces, P01 to {}", PieceId(pieces.saturating_sub(1)))]
+    NoSuchPiece {
+        /// The parameter.
+        name: &'static str,
+        /// The piece.
+        piece: PieceId,
+        /// How many there are.
+        pieces: usize,
+    },
+    /// Pieces that fit on a sheet by their size, but for which no place was found even on an empty one.
+    #[error("{}", no_place(pieces))]
+    NoPlace {
+        /// One piece, or those of one group.
+        pieces: Vec<PieceId>,
+    },
+    /// A piece turned as it may not be.
+    #[error("piece {piece} is turned by {rotation}°, which is not allowed; please report this bug")]
+    Turned {
+        /// The piece.
+        piece: PieceId,
+        /// Its angle.
+        rotation: f64,
+    },
+    /// Pieces of one group on two sheets.
+    #[error("pieces {first} and {second} must share a sheet and do not; please report this bug")]
+    Parted {
+        /// One piece.
+        first: PieceId,
+        /// The other.
+        second: PieceId,
+    },
+    /// A piece in the way of a defect or over the outline of the sheet.
+    #[error(
+        "piece {piece} on sheet {sheet} is {distance} mm from {what} instead of {least} mm; please report this bug"
+    )]
+    OnDefect {
+        /// The piece.
+        piece: PieceId,
+        /// The sheet.
+        sheet: SheetId,
+        /// A defect, or the outline of the sheet.
+        what: &'static str,
+        /// Their distance; 0 when they touch or overlap.
+        distance: f64,
+        /// What it must be.
+        least: f64,
+    },
+    /// A piece that a guillotine cut would cut through.
+    #[error("a cut from edge to edge runs through piece {piece} on sheet {sheet}; please report this bug")]
+    CutThrough {
+        /// The piece.
+        piece: PieceId,
+        /// The sheet.
+        sheet: SheetId,
+    },
     /// An outline or hole that bounds no area.
     #[error(
         "contour {contour} of piece {piece} has {corners} corners or numbers that are not finite; unfold the mesh again"
@@ -182,6 +251,20 @@ pub struct TooLarge {
 
 /// How many pieces a message lists before it only counts.
 const LISTED: usize = 10;
+
+fn no_place(pieces: &[PieceId]) -> String {
+    let names: Vec<String> = pieces.iter().take(LISTED).map(ToString::to_string).collect();
+    let more = if pieces.len() > LISTED { " …" } else { "" };
+    let names = names.join(", ") + more;
+    match pieces.len() {
+        1 => format!(
+            "no place on an empty sheet was found for piece {names}; use larger sheets, or look at their outline and defects"
+        ),
+        _ => format!(
+            "pieces {names} are to lie on one sheet, but no place was found for all of them on an empty one; use larger sheets or smaller groups"
+        ),
+    }
+}
 
 fn joint_option(option: &str, joint: Joint, is_missing: bool) -> String {
     let name = clap::ValueEnum::to_possible_value(&joint).map(|v| v.get_name().to_owned()).unwrap_or_default();

@@ -1,22 +1,23 @@
 //! Where every piece lies, and the one call from a net to drawings.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec2;
 
 use super::assembly::{Assembly, assembly};
-use super::bounding_box::{MinBox, convex_hull, fitting_box, rounded, smallest_box};
+use super::bounding_box::{rounded, smallest_box};
 use super::draw::draw;
-use super::drawing::Drawing;
+use super::drawing::{Drawing, MarkKind, Stroke};
 use super::error::{SheetError, TooLarge};
 use super::joint::{Boundaries, JointReport, join};
 use super::kerf::CutShape;
+use super::nest::{Laid, StockSheet, candidates, lay, offcut};
 use super::params::{SheetParams, Stock};
-use super::place::{Item, Spot, pack};
 use super::stretch::stretches;
 use super::verify::verify;
 use crate::geom::polygon::bounds;
 use crate::net::{Net, Piece, PieceId};
+use crate::progress::{Progress, Silent};
 
 /// A sheet's number, counted from 0, shown as `S01`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -46,6 +47,12 @@ pub struct Sheet {
     pub height: f64,
     /// The pieces on it, ascending by name.
     pub placed: Vec<Placed>,
+    /// Which of the sheets at hand it is: their order in the parameter `stock`, then those of the usual size.
+    pub stock: usize,
+    /// Of the last sheet, the corners of the rectangle that is left whole, when it is worth keeping.
+    pub offcut: Option<[DVec2; 2]>,
+    /// Cuts from edge to edge in the order in which they are made; only for guillotine layouts.
+    pub cuts: Vec<[DVec2; 2]>,
 }
 
 /// A piece on a sheet: a point p of the piece lands at R(rotation)·p + (x, y).
@@ -113,6 +120,8 @@ pub struct SheetReport {
     pub closed_notches: usize,
     /// Folds without room for their angle, where angles were asked for.
     pub unmarked_angles: usize,
+    /// Whether the search was stopped before its effort was used up.
+    pub is_stopped: bool,
     /// What became of the joints.
     pub joints: JointReport,
 }
@@ -130,37 +139,54 @@ pub struct SheetSet {
     pub report: SheetReport,
 }
 
-/// Whether a piece, kerf included, fits on an empty sheet at any angle. Every piece fits on `sheet = none`.
+/// Whether a piece, kerf included, fits on an empty sheet at an angle that is allowed. Every piece fits on `sheet = none`.
 ///
 /// # Errors
 /// As [`lay_out`], for the parameters and the piece's contours; a piece too large is no error here.
 pub fn fits(piece: &Piece, params: &SheetParams) -> Result<bool, SheetError> {
-    let Some(stock) = params.stock()? else { return Ok(true) };
-    Ok(pose(&CutShape::of_piece(piece, params.kerf.mm())?, &stock).is_some())
+    let Some(sheets) = params.sheets()? else { return Ok(true) };
+    let shapes = [CutShape::of_piece(piece, params.kerf.mm())?];
+    Ok(candidates(&shapes, &sheets, params).iter().all(|c| c.poses.iter().any(Option::is_some)))
 }
 
 /// Places, letters, draws and measures all pieces of a net. For `sheet = none` everything is empty.
 ///
 /// # Errors
-/// [`SheetError::OutOfRange`], [`SheetError::MarginTooLarge`], [`SheetError::JointOption`] and [`SheetError::FlapAngle`] for
+/// [`SheetError::OutOfRange`], [`SheetError::MarginTooLarge`], [`SheetError::JointOption`], [`SheetError::FlapAngle`],
+/// [`SheetError::BadPolygon`], [`SheetError::GuillotineOption`] and [`SheetError::NoSuchPiece`] for
 /// parameters; [`SheetError::PiecesTooLarge`] with all
-/// pieces that fit at no angle, so that they can be split; [`SheetError::BadContour`], [`SheetError::KerfSplit`] and
+/// pieces that fit at no angle, so that they can be split; [`SheetError::NoPlace`] for pieces that outlines, defects and
+/// groups leave no place for; [`SheetError::BadContour`], [`SheetError::KerfSplit`] and
 /// [`SheetError::UnknownPiece`] for a broken net; what [`verify`] finds, for a bug of ours.
 pub fn lay_out(net: &Net, params: &SheetParams) -> Result<SheetSet, SheetError> {
+    lay_out_watched(net, params, &Silent)
+}
+
+/// As [`lay_out`], with reports. When it is asked to stop, the best layout so far is drawn.
+///
+/// # Errors
+/// As [`lay_out`].
+pub fn lay_out_watched(net: &Net, params: &SheetParams, progress: &dyn Progress) -> Result<SheetSet, SheetError> {
     params.check_material()?;
-    let Some(stock) = params.stock()? else {
+    let Some(sheets) = params.sheets()? else {
         return Ok(SheetSet::default());
     };
+    check_names(net, params)?;
     let boundaries = Boundaries::new(net);
     let stretches = stretches(net, &boundaries);
     let jointed = join(net, params)?;
     let bare = net;
     let net = jointed.as_ref().map_or(net, |j| &j.net);
     let shapes = net.pieces.iter().map(|p| CutShape::of_piece(p, params.kerf.mm())).collect::<Result<Vec<_>, _>>()?;
-    let mut layout = place_all(net, &shapes, &stock)?;
-    let (drawings, mut report) = draw(net, &shapes, &layout, &stock, (params, &stretches, jointed.as_ref()))?;
+    let mut layout = place_all(net, &shapes, (params, &sheets), progress)?;
+    let usual = &sheets[sheets.len() - 1].stock;
+    let (mut drawings, mut report) = draw(net, &shapes, &layout, usual, (params, &stretches, jointed.as_ref()))?;
+    for (drawing, sheet) in drawings.iter_mut().zip(&layout.sheets) {
+        draw_sheet(drawing, sheet, &sheets[sheet.stock]);
+    }
     report.lost_holes = shapes.iter().map(|s| s.lost_holes).sum();
     report.closed_notches = shapes.iter().map(|s| s.closed_notches).sum();
+    report.is_stopped = progress.is_cancelled();
     layout.cut_length = drawings.iter().map(Drawing::cut_length).sum();
     layout.score_length = drawings.iter().map(Drawing::score_length).sum();
     verify(&shapes, &layout, params)?;
@@ -168,68 +194,101 @@ pub fn lay_out(net: &Net, params: &SheetParams) -> Result<SheetSet, SheetError> 
     Ok(SheetSet { layout, drawings, assembly: assembly(bare, stretches), report })
 }
 
-/// The turn at which a shape lies best on the stock.
-fn pose(shape: &CutShape, stock: &Stock) -> Option<MinBox> {
-    fitting_box(&convex_hull(&shape.outline), stock.usable(), stock.rounding())
+/// Whether all pieces that the parameters name are there.
+fn check_names(net: &Net, params: &SheetParams) -> Result<(), SheetError> {
+    let known: BTreeSet<PieceId> = net.pieces.iter().map(|p| p.id).collect();
+    let turned = params.nest.rotate.0.keys().map(|&piece| ("rotate", piece));
+    let grouped = params.nest.together.0.iter().flatten().map(|&piece| ("together", piece));
+    match turned.chain(grouped).find(|(_, piece)| !known.contains(piece)) {
+        Some((name, piece)) => Err(SheetError::NoSuchPiece { name, piece, pieces: net.pieces.len() }),
+        None => Ok(()),
+    }
 }
 
-fn place_all(net: &Net, shapes: &[CutShape], stock: &Stock) -> Result<Layout, SheetError> {
-    let poses: Vec<Option<MinBox>> = shapes.iter().map(|s| pose(s, stock)).collect();
+fn place_all(
+    net: &Net,
+    shapes: &[CutShape],
+    (params, sheets): (&SheetParams, &[StockSheet]),
+    progress: &dyn Progress,
+) -> Result<Layout, SheetError> {
+    let candidates = candidates(shapes, sheets, params);
     let too_large: Vec<TooLarge> = net
         .pieces
         .iter()
-        .zip(shapes)
-        .zip(&poses)
-        .filter(|(_, pose)| pose.is_none())
-        .map(|((piece, shape), _)| {
-            let least = smallest_box(&shape.outline);
+        .zip(&candidates)
+        .filter(|(_, c)| c.poses.iter().all(Option::is_none))
+        .map(|(piece, c)| {
+            let least = smallest_box(&c.shape.outline);
             TooLarge { piece: piece.id, width: least.width, height: least.height, faces: piece.faces.len() }
         })
         .collect();
     if !too_large.is_empty() {
+        let largest = |s: &&StockSheet| s.stock.size.x * s.stock.size.y;
+        let stock = sheets.iter().max_by(|a, b| largest(a).total_cmp(&largest(b))).map_or(sheets[0].stock, |s| s.stock);
         let (width, height, margin) = (stock.size.x, stock.size.y, stock.margin);
         return Err(SheetError::PiecesTooLarge { pieces: too_large, width, height, margin });
     }
-    let poses: Vec<MinBox> = poses.into_iter().flatten().collect();
-    // A box with the spacing on two sides, in a room with the spacing on two sides: neighbours keep their distance.
-    let room = stock.usable() + DVec2::splat(stock.spacing);
-    let item = |p: &MinBox| {
-        let grown = DVec2::new(p.width, p.height) + DVec2::splat(stock.spacing);
-        // A box that touches the room may be larger by rounding.
-        let fit = |size: DVec2| (size - DVec2::splat(stock.rounding())).cmple(room).all().then(|| size.min(room));
-        Item { upright: fit(grown), turned: fit(DVec2::new(grown.y, grown.x)) }
-    };
-    let spots = pack(&poses.iter().map(item).collect::<Vec<_>>(), room);
-    Ok(layout_of(shapes, &poses, &spots, stock))
+    if shapes.is_empty() {
+        return Ok(Layout::default());
+    }
+    let laid = lay(&candidates, sheets, params, progress).map_err(|no_place| SheetError::NoPlace {
+        pieces: no_place.pieces.iter().map(|&i| shapes[i].piece).collect(),
+    })?;
+    Ok(layout_of(shapes, &laid, sheets))
 }
 
-fn layout_of(shapes: &[CutShape], poses: &[MinBox], spots: &[Spot], stock: &Stock) -> Layout {
-    let mut sheets: BTreeMap<usize, Vec<Placed>> = BTreeMap::new();
-    for ((shape, pose), spot) in shapes.iter().zip(poses).zip(spots) {
-        let rotation = rounded(pose.angle + if spot.turned { 90.0 } else { 0.0 });
-        let turn = Turn::degrees(rotation);
-        let turned: Vec<DVec2> = shape.outline.iter().map(|&p| turn.apply(p)).collect();
-        let low = bounds(&turned).unwrap_or_default().0;
-        let shift = spot.low + DVec2::splat(stock.margin) - low;
-        let placed = Placed { piece: shape.piece, x: rounded(shift.x), y: rounded(shift.y), rotation };
-        sheets.entry(spot.bin).or_default().push(placed);
+fn layout_of(shapes: &[CutShape], laid: &Laid, stock: &[StockSheet]) -> Layout {
+    let mut bins: BTreeMap<usize, (Vec<Placed>, DVec2)> = BTreeMap::new();
+    for (shape, lying) in shapes.iter().zip(&laid.lying) {
+        let rotation = rounded(rounded(lying.angle).rem_euclid(360.0));
+        let placed = Placed { piece: shape.piece, x: rounded(lying.at.x), y: rounded(lying.at.y), rotation };
+        let (_, high) = bounds(&placed.apply_all(&shape.outline)).unwrap_or_default();
+        let here = bins.entry(lying.bin).or_default();
+        here.0.push(placed);
+        here.1 = here.1.max(high);
     }
-    let sheets: Vec<Sheet> = sheets
-        .into_values()
-        .enumerate()
-        .map(|(i, mut placed)| {
-            placed.sort_by_key(|p| p.piece);
-            Sheet { id: SheetId(i), width: rounded(stock.size.x), height: rounded(stock.size.y), placed }
-        })
-        .collect();
+    let last = bins.keys().last().copied();
+    let sheets = bins.into_iter().enumerate().map(|(i, (bin, (mut placed, used)))| {
+        placed.sort_by_key(|p| p.piece);
+        let which = bin.min(stock.len() - 1);
+        let Stock { size, spacing, .. } = stock[which].stock;
+        let is_whole = stock[which].outline.is_empty();
+        let offcut = offcut(size, used, spacing).filter(|_| Some(bin) == last && is_whole);
+        let cuts = laid.cuts.get(bin).cloned().unwrap_or_default();
+        Sheet { id: SheetId(i), width: rounded(size.x), height: rounded(size.y), placed, stock: which, offcut, cuts }
+    });
+    let sheets: Vec<Sheet> = sheets.collect();
     let area: f64 = shapes.iter().map(CutShape::area).sum();
-    let density = if sheets.is_empty() { 0.0 } else { area / (sheets.len() as f64 * stock.size.x * stock.size.y) };
+    let all: f64 = sheets.iter().map(|s| s.width * s.height).sum();
+    let density = if sheets.is_empty() { 0.0 } else { area / all };
     Layout { sheets, density, cut_length: 0.0, score_length: 0.0 }
+}
+
+/// What the sheet itself is like, on the layer that is never machined: its outline, its defects, the cuts from edge to edge and
+/// where the offcut begins.
+fn draw_sheet(drawing: &mut Drawing, sheet: &Sheet, stock: &StockSheet) {
+    let mut note = |id: String, points: Vec<DVec2>, closed| {
+        drawing.add(MarkKind::Note, id, None, vec![Stroke { points, closed }]);
+    };
+    if !stock.outline.is_empty() {
+        note("sheet-outline".to_owned(), stock.outline.clone(), true);
+    }
+    for (i, defect) in stock.defects.iter().enumerate() {
+        note(format!("defect-{}", i + 1), defect.clone(), true);
+    }
+    for (i, cut) in sheet.cuts.iter().enumerate() {
+        note(format!("guillotine-{}", i + 1), cut.to_vec(), false);
+    }
+    if let Some([low, high]) = sheet.offcut {
+        let edge = if low.x > 0.0 { DVec2::new(low.x, high.y) } else { DVec2::new(high.x, low.y) };
+        note("offcut".to_owned(), vec![low, edge], false);
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::testing::{ell, net_of, random_convex, ring, square};
+    use super::super::verify::contour_distance;
     use super::super::{Labels, SheetSize};
     use super::*;
     use crate::units::Length;
@@ -249,10 +308,10 @@ mod tests {
         let set = lay_out(&net, &SheetParams::default()).expect("two squares fit");
         assert_eq!(set.layout.sheets.len(), 1);
         let placed = &set.layout.sheets[0].placed;
-        assert_eq!((placed[0].x, placed[0].y, placed[0].rotation), (5.0, 5.0, 0.0));
-        assert_eq!(placed[0].apply(DVec2::ZERO), DVec2::splat(5.0));
-        assert_eq!(placed[1].apply(DVec2::ZERO).distance(DVec2::splat(5.0)), 43.0);
-        assert_eq!(set.layout.cut_length, 320.0);
+        let corners = placed.iter().map(|p| p.apply_all(&square(40.0))).collect::<Vec<_>>();
+        assert!(corners.iter().flatten().all(|p| p.min_element() > 5.0 - 1e-8), "{corners:?}");
+        assert!(contour_distance(&corners[0], &corners[1]) > 3.0 - 1e-8);
+        assert!((set.layout.cut_length - 320.0).abs() < 1e-6);
         assert!((set.layout.density - 3200.0 / 240_000.0).abs() < 1e-12);
     }
 

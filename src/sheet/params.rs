@@ -12,6 +12,7 @@ use super::error::SheetError;
 use super::files::{Formats, Paper, PartFiles};
 use super::joint::{FlapSide, Joint};
 use super::material::Material;
+use super::nest::NestParams;
 use crate::units::{Angle, Length, UnitError, parse_number};
 
 /// Smallest spacing in mm: nearer cut lines would be one line in a file with four decimals.
@@ -136,6 +137,10 @@ pub struct SheetParams {
     #[arg(long, value_name = "LENGTH")]
     #[serde(default)]
     pub hole_inset: Option<Length>,
+    /// Where pieces may lie.
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub nest: NestParams,
 }
 
 fn default_sheet() -> SheetSize {
@@ -182,6 +187,7 @@ impl Default for SheetParams {
             hole_spacing: None,
             hole_diameter: None,
             hole_inset: None,
+            nest: NestParams::default(),
         }
     }
 }

@@ -2,11 +2,14 @@
 //!
 //! All distances are between the real contours, not between boxes, so that it judges any way of placing.
 
+use std::collections::BTreeMap;
+
 use glam::DVec2;
 
 use super::error::SheetError;
 use super::kerf::CutShape;
-use super::layout::{Layout, Placed, Sheet};
+use super::layout::{Layout, Placed, Sheet, SheetId};
+use super::nest::StockSheet;
 use super::params::{SheetParams, Stock};
 use crate::geom::polygon::{Location, bounds, locate, segments_cross};
 use crate::net::PieceId;
@@ -16,15 +19,79 @@ use crate::net::PieceId;
 /// # Errors
 /// [`SheetError::NotPlacedOnce`], [`SheetError::OverMargin`] and [`SheetError::TooClose`]: the first violation found.
 pub fn verify(shapes: &[CutShape], layout: &Layout, params: &SheetParams) -> Result<(), SheetError> {
-    let Some(stock) = params.stock()? else { return Ok(()) };
-    for shape in shapes {
-        let all = layout.sheets.iter().flat_map(|s| &s.placed);
-        let times = all.filter(|p| p.piece == shape.piece).count();
-        if times != 1 {
-            return Err(SheetError::NotPlacedOnce { piece: shape.piece, times });
+    let Some(sheets) = params.sheets()? else { return Ok(()) };
+    let mut times: BTreeMap<PieceId, usize> = shapes.iter().map(|s| (s.piece, 0)).collect();
+    for placed in layout.sheets.iter().flat_map(|s| &s.placed) {
+        *times.entry(placed.piece).or_default() += 1;
+    }
+    if let Some((&piece, &times)) = times.iter().find(|&(_, &n)| n != 1) {
+        return Err(SheetError::NotPlacedOnce { piece, times });
+    }
+    verify_turns(layout, params)?;
+    let by_id: BTreeMap<PieceId, &CutShape> = shapes.iter().map(|s| (s.piece, s)).collect();
+    for sheet in &layout.sheets {
+        let stock = &sheets[sheet.stock.min(sheets.len() - 1)];
+        let laid = verify_sheet(&by_id, sheet, &stock.stock)?;
+        verify_stock(&laid, sheet, stock)?;
+    }
+    Ok(())
+}
+
+/// Angles that are allowed, and groups on one sheet.
+fn verify_turns(layout: &Layout, params: &SheetParams) -> Result<(), SheetError> {
+    let nest = &params.nest;
+    let mut sheet_of: BTreeMap<PieceId, SheetId> = BTreeMap::new();
+    for sheet in &layout.sheets {
+        for &Placed { piece, rotation, .. } in &sheet.placed {
+            sheet_of.insert(piece, sheet.id);
+            if !nest.rotate.0.get(&piece).unwrap_or(&nest.rotations).allows(rotation) {
+                return Err(SheetError::Turned { piece, rotation });
+            }
         }
     }
-    layout.sheets.iter().try_for_each(|sheet| verify_sheet(shapes, sheet, &stock))
+    for group in &nest.together.0 {
+        let mut members = group.iter();
+        let Some(&first) = members.next() else { continue };
+        if let Some(&second) = members.find(|p| sheet_of.get(p) != sheet_of.get(&first)) {
+            return Err(SheetError::Parted { first, second });
+        }
+    }
+    Ok(())
+}
+
+/// The outline of the sheet, its defects, and the cuts from edge to edge.
+fn verify_stock(laid: &[Laid], sheet: &Sheet, stock: &StockSheet) -> Result<(), SheetError> {
+    let rounding = 6.0 * stock.stock.rounding();
+    for here in laid {
+        let Some(contour) = here.contours.first() else { continue };
+        let bad = |what, distance, least| {
+            Err(SheetError::OnDefect { piece: here.piece, sheet: sheet.id, what, distance, least })
+        };
+        if !stock.outline.is_empty() {
+            let is_inside = contour.iter().all(|&p| locate(&stock.outline, p) != Location::Outside);
+            let distance = if is_inside { contour_distance(contour, &stock.outline) } else { 0.0 };
+            if !is_inside || distance < stock.stock.margin - rounding {
+                return bad("the outline of the sheet", distance, stock.stock.margin);
+            }
+        }
+        for corners in &stock.defects {
+            let (low, high) = bounds(corners).unwrap_or_default();
+            let defect = Laid { piece: here.piece, contours: vec![corners.clone()], low, high };
+            let distance = distance(here, &defect);
+            if distance < stock.stock.spacing - rounding {
+                return bad("a defect", distance, stock.stock.spacing);
+            }
+        }
+        // A cut is a segment: no side of the outline may cross it, and none of its ends may lie inside.
+        for &[a, b] in &sheet.cuts {
+            let is_hit = edges(contour).any(|(p, q)| segments_cross(a, b, p, q))
+                || [a, b, a.midpoint(b)].iter().any(|&p| locate(contour, p) == Location::Inside);
+            if is_hit {
+                return Err(SheetError::CutThrough { piece: here.piece, sheet: sheet.id });
+            }
+        }
+    }
+    Ok(())
 }
 
 /// A piece where it lies.
@@ -50,11 +117,10 @@ impl Laid {
     }
 }
 
-fn verify_sheet(shapes: &[CutShape], sheet: &Sheet, stock: &Stock) -> Result<(), SheetError> {
+fn verify_sheet(shapes: &BTreeMap<PieceId, &CutShape>, sheet: &Sheet, stock: &Stock) -> Result<Vec<Laid>, SheetError> {
     let mut laid: Vec<Laid> = Vec::new();
     for placed in &sheet.placed {
-        let shape = shapes.iter().find(|s| s.piece == placed.piece);
-        let shape = shape.ok_or(SheetError::NotPlacedOnce { piece: placed.piece, times: 0 })?;
+        let shape = shapes.get(&placed.piece).ok_or(SheetError::NotPlacedOnce { piece: placed.piece, times: 0 })?;
         let here = Laid::new(shape, placed);
         let low = DVec2::splat(stock.margin) - here.low;
         let high = here.high - (stock.size - DVec2::splat(stock.margin));
@@ -65,20 +131,22 @@ fn verify_sheet(shapes: &[CutShape], sheet: &Sheet, stock: &Stock) -> Result<(),
         laid.push(here);
     }
     let least = stock.spacing - 6.0 * stock.rounding();
+    // From left to right, so that only neighbours in x are compared.
+    laid.sort_by(|a, b| a.low.x.total_cmp(&b.low.x));
     for (i, a) in laid.iter().enumerate() {
-        for b in &laid[..i] {
+        for b in laid[i + 1..].iter().take_while(|b| b.low.x < a.high.x + stock.spacing) {
             let apart = (a.low - b.high).max(b.low - a.high).max(DVec2::ZERO).length();
             if apart >= least {
                 continue;
             }
             let distance = distance(a, b);
             if distance < least || distance.is_nan() {
-                let (first, second) = (b.piece, a.piece);
+                let (first, second) = (a.piece.min(b.piece), a.piece.max(b.piece));
                 return Err(SheetError::TooClose { first, second, sheet: sheet.id, distance, spacing: stock.spacing });
             }
         }
     }
-    Ok(())
+    Ok(laid)
 }
 
 /// The distance in mm between two placed pieces; 0 when they touch or overlap. A piece inside a hole of another does not
@@ -97,7 +165,7 @@ fn distance(a: &Laid, b: &Laid) -> f64 {
 }
 
 /// The least distance between two closed contours; 0 when they cross.
-fn contour_distance(a: &[DVec2], b: &[DVec2]) -> f64 {
+pub(crate) fn contour_distance(a: &[DVec2], b: &[DVec2]) -> f64 {
     let crossing = edges(a).any(|(p, q)| edges(b).any(|(r, s)| segments_cross(p, q, r, s)));
     if crossing {
         return 0.0;
@@ -137,7 +205,7 @@ mod tests {
     }
 
     fn layout(placed: Vec<Placed>) -> Layout {
-        let sheet = Sheet { id: SheetId(0), width: 600.0, height: 400.0, placed };
+        let sheet = Sheet { id: SheetId(0), width: 600.0, height: 400.0, placed, ..Sheet::default() };
         Layout { sheets: vec![sheet], ..Layout::default() }
     }
 

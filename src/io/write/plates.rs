@@ -6,7 +6,7 @@ use glam::{DQuat, DVec2, DVec3};
 
 use super::glb::{GlbNode, GlbScene, GlbSurface, glb_bytes};
 use super::one_line;
-use crate::geom::{Frame, Plane, triangulate_region};
+use crate::geom::{Frame, Plane, triangulate_contours};
 use crate::io::error::IoError;
 use crate::panel::{Plate, Solid, SolidFace, label_room, solid};
 use crate::sheet::lettering;
@@ -192,6 +192,6 @@ fn triangles(body: &Solid, face: &SolidFace) -> Vec<[u32; 3]> {
         return vec![[a, b, c], [a, c, d]];
     }
     let corners: Vec<u32> = std::iter::once(&face.outline).chain(&face.holes).flatten().copied().collect();
-    let found = triangulate_region(&flat(body, face));
+    let found = triangulate_contours(&flat(body, face));
     found.into_iter().map(|t| t.map(|i| corners[i])).collect()
 }

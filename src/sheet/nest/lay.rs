@@ -1,0 +1,173 @@
+//! From pieces as they are cut to where they lie, by whichever way the parameters ask for.
+
+use glam::DVec2;
+
+use super::super::bounding_box::{MinBox, box_at, convex_hull, fitting_box, rounded};
+use super::super::kerf::CutShape;
+use super::super::layout::Turn;
+use super::super::params::SheetParams;
+use super::super::place::{Item, pack};
+use super::guillotine::{Boxed, guillotine};
+use super::search::Turns;
+use super::shape::Shape;
+use super::stock::StockSheet;
+use super::{Axis, Effort, Guillotine, Lying, NoPlace, Piece, Problem, Rotation, nest};
+use crate::geom::polygon::bounds;
+use crate::net::PieceId;
+use crate::progress::Progress;
+
+/// Work, in parts measured, that an ordinary machine does in a tenth of a second.
+const WORK_OF_EFFORT: f64 = 700_000.0;
+/// Fewer pieces than this get less.
+const FULL_EFFORT_PIECES: f64 = 60.0;
+/// Boxes are packed as a start for at most so many pieces.
+const MOST_BOXES: usize = 500;
+
+/// Where everything lies, and the cuts from edge to edge of every sheet, if there are any.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Laid {
+    pub lying: Vec<Lying>,
+    pub cuts: Vec<Vec<[DVec2; 2]>>,
+}
+
+/// A piece with its hull and what is allowed.
+#[derive(Debug)]
+pub(crate) struct Candidate<'a> {
+    pub shape: &'a CutShape,
+    pub rotation: Rotation,
+    hull: Vec<DVec2>,
+    /// On every sheet of the stock, the turn at which it fits best.
+    pub poses: Vec<Option<MinBox>>,
+}
+
+/// Finds out on which sheets pieces fit.
+pub(crate) fn candidates<'a>(
+    shapes: &'a [CutShape],
+    sheets: &[StockSheet],
+    params: &SheetParams,
+) -> Vec<Candidate<'a>> {
+    let rotation = |piece: PieceId| params.nest.rotate.0.get(&piece).copied().unwrap_or(params.nest.rotations);
+    let mut all = Vec::with_capacity(shapes.len());
+    for shape in shapes {
+        let (rotation, hull) = (rotation(shape.piece), convex_hull(&shape.outline));
+        let mut poses: Vec<Option<MinBox>> = Vec::with_capacity(sheets.len());
+        for (i, sheet) in sheets.iter().enumerate() {
+            // Sheets of one kind stand together.
+            let same = i > 0 && sheets[i - 1].stock == sheet.stock && sheets[i - 1].outline == sheet.outline;
+            let found = if same { poses[i - 1] } else { pose(&hull, rotation, sheet) };
+            poses.push(found);
+        }
+        all.push(Candidate { shape, rotation, hull, poses });
+    }
+    all
+}
+
+fn pose(hull: &[DVec2], rotation: Rotation, sheet: &StockSheet) -> Option<MinBox> {
+    let bin = sheet.bin();
+    let (room, rounding) = (bin.high - bin.low, sheet.stock.rounding());
+    let fits = |b: &MinBox| b.width <= room.x + rounding && b.height <= room.y + rounding;
+    match rotation.angles() {
+        None => fitting_box(hull, room, rounding),
+        Some(angles) => angles.into_iter().map(|a| box_at(hull, a)).find(fits),
+    }
+}
+
+/// Lays all pieces; each must fit on some sheet.
+pub(crate) fn lay(
+    candidates: &[Candidate<'_>],
+    sheets: &[StockSheet],
+    params: &SheetParams,
+    progress: &dyn Progress,
+) -> Result<Laid, NoPlace> {
+    let effort = f64::from(params.nest.nest_effort) * WORK_OF_EFFORT;
+    let share = ((candidates.len() as f64 + 5.0) / FULL_EFFORT_PIECES).min(1.0);
+    let effort = Effort { seed: params.nest.nest_seed, work: (effort * share) as u64 };
+    if params.nest.guillotine == Guillotine::On {
+        return by_guillotine(candidates, sheets, effort, progress);
+    }
+    let group = |piece: PieceId| params.nest.together.0.iter().position(|g| g.len() > 1 && g.contains(&piece));
+    let pieces = candidates.iter().map(|c| Piece {
+        shape: Shape::new(&c.shape.outline, &c.shape.holes),
+        turns: match c.rotation.angles() {
+            Some(angles) => Turns::Some(angles),
+            None => Turns::Free { home: c.poses.iter().rev().flatten().next().map_or(0.0, |p| p.angle) },
+        },
+        group: group(c.shape.piece),
+        fits: c.poses.iter().map(Option::is_some).collect(),
+    });
+    let problem = Problem {
+        pieces: pieces.collect(),
+        stock: sheets.iter().map(StockSheet::bin).collect(),
+        spacing: sheets[0].stock.spacing,
+    };
+    let is_plain = sheets.len() == 1 && problem.stock[0].obstacles.is_empty() && params.nest.together.0.is_empty();
+    let start = (is_plain && candidates.len() <= MOST_BOXES).then(|| boxes(candidates, &sheets[0]));
+    Ok(Laid { lying: nest(&problem, start, effort, progress)?, cuts: Vec::new() })
+}
+
+/// A first layout of bounding boxes.
+fn boxes(candidates: &[Candidate<'_>], sheet: &StockSheet) -> Vec<Lying> {
+    let stock = &sheet.stock;
+    let poses: Vec<MinBox> = candidates.iter().filter_map(|c| c.poses[0]).collect();
+    // A box with the spacing on two sides, in a room with the spacing on two sides: neighbours keep their distance.
+    let room = stock.usable() + DVec2::splat(stock.spacing);
+    let item = |(c, p): (&Candidate<'_>, &MinBox)| {
+        let grown = DVec2::new(p.width, p.height) + DVec2::splat(stock.spacing);
+        // A box that touches the room may be larger by rounding.
+        let fit = |size: DVec2| (size - DVec2::splat(stock.rounding())).cmple(room).all().then(|| size.min(room));
+        let may_turn = c.rotation.allows(p.angle + 90.0);
+        Item { upright: fit(grown), turned: fit(DVec2::new(grown.y, grown.x)).filter(|_| may_turn) }
+    };
+    let spots = pack(&candidates.iter().zip(&poses).map(item).collect::<Vec<_>>(), room);
+    let lying = |((c, pose), spot): ((&Candidate<'_>, &MinBox), super::super::place::Spot)| {
+        let angle = rounded(pose.angle + if spot.turned { 90.0 } else { 0.0 });
+        Lying { bin: spot.bin, angle, at: put_low(&c.shape.outline, angle, spot.low + DVec2::splat(stock.margin)) }
+    };
+    candidates.iter().zip(&poses).zip(spots).map(lying).collect()
+}
+
+/// Where the frame of an outline lands when its turned box has its lower left corner at `low`.
+fn put_low(outline: &[DVec2], angle: f64, low: DVec2) -> DVec2 {
+    let turn = Turn::degrees(angle);
+    let turned: Vec<DVec2> = outline.iter().map(|&p| turn.apply(p)).collect();
+    low - bounds(&turned).unwrap_or_default().0
+}
+
+fn by_guillotine(
+    candidates: &[Candidate<'_>],
+    sheets: &[StockSheet],
+    effort: Effort,
+    progress: &dyn Progress,
+) -> Result<Laid, NoPlace> {
+    let boxed = |c: &Candidate<'_>| {
+        let angles = match c.rotation.angles() {
+            Some(angles) => angles,
+            None => {
+                let mut angles: Vec<f64> = c.poses.iter().flatten().flat_map(|p| [p.angle, p.angle + 90.0]).collect();
+                angles.sort_by(f64::total_cmp);
+                angles.dedup();
+                angles
+            }
+        };
+        let ways = angles.into_iter().map(|a| {
+            let b = box_at(&c.hull, a);
+            (a, DVec2::new(b.width, b.height) + DVec2::splat(sheets[0].stock.spacing))
+        });
+        Boxed { ways: ways.collect() }
+    };
+    let boxed: Vec<Boxed> = candidates.iter().map(boxed).collect();
+    let (places, cuts) = guillotine(&boxed, sheets, effort, progress)?;
+    let lying = candidates.iter().zip(places).map(|(c, place)| {
+        let angle = rounded(place.angle.rem_euclid(360.0));
+        Lying { bin: place.bin, angle, at: put_low(&c.shape.outline, angle, place.low) }
+    });
+    Ok(Laid { lying: lying.collect(), cuts })
+}
+
+/// The part of the last sheet that is left whole: from the furthest cut and the spacing on to the edge.
+pub(crate) fn offcut(size: DVec2, used: DVec2, spacing: f64) -> Option<[DVec2; 2]> {
+    let axis = if size.x >= size.y { Axis::X } else { Axis::Y };
+    let from = axis.of(used) + spacing;
+    let low = axis.with(DVec2::ZERO, from);
+    (axis.of(size) - from >= 0.05 * axis.of(size)).then_some([low, size])
+}

@@ -1,0 +1,188 @@
+//! The first layout: one piece after the other, the largest first, each as far back on the first sheet as a few hundred
+//! trials find room for it. Pieces of a group go onto one sheet.
+
+use super::chance::Chance;
+use super::field::{Field, Obstacle, Room, Spot};
+use super::search::{Search, Trials, Turns};
+use super::{Bin, NoPlace, Problem};
+use crate::progress::Progress;
+
+/// The bins that have been opened, and which pieces fit in them.
+pub(super) struct Bins<'p> {
+    problem: &'p Problem,
+    pub open: usize,
+    /// For each piece, the bins in which it fits, ascending.
+    pub of: Vec<Vec<usize>>,
+}
+
+impl<'p> Bins<'p> {
+    pub fn new(problem: &'p Problem) -> Self {
+        Self { problem, open: 0, of: vec![Vec::new(); problem.pieces.len()] }
+    }
+
+    pub fn stock(&self, bin: usize) -> usize {
+        bin.min(self.problem.stock.len() - 1)
+    }
+
+    pub fn get(&self, bin: usize) -> &'p Bin {
+        &self.problem.stock[self.stock(bin)]
+    }
+
+    /// Opens one more bin: the limited ones first, then the last as often as needed.
+    pub fn open_next(&mut self, field: &mut Field<'_>) {
+        let stock = self.stock(self.open);
+        let bin = self.get(self.open);
+        let obstacles: Vec<Obstacle> = bin.obstacles.clone();
+        field.add_bin(Room { low: bin.low, high: bin.high }, &obstacles);
+        for (i, piece) in self.problem.pieces.iter().enumerate() {
+            if piece.fits[stock] {
+                self.of[i].push(self.open);
+            }
+        }
+        self.open += 1;
+    }
+}
+
+/// Lays out everything for the first time.
+pub(super) struct Start<'s, 'f, 'a, 'p> {
+    pub field: &'f mut Field<'a>,
+    pub chance: &'f mut Chance,
+    pub bins: &'s mut Bins<'p>,
+    /// Trials for one piece on one sheet.
+    pub trials: usize,
+    pub progress: &'s dyn Progress,
+}
+
+impl Start<'_, '_, '_, '_> {
+    /// Lays every piece somewhere without a collision.
+    pub fn lay_all(&mut self) -> Result<(), NoPlace> {
+        let units = self.units();
+        let total = self.field.pieces;
+        let mut done = 0;
+        // The area of the smallest piece that found no room on a sheet: larger ones are not tried any more.
+        let mut refused: Vec<f64> = Vec::new();
+        for unit in units {
+            self.progress.report("nesting: first layout", done, total);
+            if self.progress.is_cancelled() {
+                self.trials = self.trials.min(8);
+            }
+            let area = self.field.shapes[unit[0]].area;
+            let mut bin = 0;
+            loop {
+                let is_new = bin == self.bins.open;
+                if is_new {
+                    self.bins.open_next(self.field);
+                    refused.push(f64::INFINITY);
+                }
+                if area < refused[bin] && self.lay_unit(&unit, bin) {
+                    break;
+                }
+                if is_new && self.bins.stock(bin) + 1 == self.bins.problem.stock.len() {
+                    return Err(NoPlace { pieces: unit });
+                }
+                refused[bin] = refused[bin].min(area);
+                bin += 1;
+            }
+            done += unit.len();
+        }
+        Ok(())
+    }
+
+    /// Groups and single pieces, the one with the largest piece first.
+    fn units(&self) -> Vec<Vec<usize>> {
+        let mut order: Vec<usize> = (0..self.field.pieces).collect();
+        let shapes = self.field.shapes;
+        order.sort_by(|&a, &b| shapes[b].area.total_cmp(&shapes[a].area).then(a.cmp(&b)));
+        let pieces = &self.bins.problem.pieces;
+        let mut units: Vec<Vec<usize>> = Vec::new();
+        let mut place: std::collections::BTreeMap<usize, usize> = std::collections::BTreeMap::new();
+        for i in order {
+            match pieces[i].group {
+                Some(group) if place.contains_key(&group) => units[place[&group]].push(i),
+                Some(group) => {
+                    place.insert(group, units.len());
+                    units.push(vec![i]);
+                }
+                None => units.push(vec![i]),
+            }
+        }
+        units
+    }
+
+    fn lay_unit(&mut self, unit: &[usize], bin: usize) -> bool {
+        for (k, &i) in unit.iter().enumerate() {
+            let fits = self.bins.of[i].binary_search(&bin).is_ok();
+            let spot = if fits { self.lowest(i, bin) } else { None };
+            let Some(spot) = spot else {
+                unit[..k].iter().for_each(|&j| self.field.take(j));
+                return false;
+            };
+            self.field.put(i, spot);
+        }
+        true
+    }
+
+    /// The place furthest back that is found, without a collision.
+    fn lowest(&mut self, i: usize, bin: usize) -> Option<Spot> {
+        let problem = self.bins.problem;
+        let turns = &problem.pieces[i].turns;
+        let axis = self.bins.get(bin).axis();
+        let only = [bin];
+        let trials = self.trials;
+        let mut search = Search::new(self.field, self.chance, turns, &only, i);
+        let home = match turns {
+            Turns::Free { home } => *home,
+            Turns::Some(angles) => angles[0],
+        };
+        let key = |search: &Search<'_, '_>, spot: Spot| {
+            let far = spot.at + search.high();
+            axis.of(far) + 0.05 * axis.across(far)
+        };
+        let mut best: Option<(f64, Spot)> = None;
+        let offer = |search: &mut Search<'_, '_>, spot: Spot, best: &mut Option<(f64, Spot)>| {
+            // The key is cheap to know before anything is measured.
+            let Some(spot) = search.inside(spot) else { return false };
+            let key = key(search, spot);
+            let better = best.is_none_or(|(least, _)| key < least) && search.is_free(spot);
+            if better {
+                *best = Some((key, spot));
+            }
+            better
+        };
+        let all: Vec<f64> = match turns {
+            Turns::Free { home } => (0..4).map(|k| home + 90.0 * f64::from(k)).collect(),
+            Turns::Some(angles) => angles.clone(),
+        };
+        for angle in all.into_iter().chain([home]) {
+            offer(&mut search, Spot { bin, at: glam::DVec2::NEG_INFINITY, angle }, &mut best);
+        }
+        for _ in 0..trials {
+            let spot = search.anywhere();
+            offer(&mut search, spot, &mut best);
+        }
+        for (low, high) in search.holes(bin) {
+            for _ in 0..4 {
+                let spot = search.within(bin, low, high);
+                offer(&mut search, spot, &mut best);
+            }
+        }
+        if best.is_none() {
+            // Nothing by luck: from the least bad places step by step.
+            let many = Trials { anywhere: trials / 2 + 4, near: 0 };
+            best = search.best(many, None, f64::INFINITY).filter(|f| f.loss == 0.0).map(|f| (f64::INFINITY, f.spot));
+        }
+        let (_, mut spot) = best?;
+        let diameter = search.field.shapes[i].diameter;
+        let mut step = diameter;
+        while step > 1e-3 * diameter {
+            let moved = [axis.unit() + axis.other().unit(), axis.unit(), axis.other().unit()]
+                .into_iter()
+                .any(|way| offer(&mut search, Spot { at: spot.at - way * step, ..spot }, &mut best));
+            match best {
+                Some((_, better)) if moved => spot = better,
+                _ => step *= 0.5,
+            }
+        }
+        Some(spot)
+    }
+}

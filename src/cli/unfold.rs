@@ -9,7 +9,10 @@ use super::input::Input;
 use super::output::{command_line, model_text, short};
 use super::terminal::Terminal;
 use super::{Console, Outcome};
-use crate::recipe::{FabricateParams, Fabrication, StepFailure, fabricate, fabrication_outputs, with_material};
+use crate::picture::RenderParams;
+use crate::recipe::{
+    FabricateParams, Fabrication, ShowParams, StepFailure, fabricate, fabrication_outputs, show_outputs, with_material,
+};
 use crate::sheet::SheetParams;
 use crate::unfold::{Source, UnfoldParams};
 
@@ -25,6 +28,8 @@ pub(super) struct UnfoldArgs {
     choice: FabricateParams,
     #[command(flatten)]
     sheet: SheetParams,
+    #[command(flatten)]
+    show: ShowParams,
     /// The folder for pieces.json, layout.json and the sheets; made if it is missing
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
@@ -37,7 +42,10 @@ pub(super) fn run(args: &UnfoldArgs, console: &Console) -> Result<Outcome, CliEr
     let source = Source { scale: read.scale, split_vertices: &read.splits };
     let fabrication = fabricate(&read.mesh, None, (&args.unfold, &args.choice, &sheet), &source, &progress)?;
     let command = command_line();
-    let written = Console::write_folder(&args.output, fabrication_outputs(&fabrication, &sheet, &command)?)?;
+    let mut outputs = fabrication_outputs(&fabrication, &sheet, &command)?;
+    let show = args.show.from_here();
+    outputs.extend(show_outputs(&fabrication, &read.mesh, &show, &RenderParams::default(), &command)?);
+    let written = Console::write_folder(&args.output, outputs)?;
     let notes: Vec<String> = read.notes.iter().map(ToString::to_string).chain(fabrication.notes()).collect();
     if console.json {
         let summary = json!({ "command": command, "written": written, "notes": notes, "fabrication": summary_json(&fabrication, &sheet) });

@@ -6,6 +6,7 @@ use super::materials::MaterialError;
 use crate::check::CheckError;
 use crate::io::IoError;
 use crate::io::planes_csv::PlanesError;
+use crate::mesh::BuildError;
 use crate::op::OpError;
 use crate::picture::PictureError;
 use crate::seam::SeamError;
@@ -136,6 +137,9 @@ pub enum StepFailure {
     /// The material could not be taken.
     #[error(transparent)]
     Material(#[from] MaterialError),
+    /// A state of folding is no mesh.
+    #[error("the pieces cannot be drawn while they fold: {0}; unfold the mesh again")]
+    State(BuildError),
     /// The picture could not be drawn.
     #[error(transparent)]
     Picture(#[from] PictureError),

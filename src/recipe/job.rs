@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use super::{
-    DformParams, FabricateParams, Fabrication, Recipe, Step, StepError, StepFailure, carve_dform, fabricate,
-    solid_of_planes, with_material,
+    DformParams, FabricateParams, Fabrication, Recipe, ShowParams, Step, StepError, StepFailure, carve_dform,
+    fabricate, solid_of_planes, with_material,
 };
 use crate::check::{CheckParams, Report, check};
 use crate::io::{ReadMesh, read_mesh};
@@ -35,6 +35,8 @@ pub struct Job {
     pub check: CheckParams,
     /// Whether the recipe asked for a check, so that findings count.
     pub is_check_asked: bool,
+    /// What is made to be looked at, once unfolded.
+    pub show: ShowParams,
     /// Pieces and sheets, once unfolded, with how the sheets are drawn.
     pub fabrication: Option<(Fabrication, SheetParams)>,
 }
@@ -116,9 +118,13 @@ impl Job {
             }
             Step::Check(params) => (self.check, self.is_check_asked) = (params.clone(), true),
             Step::Render(params) => self.render = params.clone(),
-            Step::Dform { dform, sheet } => self.dform(dform, &with_material(sheet, folder)?, progress)?,
-            Step::Unfold { unfold, fabricate, sheet } => {
-                self.unfold(unfold, fabricate, &with_material(sheet, folder)?, folder, progress)?
+            Step::Dform { dform, sheet, show } => {
+                self.show = show.clone();
+                self.dform(dform, &with_material(sheet, folder)?, progress)?;
+            }
+            Step::Unfold { unfold, fabricate, sheet, show } => {
+                self.show = show.clone();
+                self.unfold(unfold, fabricate, &with_material(sheet, folder)?, folder, progress)?;
             }
         }
         Ok(())

@@ -15,6 +15,7 @@ mod outputs;
 mod parse;
 mod planes;
 mod seam_choice;
+mod show;
 
 #[cfg(test)]
 mod tests;
@@ -32,6 +33,7 @@ pub use materials::{MaterialError, material, with_material};
 pub use outputs::{fabrication_outputs, job_outputs, sheet_picture};
 pub use planes::{PlanesStep, solid_of_planes};
 pub use seam_choice::SeamChoice;
+pub use show::{AnimationFile, AnimationFileError, AssemblyForm, ShowParams, show_outputs};
 
 use crate::check::CheckParams;
 use crate::io::ReadOptions;
@@ -94,6 +96,8 @@ pub enum Step {
         fabricate: FabricateParams,
         /// Where the pieces go.
         sheet: SheetParams,
+        /// What is made to be looked at.
+        show: ShowParams,
     },
     /// `dform = "hamiltonian"`: carves the folds of a D-form and unfolds it.
     Dform {
@@ -101,6 +105,8 @@ pub enum Step {
         dform: DformParams,
         /// Where the pieces go.
         sheet: SheetParams,
+        /// What is made to be looked at.
+        show: ShowParams,
     },
     /// `render = "iso"`: how the picture of the model looks.
     Render(RenderParams),

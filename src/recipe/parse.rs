@@ -11,7 +11,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::{Position, RecipeError};
-use super::{DformParams, FabricateParams, PlanesStep, ReadStep, Recipe, Step};
+use super::{DformParams, FabricateParams, PlanesStep, ReadStep, Recipe, ShowParams, Step};
 use crate::check::CheckParams;
 use crate::op::{HullParams, ResolveParams, SliceParams, TruncateEdge, TruncateFace, TruncateVertex};
 use crate::picture::RenderParams;
@@ -171,15 +171,22 @@ impl StepFields<'_> {
     }
 
     fn unfold(&self) -> Result<Step, RecipeError> {
-        let known =
-            [field_names::<UnfoldParams>(), field_names::<FabricateParams>(), field_names::<SheetParams>()].concat();
+        let known = [
+            field_names::<UnfoldParams>(),
+            field_names::<FabricateParams>(),
+            field_names::<SheetParams>(),
+            field_names::<ShowParams>(),
+        ]
+        .concat();
         self.check_keys(&known)?;
-        Ok(Step::Unfold { unfold: self.read()?, fabricate: self.read()?, sheet: self.read()? })
+        Ok(Step::Unfold { unfold: self.read()?, fabricate: self.read()?, sheet: self.read()?, show: self.read()? })
     }
 
     fn dform(&self) -> Result<Step, RecipeError> {
-        self.check_keys(&[field_names::<DformParams>(), field_names::<SheetParams>()].concat())?;
-        Ok(Step::Dform { dform: self.read()?, sheet: self.read()? })
+        self.check_keys(
+            &[field_names::<DformParams>(), field_names::<SheetParams>(), field_names::<ShowParams>()].concat(),
+        )?;
+        Ok(Step::Dform { dform: self.read()?, sheet: self.read()?, show: self.read()? })
     }
 
     fn check_keys(&self, known: &[String]) -> Result<(), RecipeError> {

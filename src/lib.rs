@@ -14,6 +14,7 @@ pub mod seam;
 pub mod select;
 pub mod shape;
 
+pub mod bloom;
 pub mod check;
 pub mod op;
 pub mod panel;

@@ -102,6 +102,7 @@ const READERS: &[(&[&str], &str)] = &[
     (&["subdivide", "doo-sabin", "IN", "--rounds", "2", "-o", "OUT"], "out.obj"),
     (&["planarize", "IN", "-o", "OUT"], "out.obj"),
     (&["unfold", "IN", "--sheet", "600x400", "-o", "OUT"], "out"),
+    (&["unfold", "IN", "--sheet", "none", "--assembly", "pictures", "-o", "OUT"], "shown"),
     (&["seams", "IN"], ""),
     (&["dform", "IN", "--rounds", "1", "-o", "OUT"], "out"),
     (&["panels", "IN", "--thickness", "2mm", "--gap", "1mm", "-o", "OUT"], "panels"),
@@ -358,6 +359,8 @@ fn mistyped_arguments_are_exit_code_2() {
         (&["unfold", "x.obj"], "--output"),
         (&["solid", "dodecahedrn", "-o", "x.obj"], "dodecahedron"),
         (&["render", "fixtures/meshes/cube.obj", "-o", "x.jpg"], ".png"),
+        (&["unfold", "fixtures/meshes/cube.obj", "--animate", "x.gltf", "-o", "x"], "something.glb"),
+        (&["unfold", "fixtures/meshes/cube.obj", "--joint", "tabs", "-o", "x"], "thickness"),
         (&["check", "fixtures/meshes/cube.obj", "--report", "x.txt"], ".json"),
         (&["cut", "edge", "fixtures/meshes/cube.obj", "--select", "hamiltonain", "-o", "x.obj"], "hamiltonian"),
     ];
@@ -404,6 +407,39 @@ fn recipe_errors_name_line_column_and_the_nearest_word() {
         assert!(ran.err.contains(message), "{}", ran.err);
     }
     assert_eq!(folder.contents(), []);
+}
+
+#[test]
+fn animations_are_written_where_they_are_named_or_nothing_is() {
+    let folder = Folder::new("animate");
+    let model = good_model(&folder);
+    for (name, start) in [("bloom.glb", &b"glTF"[..]), ("bloom.png", &b"\x89PNG"[..])] {
+        let file = folder.path(name);
+        let ran = run(&["unfold", &model, "--animate", &file, "-o", &folder.path("out"), "--json"]);
+        assert_eq!(ran.code, Some(0), "{}", ran.err);
+        assert!(ran.out.contains(name), "{}", ran.out);
+        assert!(fs::read(&file).expect("the animation").starts_with(start), "{name}");
+    }
+    let recipe = folder.path("recipe.toml");
+    let text = "[[step]]\nsolid = \"cube\"\nsize = \"80mm\"\n\n[[step]]\nunfold = \"one\"\nanimate = \"up.glb\"\n\
+        assembly = \"pictures\"\njoint = \"tabs\"\nthickness = 3\nsubstitute = \"mitre\"\n";
+    fs::write(&recipe, text).expect("a recipe");
+    for out in ["first", "second"] {
+        let ran = run(&["run", &recipe, "-o", &folder.path(out)]);
+        assert_eq!(ran.code, Some(0), "{}", ran.err);
+    }
+    for name in ["up.glb", "assembly-01.png", "assembly.txt"] {
+        let [first, second] = ["first", "second"].map(|out| fs::read(folder.path(&format!("{out}/{name}"))));
+        let (first, second) = (first.expect(name), second.expect(name));
+        // The command in the file names its folder.
+        assert!(first.len() > 100 && (name != "assembly-01.png" || first == second), "{name}");
+    }
+    fs::write(folder.path("wall"), "a file where a folder should be").expect("a file");
+    let before = folder.contents();
+    let ran = run(&["unfold", &model, "--animate", &folder.path("wall/x.glb"), "-o", &folder.path("new")]);
+    assert_eq!(ran.code, Some(2));
+    assert!(ran.err.contains("wall"), "{}", ran.err);
+    assert_eq!(folder.contents(), before);
 }
 
 const TWO_PIECES: &str = "fixtures/recipes/two-piece-d-form.toml";

@@ -42,12 +42,13 @@ const ROOMS: &[Room] = &[
     room(3, "panel", &["geom", "units", "mesh", "measure", "net", "progress"]),
     room(3, "sheet", &["geom", "units", "net", "progress"]),
     room(3, "lint", &["geom", "units"]),
+    room(3, "bloom", &["geom", "mesh", "net"]),
     room(
         4,
         "io",
         &[
             "geom", "units", "progress", "mesh", "net", "measure", "seam", "select", "check", "unfold", "panel",
-            "sheet", "lint",
+            "sheet", "lint", "bloom",
         ],
     ),
     room(4, "picture", &["geom", "units", "mesh", "measure", "net", "sheet"]),
@@ -56,7 +57,7 @@ const ROOMS: &[Room] = &[
         "recipe",
         &[
             "geom", "units", "progress", "mesh", "net", "measure", "shape", "seam", "select", "check", "op", "unfold",
-            "panel", "sheet", "lint", "io", "picture",
+            "panel", "sheet", "lint", "bloom", "io", "picture",
         ],
     ),
     room(
@@ -64,7 +65,7 @@ const ROOMS: &[Room] = &[
         "cli",
         &[
             "geom", "units", "progress", "mesh", "net", "measure", "shape", "seam", "select", "check", "op", "unfold",
-            "panel", "sheet", "lint", "io", "picture", "recipe",
+            "panel", "sheet", "lint", "bloom", "io", "picture", "recipe",
         ],
     ),
 ];

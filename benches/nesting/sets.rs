@@ -5,7 +5,6 @@ use glam::DVec2;
 /// Pieces and the sheets that they are to be laid on.
 #[derive(Debug, Clone)]
 pub struct Set {
-    pub name: &'static str,
     pub sheet: DVec2,
     /// Area of the pieces in sheets: no layout can be better.
     pub bound: f64,
@@ -40,7 +39,7 @@ pub fn set(name: &'static str, seed: u64) -> Set {
     let mut pieces: Vec<Vec<DVec2>> = (0..count).map(|_| make(&mut dice)).collect();
     let area: f64 = pieces.iter().map(|p| area(p)).sum::<f64>() / (sheet.x * sheet.y);
     pieces.iter_mut().flatten().for_each(|p| *p *= (bound / area).sqrt());
-    Set { name, sheet, bound, pieces }
+    Set { sheet, bound, pieces }
 }
 
 pub fn area(contour: &[DVec2]) -> f64 {

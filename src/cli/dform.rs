@@ -7,7 +7,7 @@ use super::run::finish;
 use super::terminal::Terminal;
 use super::{Console, Outcome};
 use crate::io::ReadOptions;
-use crate::recipe::{DformParams, Job, ReadStep, Recipe, Step};
+use crate::recipe::{DformParams, Job, ReadStep, Recipe, ShowParams, Step};
 use crate::shape::{ShapeError, SolidName, SolidParams};
 use crate::sheet::SheetParams;
 
@@ -24,13 +24,15 @@ pub(super) struct DformArgs {
     dform: DformParams,
     #[command(flatten)]
     sheet: SheetParams,
+    #[command(flatten)]
+    show: ShowParams,
     /// The folder for model, picture, report, pieces and sheets; made if it is missing
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
 }
 
 pub(super) fn run(args: &DformArgs, console: &Console) -> Result<Outcome, CliError> {
-    let dform = Step::Dform { dform: args.dform.clone(), sheet: args.sheet.clone() };
+    let dform = Step::Dform { dform: args.dform.clone(), sheet: args.sheet.clone(), show: args.show.from_here() };
     let recipe = Recipe { name: None, steps: vec![args.start()?, dform] };
     let job = Job::run(&recipe, Path::new(""), &Terminal::new(console.quiet)).map_err(|error| *error.cause)?;
     finish(&job, None, &args.output, console)

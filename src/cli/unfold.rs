@@ -9,8 +9,11 @@ use super::input::Input;
 use super::output::{command_line, model_text, short};
 use super::terminal::Terminal;
 use super::{Console, Outcome};
+use crate::picture::RenderParams;
 use crate::progress::Progress;
-use crate::recipe::{FabricateParams, Fabrication, StepFailure, fabricate, fabrication_outputs, with_material};
+use crate::recipe::{
+    FabricateParams, Fabrication, ShowParams, StepFailure, fabricate, fabrication_outputs, show_outputs, with_material,
+};
 use crate::sheet::SheetParams;
 use crate::unfold::{Source, UnfoldParams};
 
@@ -26,6 +29,8 @@ pub(super) struct UnfoldArgs {
     choice: FabricateParams,
     #[command(flatten)]
     sheet: SheetParams,
+    #[command(flatten)]
+    show: ShowParams,
     /// The folder for pieces.json, layout.json and the sheets; made if it is missing
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
@@ -38,7 +43,10 @@ pub(super) fn run(args: &UnfoldArgs, console: &Console) -> Result<Outcome, CliEr
     let source = Source { scale: read.scale, split_vertices: &read.splits };
     let fabrication = fabricate(&read.mesh, None, (&args.unfold, &args.choice, &sheet), &source, &progress)?;
     let command = command_line();
-    let written = Console::write_folder(&args.output, fabrication_outputs(&fabrication, &sheet, &command)?)?;
+    let mut outputs = fabrication_outputs(&fabrication, &sheet, &command)?;
+    let show = args.show.from_here();
+    outputs.extend(show_outputs(&fabrication, &read.mesh, &show, &RenderParams::default(), &command)?);
+    let written = Console::write_folder(&args.output, outputs)?;
     let stopped = progress.is_cancelled().then(|| "stopped on request; the files hold the best net so far".to_owned());
     let notes: Vec<String> =
         read.notes.iter().map(ToString::to_string).chain(fabrication.notes()).chain(stopped).collect();

@@ -3,6 +3,7 @@
 //! [`read_mesh`] reads OBJ, PLY, STL and OFF, [`write_mesh`] writes them; `-` is standard input or output and means OBJ.
 //! Everything that kerfold writes goes through [`output`], so that a file is whole or not there.
 
+pub mod bloom_glb;
 pub mod dxf;
 mod error;
 mod format;

@@ -82,6 +82,22 @@ pub struct FlatFace {
     pub polygon: Vec<DVec2>,
 }
 
+impl FlatFace {
+    /// A side's segment in the direction in which the face runs, counter-clockwise; `segment` runs from the vertex `edge[0]`
+    /// to `edge[1]`. Nothing when these are no side of the face.
+    pub fn side(&self, edge: [usize; 2], segment: Segment) -> Option<Segment> {
+        let n = self.vertices.len();
+        let runs = |from, to| (0..n).any(|i| self.vertices[i] == from && self.vertices[(i + 1) % n] == to);
+        if runs(edge[0], edge[1]) {
+            Some(segment)
+        } else if runs(edge[1], edge[0]) {
+            Some([segment[1], segment[0]])
+        } else {
+            None
+        }
+    }
+}
+
 /// Two points of a piece's frame.
 pub type Segment = [DVec2; 2];
 

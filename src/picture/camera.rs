@@ -28,32 +28,33 @@ pub(super) struct Camera {
 }
 
 impl Camera {
-    /// A camera that sees the whole model as large as the window allows.
-    pub fn fitted(mesh: &Mesh, params: &RenderParams, window: Window) -> Result<Self, PictureError> {
+    /// A camera that sees all of some models as large as the window allows.
+    pub fn fitted(meshes: &[&Mesh], params: &RenderParams, window: Window) -> Result<Self, PictureError> {
         let axes = params.axes()?;
-        for v in mesh.vertices() {
+        for (mesh, v) in meshes.iter().flat_map(|mesh| mesh.vertices().map(move |v| (mesh, v))) {
             // Half of the largest number, so that differences stay finite.
             let p = mesh.position(v);
             if !p.is_finite() || p.abs().max_element() > f64::MAX / 4.0 {
                 return Err(PictureError::VertexTooFar { vertex: v, x: p.x, y: p.y, z: p.z });
             }
         }
-        let (low, high) = mesh.bounds().ok_or(PictureError::NoFaces)?;
+        let bounds = meshes.iter().filter_map(|mesh| mesh.bounds());
+        let (low, high) = bounds.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).ok_or(PictureError::NoFaces)?;
         let centre = low.midpoint(high);
         let extent = (high - low).max_element();
         // Half the diagonal, without squaring what could overflow.
         let radius = if extent > 0.0 { ((high - low) / extent).length() / 2.0 * extent } else { 1.0 };
         let eye_distance = if params.projection == Projection::Perspective { EYE_DISTANCE } else { f64::INFINITY };
         let mut camera = Self { axes, centre, radius, eye_distance, scale: 1.0, shift: DVec2::ZERO };
-        camera.fit(mesh, window);
+        camera.fit(meshes, window);
         Ok(camera)
     }
 
-    fn fit(&mut self, mesh: &Mesh, window: Window) {
+    fn fit(&mut self, meshes: &[&Mesh], window: Window) {
         let mut low = DVec2::INFINITY;
         let mut high = DVec2::NEG_INFINITY;
-        for v in mesh.vertices() {
-            let p = self.project(mesh.position(v)).truncate();
+        for p in meshes.iter().flat_map(|mesh| mesh.vertices().map(|v| mesh.position(v))) {
+            let p = self.project(p).truncate();
             (low, high) = (low.min(p), high.max(p));
         }
         let (room, size) = (window.high - window.low, high - low);
@@ -92,7 +93,7 @@ mod tests {
         let window = Window { low: DVec2::new(10.0, 20.0), high: DVec2::new(410.0, 320.0) };
         for (size, place) in [(1.0, 0.0), (1e-9, 0.0), (1e5, 1e9), (1e-140, 0.0), (1e140, 0.0)] {
             let mesh = cuboid(DVec3::splat(place), DVec3::splat(size) + place);
-            let camera = Camera::fitted(&mesh, &RenderParams::default(), window).expect("a camera");
+            let camera = Camera::fitted(&[&mesh], &RenderParams::default(), window).expect("a camera");
             let points: Vec<DVec2> = mesh.vertices().map(|v| camera.project(mesh.position(v)).truncate()).collect();
             let (low, high) = crate::geom::polygon::bounds(&points).expect("points");
             assert!((high - low).y - 300.0 < 1e-6 && (300.0 - (high - low).y) < 1e-3, "{size}: {low} {high}");
@@ -104,7 +105,7 @@ mod tests {
     fn planes_stay_planes_and_nearer_is_larger() {
         let window = Window { low: DVec2::ZERO, high: DVec2::splat(100.0) };
         let mesh = cuboid(DVec3::ZERO, DVec3::ONE);
-        let camera = Camera::fitted(&mesh, &RenderParams::default(), window).expect("a camera");
+        let camera = Camera::fitted(&[&mesh], &RenderParams::default(), window).expect("a camera");
         let [a, b, c] = [DVec3::ZERO, DVec3::X, DVec3::new(0.0, 0.6, 0.8)].map(|p| camera.project(p));
         let d = camera.project(DVec3::new(0.3, 0.3, 0.4));
         assert!((d - a).dot((b - a).cross(c - a)).abs() < 1e-6);

@@ -14,10 +14,12 @@ mod paint;
 mod params;
 mod scene;
 mod sheet;
+mod strip;
 
 pub use model::render_model;
 pub use params::{Colour, EdgeLines, Projection, RenderParams, UpAxis, View, ViewError};
 pub use sheet::{Polyline, StrokeLayer, Strokes, render_sheet};
+pub use strip::{Cell, render_strip};
 
 use tiny_skia::Pixmap;
 

@@ -35,18 +35,22 @@ pub fn render_model(mesh: &Mesh, params: &RenderParams) -> Result<Picture, Pictu
     }
     let (legend, colours) = colours(mesh, params.colour);
     let legend = legend.filter(|_| width.min(height) >= 160);
-    let camera = Camera::fitted(mesh, params, window(width, height, legend.is_some()))?;
+    let camera = Camera::fitted(&[mesh], params, window(width, height, legend.is_some()))?;
     let scene = Scene::new(mesh, params, &camera, &colours);
-    let workers = std::thread::available_parallelism().map_or(1, usize::from).min(8);
-    draw(&mut pixmap, mesh, &scene, Division { workers, rows: BAND_ROWS });
+    draw(&mut pixmap, mesh, &scene, Division { workers: workers(), rows: BAND_ROWS });
     if let Some(legend) = legend {
         legend.draw(&mut pixmap);
     }
     Ok(Picture { pixmap })
 }
 
+/// The number of threads for a picture.
+pub(super) fn workers() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from).min(8)
+}
+
 /// The part of the picture for the model, beside the legend.
-fn window(width: u32, height: u32, has_legend: bool) -> Window {
+pub(super) fn window(width: u32, height: u32, has_legend: bool) -> Window {
     let size = DVec2::new(f64::from(width), f64::from(height));
     let margin = DVec2::splat(size.min_element() * MARGIN);
     let beside = DVec2::new(if has_legend { Legend::width(width, height) } else { 0.0 }, 0.0);
@@ -54,7 +58,7 @@ fn window(width: u32, height: u32, has_legend: bool) -> Window {
 }
 
 /// The legend and the colour of each face.
-fn colours(mesh: &Mesh, colour: Colour) -> (Option<Legend>, FaceMap<[u8; 3]>) {
+pub(super) fn colours(mesh: &Mesh, colour: Colour) -> (Option<Legend>, FaceMap<[u8; 3]>) {
     let mut colours = FaceMap::filled(mesh.face_slots(), paint::FRONT);
     match colour {
         Colour::Faces => (None, colours),
@@ -99,15 +103,15 @@ fn deviation(mesh: &Mesh, f: FaceId) -> f64 {
 
 /// How the work is divided; the picture does not depend on it.
 #[derive(Clone, Copy)]
-struct Division {
+pub(super) struct Division {
     /// Number of threads.
-    workers: usize,
+    pub workers: usize,
     /// Rows of a band, in pixels.
-    rows: usize,
+    pub rows: usize,
 }
 
 /// Draws the bands, each by one of the threads: its pixels depend on nothing but the scene.
-fn draw(pixmap: &mut Pixmap, mesh: &Mesh, scene: &Scene, division: Division) {
+pub(super) fn draw(pixmap: &mut Pixmap, mesh: &Mesh, scene: &Scene, division: Division) {
     let (width, height) = (pixmap.width() as usize, pixmap.height() as usize);
     let Division { workers, rows } = division;
     let bands = pixmap.data_mut().chunks_mut(width * 4 * rows).enumerate();
@@ -301,7 +305,7 @@ pub(super) mod tests {
         let (ring, params) = (torus(20, 9), RenderParams { colour: Colour::Valence, ..small() });
         let picture = render(&ring, &params);
         assert_eq!(picture.to_png(), render(&ring, &params).to_png());
-        let camera = Camera::fitted(&ring, &params, window(240, 180, true)).expect("a camera");
+        let camera = Camera::fitted(&[&ring], &params, window(240, 180, true)).expect("a camera");
         let (legend, colours) = colours(&ring, params.colour);
         let scene = Scene::new(&ring, &params, &camera, &colours);
         for (workers, rows) in [(1, 64), (3, 17), (7, 1), (2, 500)] {

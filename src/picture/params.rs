@@ -205,6 +205,14 @@ impl RenderParams {
         (self.width, self.height.unwrap_or(three_quarters))
     }
 
+    /// The direction from the model to the eye, of unit length, in the model's axes.
+    ///
+    /// # Errors
+    /// [`PictureError::NoDirection`].
+    pub fn eye(&self) -> Result<DVec3, PictureError> {
+        self.axes().map(|[_, _, eye]| eye)
+    }
+
     /// Unit vectors in the model's axes: to the right, up, and towards the eye.
     pub(super) fn axes(&self) -> Result<[DVec3; 3], PictureError> {
         let (direction, upright) = match self.view {

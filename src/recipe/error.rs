@@ -7,6 +7,7 @@ use super::panels::PanelOptionError;
 use crate::check::CheckError;
 use crate::io::IoError;
 use crate::io::planes_csv::PlanesError;
+use crate::mesh::BuildError;
 use crate::op::OpError;
 use crate::panel::PanelError;
 use crate::picture::PictureError;
@@ -147,6 +148,9 @@ pub enum StepFailure {
     /// Options of panels that do not fit together.
     #[error(transparent)]
     PanelOption(#[from] PanelOptionError),
+    /// A state of folding is no mesh.
+    #[error("the pieces cannot be drawn while they fold: {0}; unfold the mesh again")]
+    State(BuildError),
     /// The picture could not be drawn.
     #[error(transparent)]
     Picture(#[from] PictureError),

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::{
-    DformParams, FabricateParams, Fabrication, OperatorStep, PanelFiles, Panelled, Recipe, Step, StepError,
+    DformParams, FabricateParams, Fabrication, OperatorStep, PanelFiles, Panelled, Recipe, ShowParams, Step, StepError,
     StepFailure, carve_dform, fabricate, nest_files, panel_model, solid_of_planes, with_material,
 };
 use crate::check::{CheckParams, Report, check};
@@ -33,6 +33,8 @@ pub struct Job {
     pub check: CheckParams,
     /// Whether the recipe asked for a check, so that findings count.
     pub is_check_asked: bool,
+    /// What is made to be looked at, once unfolded.
+    pub show: ShowParams,
     /// Pieces and sheets, once unfolded, with how the sheets are drawn.
     pub fabrication: Option<(Fabrication, SheetParams)>,
     /// Plates, once panelled, with how their sheets are drawn.
@@ -111,9 +113,13 @@ impl Job {
             }
             Step::Check(params) => (self.check, self.is_check_asked) = (params.clone(), true),
             Step::Render(params) => self.render = params.clone(),
-            Step::Dform { dform, sheet } => self.dform(dform, &with_material(sheet, folder)?, progress)?,
-            Step::Unfold { unfold, fabricate, sheet } => {
-                self.unfold(unfold, fabricate, &with_material(sheet, folder)?, folder, progress)?
+            Step::Dform { dform, sheet, show } => {
+                self.show = show.clone();
+                self.dform(dform, &with_material(sheet, folder)?, progress)?;
+            }
+            Step::Unfold { unfold, fabricate, sheet, show } => {
+                self.show = show.clone();
+                self.unfold(unfold, fabricate, &with_material(sheet, folder)?, folder, progress)?;
             }
             Step::Panels { panels, files, sheet } => {
                 self.panels(panels, files, &with_material(sheet, folder)?, progress)?

@@ -17,6 +17,7 @@ mod panels;
 mod parse;
 mod planes;
 mod seam_choice;
+mod show;
 
 #[cfg(test)]
 mod tests;
@@ -37,6 +38,7 @@ pub use outputs::{fabrication_outputs, job_outputs, sheet_picture};
 pub use panels::{PanelFiles, PanelOptionError, Panelled, SolidFile, panel_model, panel_outputs};
 pub use planes::{PlanesStep, solid_of_planes};
 pub use seam_choice::SeamChoice;
+pub use show::{AnimationFile, AnimationFileError, AssemblyForm, ShowParams, show_outputs};
 
 use crate::check::CheckParams;
 use crate::io::ReadOptions;
@@ -101,6 +103,8 @@ pub enum Step {
         fabricate: FabricateParams,
         /// Where the pieces go.
         sheet: SheetParams,
+        /// What is made to be looked at.
+        show: ShowParams,
     },
     /// `dform = "hamiltonian"`: carves the folds of a D-form and unfolds it.
     Dform {
@@ -108,6 +112,8 @@ pub enum Step {
         dform: DformParams,
         /// Where the pieces go.
         sheet: SheetParams,
+        /// What is made to be looked at.
+        show: ShowParams,
     },
     /// `panels = "out"`: every face becomes a plate.
     Panels {

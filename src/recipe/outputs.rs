@@ -1,7 +1,7 @@
 //! What a job leaves in its folder, as names and bytes; nothing is written here.
 
 use super::fabricate::piece_list;
-use super::{Fabrication, Job, StepFailure, panel_outputs};
+use super::{Fabrication, Job, StepFailure, panel_outputs, show_outputs};
 use crate::io::layout_json::write_order_layout_json;
 use crate::io::pieces_json::write_pieces_json;
 use crate::io::report_json::check_json;
@@ -43,6 +43,9 @@ pub fn job_outputs(job: &Job, command: &str) -> Result<Vec<Output>, StepFailure>
             let picture = sheet_picture(drawing, job.render.width)?;
             outputs.push((format!("{}.png", drawing.file_stem()), picture));
         }
+    }
+    if let Some(((fabrication, _), mesh)) = job.fabrication.as_ref().zip(job.mesh().ok()) {
+        outputs.extend(show_outputs(fabrication, mesh, &job.show, &job.render, command)?);
     }
     Ok(outputs)
 }
@@ -144,24 +147,41 @@ fn joint_notes(joints: &JointReport) -> Vec<String> {
     if joints.fingered > 0 {
         notes.push(format!("{} seams have fingers", joints.fingered));
     }
+    if joints.tabbed > 0 {
+        notes.push(format!("{} seams have tabs and slots", joints.tabbed));
+    }
+    let substitute = if joints.mitred.is_empty() { "they are stitched" } else { "they are left to be mitred" };
     for (why, words) in [
-        (Fallback::Shallow, "too shallow for fingers (dihedral angle above 140°)"),
-        (Fallback::Sharp, "too sharp for fingers (dihedral angle below 30°)"),
-        (Fallback::Concave, "concave, where fingers cannot meet"),
-        (Fallback::Short, "too short for two fingers"),
-        (Fallback::Narrow, "beside faces too narrow for notches"),
+        (Fallback::Shallow, "too shallow for fingers or tabs (dihedral angle above 140°)"),
+        (Fallback::Sharp, "too sharp for fingers or tabs (dihedral angle below 30°)"),
+        (Fallback::Concave, "concave, where fingers and tabs cannot meet"),
+        (Fallback::Short, "too short for fingers or a tab"),
+        (Fallback::Narrow, "beside faces too narrow for notches, tabs or slots"),
     ] {
         let seams: Vec<EdgeLabel> = joints.fallbacks.iter().filter(|f| f.1 == why).map(|f| f.0).collect();
         if !seams.is_empty() {
             let count = seams.len();
-            notes.push(format!("{count} seams are {words}; they are stitched: {}", edge_list(&seams)));
+            notes.push(format!("{count} seams are {words}; {substitute}: {}", edge_list(&seams)));
         }
     }
+    notes.extend(mitre_note(&joints.mitred));
     if joints.hole_pairs + joints.lost_hole_pairs > 0 {
         let (made, lost) = (joints.hole_pairs, joints.lost_hole_pairs);
         notes.push(format!("{made} pairs of holes; {lost} more had no room on both sides"));
     }
     notes
+}
+
+/// What to take off the square edges of mitred seams, one angle after the other.
+fn mitre_note(mitred: &[(EdgeLabel, f64)]) -> Option<String> {
+    let mut by_angle: std::collections::BTreeMap<i64, Vec<EdgeLabel>> = std::collections::BTreeMap::new();
+    for &(edge, degrees) in mitred {
+        by_angle.entry((10.0 * degrees).round() as i64).or_default().push(edge);
+    }
+    let angle =
+        |(tenths, edges): (&i64, &Vec<EdgeLabel>)| format!("{}° at {}", *tenths as f64 / 10.0, edge_list(edges));
+    let angles: Vec<String> = by_angle.iter().map(angle).collect();
+    (!angles.is_empty()).then(|| format!("mitre, off the square edge of either side: {}", angles.join("; ")))
 }
 
 /// The first names of a list of edges.

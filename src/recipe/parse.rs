@@ -12,7 +12,9 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::{Position, RecipeError};
-use super::{DformParams, FabricateParams, NestStep, OperatorStep, PanelFiles, PlanesStep, ReadStep, Recipe, Step};
+use super::{
+    DformParams, FabricateParams, NestStep, OperatorStep, PanelFiles, PlanesStep, ReadStep, Recipe, ShowParams, Step,
+};
 use crate::check::CheckParams;
 use crate::op::{
     HullParams, Operate, PlanarizeParams, ResolveParams, SliceParams, SubdivideParams, TruncateEdge, TruncateFace,
@@ -191,15 +193,22 @@ impl StepFields<'_> {
     }
 
     fn unfold(&self) -> Result<Step, RecipeError> {
-        let known =
-            [field_names::<UnfoldParams>(), field_names::<FabricateParams>(), field_names::<SheetParams>()].concat();
+        let known = [
+            field_names::<UnfoldParams>(),
+            field_names::<FabricateParams>(),
+            field_names::<SheetParams>(),
+            field_names::<ShowParams>(),
+        ]
+        .concat();
         self.check_keys(&known)?;
-        Ok(Step::Unfold { unfold: self.read()?, fabricate: self.read()?, sheet: self.read()? })
+        Ok(Step::Unfold { unfold: self.read()?, fabricate: self.read()?, sheet: self.read()?, show: self.read()? })
     }
 
     fn dform(&self) -> Result<Step, RecipeError> {
-        self.check_keys(&[field_names::<DformParams>(), field_names::<SheetParams>()].concat())?;
-        Ok(Step::Dform { dform: self.read()?, sheet: self.read()? })
+        self.check_keys(
+            &[field_names::<DformParams>(), field_names::<SheetParams>(), field_names::<ShowParams>()].concat(),
+        )?;
+        Ok(Step::Dform { dform: self.read()?, sheet: self.read()?, show: self.read()? })
     }
 
     fn panels(&self) -> Result<Step, RecipeError> {

@@ -7,7 +7,8 @@
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 
-use super::stretch::Stretch;
+use super::joint::Boundaries;
+use super::stretch::{Stretch, stretches};
 use crate::geom::polygon::signed_area;
 use crate::net::{Net, PieceId};
 
@@ -27,6 +28,11 @@ pub struct Step {
     pub number: usize,
     /// The piece that this step attaches; nothing when both sides hang together already.
     pub attaches: Option<PieceId>,
+}
+
+/// In which order the seams of a net are closed.
+pub fn assembly_of(net: &Net) -> Assembly {
+    assembly(net, stretches(net, &Boundaries::new(net)))
 }
 
 pub(crate) fn assembly(net: &Net, stretches: Vec<Stretch>) -> Assembly {
@@ -162,4 +168,113 @@ fn attach_all(net: &Net, stretches: &[Stretch]) -> Vec<Step> {
         }
     }
     steps
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{square, twins, two_pieces};
+    use super::*;
+    use crate::progress::Silent;
+    use crate::shape::{SolidParams, solid};
+    use crate::unfold::{Seams, Source, UnfoldParams, unfold};
+
+    fn net_of(name: &str, pieces: &str) -> Net {
+        let name = name.parse().expect("a known solid");
+        let mesh = solid(&SolidParams { name, edge: None, size: None }).expect("a solid");
+        let params = UnfoldParams { pieces: pieces.parse().expect("a mode"), ..UnfoldParams::default() };
+        unfold(&mesh, &Seams::Free, &params, &Source { scale: 1.0, split_vertices: &[] }, &Silent).expect("a net")
+    }
+
+    /// What every order must keep, by plain counting.
+    fn assert_order(net: &Net) {
+        let assembly = assembly_of(net);
+        let mut numbers: Vec<usize> = assembly.steps.iter().map(|s| s.number).collect();
+        numbers.sort_unstable();
+        assert_eq!(numbers, (1..=assembly.stretches.len()).collect::<Vec<_>>(), "every stretch is closed once");
+        let attaching = assembly.steps.iter().take_while(|s| s.attaches.is_some()).count();
+        assert!(
+            assembly.steps[attaching..].iter().all(|s| s.attaches.is_none()),
+            "nothing is attached to what is being closed"
+        );
+        // These models are one body.
+        assert_eq!(attaching, net.pieces.len() - 1);
+        let mut there: BTreeSet<PieceId> = BTreeSet::new();
+        for step in &assembly.steps[..attaching] {
+            let sides = assembly.stretches[step.number - 1].pieces;
+            let new = step.attaches.expect("an attaching step");
+            let old = if sides[0] == new { sides[1] } else { sides[0] };
+            assert!(sides.contains(&new) && old != new && !there.contains(&new), "{new} is new");
+            assert!(there.is_empty() || there.contains(&old), "{new} is attached to what is there");
+            there.extend(sides);
+        }
+        // Closing goes on like a zip: where nothing else is open at one end, as long as there is such a place.
+        let vertices = |number: usize| -> BTreeSet<usize> {
+            assembly.stretches[number - 1].seams.iter().flat_map(|&(s, _)| net.seams[s].edge).collect()
+        };
+        let mut open: Vec<usize> = assembly.steps.iter().map(|s| s.number).collect();
+        for (i, step) in assembly.steps.iter().enumerate() {
+            let zips = |&number: &usize| {
+                let others: Vec<BTreeSet<usize>> =
+                    open.iter().filter(|&&n| n != number).map(|&n| vertices(n)).collect();
+                vertices(number).iter().any(|v| others.iter().all(|o| !o.contains(v)))
+            };
+            let stuck = !open.iter().any(zips);
+            assert!(i < attaching || zips(&step.number) || stuck, "step {} leaves a zip", i + 1);
+            open.retain(|&n| n != step.number);
+        }
+    }
+
+    #[test]
+    fn every_piece_is_attached_before_anything_is_closed_and_then_it_is_zipped() {
+        for (name, pieces) in [
+            ("cube", "1"),
+            ("dodecahedron", "faces"),
+            ("soccer-ball", "1"),
+            ("soccer-ball", "4"),
+            ("antiprism-9", "2"),
+            ("snub-cube", "strips"),
+        ] {
+            assert_order(&net_of(name, pieces));
+        }
+        assert_order(&twins(square(40.0), 60.0));
+    }
+
+    #[test]
+    fn the_largest_piece_comes_first_and_the_longest_seam_attaches() {
+        let net = two_pieces();
+        let assembly = assembly_of(&net);
+        assert_eq!(assembly.steps, [Step { number: 1, attaches: Some(PieceId(1)) }]);
+        let net = net_of("prism-7", "faces");
+        let assembly = assembly_of(&net);
+        let area = |id: PieceId| signed_area(&net.pieces[id.0].outline);
+        let first = assembly.stretches[assembly.steps[0].number - 1].pieces;
+        let largest = net.pieces.iter().map(|p| area(p.id)).fold(0.0, f64::max);
+        assert!(first.iter().any(|&id| area(id) == largest));
+    }
+
+    #[test]
+    fn two_bodies_are_assembled_one_after_the_other() {
+        let (one, mut two) = (twins(square(40.0), 60.0), twins(square(30.0), 60.0));
+        let (pieces, faces, vertices) = (one.pieces.len(), 2, 4);
+        for piece in &mut two.pieces {
+            piece.id.0 += pieces;
+            for face in &mut piece.faces {
+                face.face += faces;
+                face.vertices.iter_mut().for_each(|v| *v += vertices);
+            }
+        }
+        for seam in &mut two.seams {
+            seam.id.0 += one.seams.len();
+            seam.edge = seam.edge.map(|v| v + vertices);
+            seam.sides.iter_mut().for_each(|s| (s.piece.0, s.face) = (s.piece.0 + pieces, s.face + faces));
+        }
+        let mut both = one;
+        both.pieces.extend(two.pieces);
+        both.seams.extend(two.seams);
+        let assembly = assembly_of(&both);
+        assert_eq!(assembly.stretches.len(), 8);
+        assert_eq!(assembly.steps.iter().filter(|s| s.attaches.is_some()).count(), 2);
+        assert_eq!(assembly_of(&net_of("cube", "1")).steps.iter().filter(|s| s.attaches.is_some()).count(), 0);
+        assert_eq!(assembly_of(&super::super::testing::net_of(vec![square(3.0)])), Assembly::default());
+    }
 }

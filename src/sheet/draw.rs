@@ -7,7 +7,7 @@ use glam::DVec2;
 use super::drawing::{Drawing, MarkKind, Stroke};
 use super::error::SheetError;
 use super::glyph::lettering;
-use super::joint::{FlapFold, Jointed, directed};
+use super::joint::{FlapFold, Jointed, on_material};
 use super::kerf::CutShape;
 use super::label::{Label, Taken, is_clear, name_label, number_across, number_label};
 use super::layout::{Layout, Placed, SheetReport};
@@ -72,8 +72,9 @@ pub(crate) fn draw(
             let (piece, shape) = by_id[&placed.piece];
             let here = &features[&placed.piece];
             draw_cuts(&mut drawing, shape, placed, tabs);
+            let cut = jointed.is_some().then_some(piece);
             let hinges = score.hinges(piece, &here.folds);
-            draw_folds(&mut drawing, here, placed, (&score, &hinges), &mut report);
+            draw_folds(&mut drawing, here, (placed, cut), (&score, &hinges), &mut report);
             let flaps = jointed.iter().flat_map(|j| &j.flap_folds).filter(|f| f.piece == piece.id);
             draw_flap_folds(&mut drawing, flaps, placed, &score);
             // The cut of a panel is not the border of its face: there are gaps, fingers and holes.
@@ -115,10 +116,11 @@ fn draw_cuts(drawing: &mut Drawing, shape: &CutShape, placed: &Placed, (tabs, wi
     }
 }
 
+/// The folds of a piece; of one whose `cut` differs from its faces only what lies inside of the cut.
 fn draw_folds(
     drawing: &mut Drawing,
     here: &Features<'_>,
-    placed: &Placed,
+    (placed, cut): (&Placed, Option<&Piece>),
     (score, hinges): (&ScorePlan, &Hinges),
     report: &mut SheetReport,
 ) {
@@ -134,8 +136,9 @@ fn draw_folds(
         if hinges.folds.contains(&fold.id) {
             continue;
         }
-        let [a, b] = fold.segment.map(|p| placed.apply(p));
-        let strokes = score.strokes(a, b, kind == MarkKind::ValleyFold);
+        let parts = cut.map_or_else(|| vec![fold.segment], |piece| on_material(piece, fold.segment));
+        let parts = parts.into_iter().map(|part| part.map(|p| placed.apply(p)));
+        let strokes: Vec<Stroke> = parts.flat_map(|[a, b]| score.strokes(a, b, kind == MarkKind::ValleyFold)).collect();
         if strokes.is_empty() {
             report.unscored_folds += 1;
             continue;
@@ -300,7 +303,7 @@ impl Lettering<'_> {
         let (s, forward) = *stretch.seams.first().filter(|_| stretch.goes_on[0])?;
         let side = &self.net.seams[s].sides[forward ^ i];
         let face = &self.piece.faces[*faces.get(&side.face)?];
-        let [a, b] = directed(face, self.net.seams[s].edge, side.segment)?;
+        let [a, b] = face.side(self.net.seams[s].edge, side.segment)?;
         // The beginning of the stretch is where its forward side begins and its partner ends.
         let (at, towards) = if i == 0 { (a, b) } else { (b, a) };
         // A little beside the corner, where a fold may begin.

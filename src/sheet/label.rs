@@ -9,7 +9,6 @@ use glam::DVec2;
 
 use super::error::SheetError;
 use super::glyph::lettering;
-use super::joint::directed;
 use super::verify::{distance_to_contour, edges};
 use crate::geom::polygon::{Location, bounds, centroid, locate, on_segment, segments_cross, signed_area};
 use crate::net::{FlatFace, Piece, Segment};
@@ -47,7 +46,7 @@ pub(crate) struct Label {
 /// What is already lettered on the faces of a piece, by their index.
 pub(crate) type Taken = BTreeMap<usize, Vec<[DVec2; 4]>>;
 
-/// Contours of joints that lettering must keep clear of: the cut of a piece where it differs from its faces.
+/// Contours of joints that lettering must keep clear of: the cut of a piece where it differs from its faces, and slits.
 pub(crate) type Obstacles<'a> = &'a [Vec<DVec2>];
 
 /// The name of a piece, as large as fits beside what is taken, reading along `upright` where possible and else along a
@@ -110,7 +109,7 @@ pub(crate) fn number_label(
     taken: &[[DVec2; 4]],
     obstacles: Obstacles<'_>,
 ) -> Result<Option<Label>, SheetError> {
-    let Some([a, b]) = directed(face, edge, segment) else { return Ok(None) };
+    let Some([a, b]) = face.side(edge, segment) else { return Ok(None) };
     let (length, along) = (a.distance(b), (b - a).normalize_or_zero());
     beside(text, face, [a, b], -along, NUMBER_HEIGHT.min(NUMBER_SHARE * length), taken, obstacles)
 }
@@ -124,7 +123,7 @@ pub(crate) fn number_across(
     taken: &[[DVec2; 4]],
     obstacles: Obstacles<'_>,
 ) -> Result<Option<Label>, SheetError> {
-    let Some([a, b]) = directed(face, edge, segment) else { return Ok(None) };
+    let Some([a, b]) = face.side(edge, segment) else { return Ok(None) };
     beside(text, face, [a, b], (b - a).normalize_or_zero().perp(), NUMBER_HEIGHT, taken, obstacles)
 }
 
@@ -214,11 +213,15 @@ fn is_free(polygon: &[DVec2], label: &Label, taken: &[[DVec2; 4]]) -> bool {
     taken.iter().all(|frame| !overlap(frame, &label.frame)) && frame_inside(polygon, &label.frame)
 }
 
-/// Whether a label neither crosses an obstacle nor has one inside.
+/// Whether a label neither crosses an obstacle nor has one inside, nor lies in a notch or hole that is cut away.
 pub(crate) fn is_clear(label: &Label, obstacles: Obstacles<'_>) -> bool {
-    obstacles.iter().all(|o| {
-        !borders_meet(o, &label.frame) && o.first().is_none_or(|&p| locate(&label.frame, p) == Location::Outside)
-    })
+    // Outlines run counter-clockwise, holes clockwise, and slits have no inside.
+    let is_on_material =
+        |o: &Vec<DVec2>| (locate(o, label.frame[0]) == Location::Inside) == (o.len() > 2 && signed_area(o) > 0.0);
+    obstacles.iter().all(is_on_material)
+        && obstacles.iter().all(|o| {
+            !borders_meet(o, &label.frame) && o.first().is_none_or(|&p| locate(&label.frame, p) == Location::Outside)
+        })
 }
 
 /// Whether a convex frame lies in the interior of a polygon, exactly.
@@ -301,6 +304,23 @@ mod tests {
         }
         let segment = [piece.outline[0], piece.outline[1]];
         assert!(number_label("12", face, [0, 2], segment, &[], &[]).expect("letters").is_none());
+    }
+
+    #[test]
+    fn nothing_is_lettered_into_what_is_cut_away() {
+        let piece = piece(PieceId(0), square(60.0));
+        let segment = [piece.outline[0], piece.outline[1]];
+        // A notch from the lower edge, wide and deep enough for a number.
+        let notch = [(20.0, 0.0), (20.0, 12.0), (40.0, 12.0), (40.0, 0.0)];
+        let cut = [vec![DVec2::ZERO], points(notch), points([(60.0, 0.0), (60.0, 60.0), (0.0, 60.0)])].concat();
+        let label = number_label("12", &piece.faces[0], [0, 1], segment, &[], std::slice::from_ref(&cut));
+        let label = label.expect("letters").expect("room beside or behind the notch");
+        let in_notch = label.frame.iter().all(|p| locate(&points(notch), *p) == Location::Inside);
+        assert!(!in_notch && label.frame.iter().all(|p| locate(&cut, *p) == Location::Inside), "{:?}", label.frame);
+        let hole = points([(10.0, 10.0), (10.0, 50.0), (50.0, 50.0), (50.0, 10.0)]);
+        assert!(!is_clear(&set("1", DVec2::splat(30.0), DVec2::X, 3.0).expect("a letter"), &[square(60.0), hole]));
+        let slit = points([(0.0, 50.0), (60.0, 50.0)]);
+        assert!(is_clear(&set("1", DVec2::splat(30.0), DVec2::X, 3.0).expect("a letter"), &[slit]));
     }
 
     #[test]

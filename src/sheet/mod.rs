@@ -30,13 +30,13 @@ mod slit;
 mod stretch;
 mod verify;
 
-pub use assembly::{Assembly, Step};
+pub use assembly::{Assembly, Step, assembly_of};
 pub use bounding_box::{MinBox, smallest_box};
 pub use drawing::{Drawing, Layer, LayerKind, Mark, MarkKind, Stroke};
 pub use error::{SheetError, TooLarge};
 pub use files::{Colours, Formats, FormatsError, Paper, PartFiles, Pen, Rgb, SheetFormat, Style};
 pub use glyph::{Lettering, lettering};
-pub use joint::{Fallback, FlapSide, Joint, JointReport};
+pub use joint::{Fallback, FlapSide, Joint, JointReport, Substitute};
 pub use kerf::CutShape;
 pub use kerf_test::kerf_coupon;
 pub use layout::{Layout, Placed, Sheet, SheetId, SheetReport, SheetSet, fits, lay_out, lay_out_watched};

@@ -10,7 +10,7 @@ use serde::{Deserialize, Deserializer};
 
 use super::error::SheetError;
 use super::files::{Formats, Paper, PartFiles};
-use super::joint::{FlapSide, Joint};
+use super::joint::{FlapSide, Joint, Substitute, plan};
 use super::material::Material;
 use super::nest::NestParams;
 use crate::units::{Angle, Length, UnitError, parse_number};
@@ -113,18 +113,22 @@ pub struct SheetParams {
     #[arg(long, value_name = "ANGLE")]
     #[serde(default)]
     pub flap_angle: Option<Angle>,
-    /// Which side of a seam gets the flap, where it has room; lower unless given
+    /// Which side of a seam gets the flap or the tabs, where it has room; lower unless given
     #[arg(long, value_enum)]
     #[serde(default)]
     pub flap_side: Option<FlapSide>,
-    /// Thickness of the material; needed for fingers, at least 0.1mm
+    /// Thickness of the material; needed for fingers and tabs, at least 0.1mm
     #[arg(long, value_name = "LENGTH")]
     #[serde(default)]
     pub thickness: Option<Length>,
-    /// Width of a finger, about; three times the thickness unless given, never less than it
+    /// Width of a finger, about, or of a tab; three times the thickness unless given, never less than it
     #[arg(long, value_name = "LENGTH")]
     #[serde(default)]
     pub finger_width: Option<Length>,
+    /// What seams get that are too shallow or too narrow for fingers or tabs; stitch unless given
+    #[arg(long, value_enum)]
+    #[serde(default)]
+    pub substitute: Option<Substitute>,
     /// From one hole to the next along a seam; stitch holes 6mm, rivets 25mm unless given
     #[arg(long, value_name = "LENGTH")]
     #[serde(default)]
@@ -184,6 +188,7 @@ impl Default for SheetParams {
             flap_side: None,
             thickness: None,
             finger_width: None,
+            substitute: None,
             hole_spacing: None,
             hole_diameter: None,
             hole_inset: None,
@@ -366,6 +371,11 @@ impl SheetParams {
             Some(name) if self.made_of.is_none() => Err(SheetError::MaterialNotTaken { name: name.clone() }),
             _ => Ok(()),
         }
+    }
+
+    /// How far joints may stand out beyond the outlines of pieces, in mm; 0 for options that are refused later.
+    pub fn joint_reach(&self) -> f64 {
+        plan(self).map_or(0.0, |plan| plan.reach())
     }
 
     /// Checks all numbers; nothing for `sheet = none`.

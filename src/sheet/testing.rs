@@ -119,3 +119,31 @@ pub(crate) fn two_pieces() -> Net {
     (net.pieces, net.folds, net.seams) = (vec![first, second], vec![fold], vec![seam]);
     net
 }
+
+/// A polygon and its copy, joined along all edges: what two faces of a thin body would be.
+pub(crate) fn twins(contour: Vec<DVec2>, fold_angle: f64) -> Net {
+    let mut net = two_pieces();
+    let n = contour.len();
+    let low = contour.iter().copied().fold(DVec2::INFINITY, DVec2::min);
+    let front: Vec<DVec2> = contour.iter().map(|&p| p - low).collect();
+    let back: Vec<DVec2> = (0..n).map(|i| front[(n - i) % n] * DVec2::new(-1.0, 1.0)).collect();
+    let mut piece = |i: usize, polygon: &[DVec2], vertices: Vec<usize>| {
+        let p = &mut net.pieces[i];
+        (p.outline, p.holes) = (polygon.to_vec(), vec![]);
+        p.faces.truncate(1);
+        (p.faces[0].face, p.faces[0].polygon, p.faces[0].vertices) = (i, polygon.to_vec(), vertices);
+    };
+    piece(0, &front, (0..n).collect());
+    piece(1, &back, (0..n).map(|i| (n - i) % n).collect());
+    net.folds.clear();
+    let side = |piece: usize, a, b| SeamSide { piece: PieceId(piece), face: piece, segment: [a, b] };
+    net.seams = (0..n)
+        .map(|i| {
+            let j = (i + 1) % n;
+            let sides = [side(0, front[i], front[j]), side(1, back[(n - i) % n], back[(n - j) % n])];
+            let length = front[i].distance(front[j]);
+            Seam { id: EdgeLabel(i), edge: [i, j], length, fold_angle, sides }
+        })
+        .collect();
+    net
+}

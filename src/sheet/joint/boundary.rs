@@ -35,19 +35,6 @@ pub(crate) struct Boundaries {
     pub places: Vec<[Option<Place>; 2]>,
 }
 
-/// A side's segment in the direction in which its face runs, counter-clockwise; nothing when the face does not hold it.
-pub(crate) fn directed(face: &FlatFace, edge: [usize; 2], segment: Segment) -> Option<Segment> {
-    let n = face.vertices.len();
-    let runs = |from: usize, to: usize| (0..n).any(|i| face.vertices[i] == from && face.vertices[(i + 1) % n] == to);
-    if runs(edge[0], edge[1]) {
-        Some(segment)
-    } else if runs(edge[1], edge[0]) {
-        Some([segment[1], segment[0]])
-    } else {
-        None
-    }
-}
-
 impl Contour {
     pub fn len(&self) -> usize {
         self.corners.len()
@@ -76,7 +63,7 @@ impl Boundaries {
         let faces: BTreeMap<usize, &FlatFace> = net.pieces.iter().flat_map(|p| &p.faces).map(|f| (f.face, f)).collect();
         for (s, seam) in net.seams.iter().enumerate() {
             for (k, side) in seam.sides.iter().enumerate() {
-                let found = faces.get(&side.face).and_then(|face| directed(face, seam.edge, side.segment));
+                let found = faces.get(&side.face).and_then(|face| face.side(seam.edge, side.segment));
                 sides.entry(side.piece).or_default().extend(found.map(|segment| (segment, (s, k))));
             }
         }

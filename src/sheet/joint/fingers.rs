@@ -20,7 +20,7 @@ use crate::net::{Net, Segment};
 const SHARPEST: f64 = 30.0;
 const FLATTEST: f64 = 140.0;
 
-/// Sines of corner angles below this count as straight: offset lines would meet far away.
+/// Sines of corner angles below this count as straight or reflex: offset lines are not led to where they meet.
 const STRAIGHT: f64 = 0.35;
 
 /// Fingers along one edge.
@@ -37,20 +37,8 @@ pub(super) struct Comb {
 impl Comb {
     /// The fingers of a seam, or why it can have none.
     pub fn of(fold_angle: f64, length: f64, fingers: &Fingers) -> Result<Self, Fallback> {
-        let dihedral = 180.0 - fold_angle;
-        if dihedral > 180.0 {
-            return Err(Fallback::Concave);
-        }
-        if dihedral > FLATTEST {
-            return Err(Fallback::Shallow);
-        }
-        if dihedral.is_nan() || dihedral < SHARPEST {
-            return Err(Fallback::Sharp);
-        }
-        let (sin, cos) = dihedral.to_radians().sin_cos();
         let thickness = fingers.thickness;
-        let short = (thickness * cos / sin).max(0.0);
-        let deep = thickness / sin + short;
+        let (short, deep) = depths(fold_angle, thickness)?;
         let zones = 2 * (length / (2.0 * fingers.width)).round().max(1.0) as usize;
         // The first finger loses the depth of the notch around the corner.
         let least = (1.5 * deep).max(thickness);
@@ -61,6 +49,23 @@ impl Comb {
     fn level(&self, zone: usize) -> f64 {
         if zone.is_multiple_of(2) { self.short } else { self.deep }
     }
+}
+
+/// How far before the edge a plate ends that goes through its partner, and one that ends at the partner's inner side.
+pub(super) fn depths(fold_angle: f64, thickness: f64) -> Result<(f64, f64), Fallback> {
+    let dihedral = 180.0 - fold_angle;
+    if dihedral > 180.0 {
+        return Err(Fallback::Concave);
+    }
+    if dihedral > FLATTEST {
+        return Err(Fallback::Shallow);
+    }
+    if dihedral.is_nan() || dihedral < SHARPEST {
+        return Err(Fallback::Sharp);
+    }
+    let (sin, cos) = dihedral.to_radians().sin_cos();
+    let short = (thickness * cos / sin).max(0.0);
+    Ok((short, thickness / sin + short))
 }
 
 /// Adds fingers to all seams that can have them; gives those that cannot.
@@ -81,7 +86,7 @@ pub(super) fn add_fingers(
         boundaries.contours.iter_mut().for_each(|c| shape(c, &combs));
         let mut is_clean = true;
         for piece in 0..net.pieces.len() {
-            for s in in_the_way(boundaries, piece, fingers.thickness / 2.0, &combs) {
+            for s in in_the_way(boundaries, piece, fingers.thickness / 2.0, |s| combs[s].is_ok()) {
                 combs[s] = Err(Fallback::Narrow);
                 is_clean = false;
             }
@@ -117,14 +122,15 @@ fn shape(contour: &mut Contour, combs: &[Result<Comb, Fallback>]) {
 }
 
 /// Where the end of one edge, moved inwards, meets the beginning of the next.
-fn corner(before: Segment, after: Segment, (end, begin): (f64, f64)) -> Vec<DVec2> {
+pub(super) fn corner(before: Segment, after: Segment, (end, begin): (f64, f64)) -> Vec<DVec2> {
     let p = after[0];
     if end == 0.0 && begin == 0.0 {
         return vec![p];
     }
     let [u, v] = [before, after].map(|[a, b]| (b - a).normalize_or_zero());
     let sin = u.perp_dot(v);
-    if sin.abs() < STRAIGHT {
+    // At a reflex corner they would meet deep in the material, and at a straight one anywhere.
+    if sin < STRAIGHT {
         return vec![p + u.perp() * end, p + v.perp() * begin];
     }
     // p + x u + end u⊥ = p + y v + begin v⊥, multiplied by v⊥.
@@ -141,16 +147,21 @@ fn profile([a, b]: Segment, comb: &Comb) -> Vec<DVec2> {
     (1..comb.zones).flat_map(step).collect()
 }
 
-/// The fingered seams of a piece whose cut comes nearer than `web` to the cut of an edge that is no neighbour, or meets any.
-fn in_the_way(boundaries: &Boundaries, piece: usize, web: f64, combs: &[Result<Comb, Fallback>]) -> Vec<usize> {
+/// The jointed seams of a piece, those that `is_jointed` names, whose cut comes nearer than `web` to the cut of an edge that is no neighbour, or meets any.
+pub(super) fn in_the_way(
+    boundaries: &Boundaries,
+    piece: usize,
+    web: f64,
+    is_jointed: impl Fn(usize) -> bool,
+) -> Vec<usize> {
     let cuts: Vec<_> = boundaries.cuts(piece).collect();
-    let fingered = |(c, i, _): &(&Contour, usize, Segment)| {
+    let jointed = |(c, i, _): &(&Contour, usize, Segment)| {
         // The corner before an edge belongs to both.
         let n = c.len();
         [*i, (*i + n - 1) % n]
             .into_iter()
             .filter_map(|i| c.sides[i].map(|(s, _)| s))
-            .filter(|&s| combs[s].is_ok())
+            .filter(|&s| is_jointed(s))
             .collect::<Vec<_>>()
     };
     let mut found = Vec::new();
@@ -171,14 +182,14 @@ fn in_the_way(boundaries: &Boundaries, piece: usize, web: f64, combs: &[Result<C
                 la.cmple(hb).all() && lb.cmple(ha).all() && super::boundary::segment_distance(a.2, b.2) < web
             };
             if is_close {
-                found.extend(fingered(a));
-                found.extend(fingered(b));
+                found.extend(jointed(a));
+                found.extend(jointed(b));
             }
         }
     }
     for c in boundaries.of_piece(piece) {
         if signed_area(&c.path()) * signed_area(&c.corners) <= 0.0 {
-            found.extend(c.sides.iter().flatten().map(|&(s, _)| s).filter(|&s| combs[s].is_ok()));
+            found.extend(c.sides.iter().flatten().map(|&(s, _)| s).filter(|&s| is_jointed(s)));
         }
     }
     found.sort_unstable();

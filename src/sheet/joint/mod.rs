@@ -9,12 +9,16 @@ mod fingers;
 mod flaps;
 mod holes;
 mod params;
+mod slots;
+mod trim;
 
 use glam::DVec2;
 
-pub(crate) use boundary::{Boundaries, directed};
-pub use params::{FlapSide, Joint};
+pub(crate) use boundary::Boundaries;
+pub use params::{FlapSide, Joint, Substitute};
 pub(crate) use params::{JointPlan, plan};
+use slots::FARTHEST_LIP;
+pub(crate) use trim::on_material;
 
 use super::error::SheetError;
 use super::params::SheetParams;
@@ -34,15 +38,20 @@ pub struct JointReport {
     pub bare_seams: Vec<EdgeLabel>,
     /// Seams with fingers.
     pub fingered: usize,
-    /// Seams that fingers cannot hold, with the reason; they have stitch holes where there is room.
+    /// Seams with tabs and slots.
+    pub tabbed: usize,
+    /// Seams that fingers or tabs cannot hold, with the reason; they have the substitute.
     pub fallbacks: Vec<(EdgeLabel, Fallback)>,
+    /// Of these the ones to be mitred, with what to take off the square edge of either side, in degrees; negative where the edge is
+    /// concave.
+    pub mitred: Vec<(EdgeLabel, f64)>,
     /// Pairs of holes.
     pub hole_pairs: usize,
     /// Pairs of holes left out, since one of the two was in the way of something.
     pub lost_hole_pairs: usize,
 }
 
-/// Why a seam has no fingers.
+/// Why a seam has no fingers or tabs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Fallback {
     /// The plates lie too flat: the dihedral angle is more than 140°.
@@ -51,9 +60,9 @@ pub enum Fallback {
     Sharp,
     /// The edge is concave: the plates part instead of meeting.
     Concave,
-    /// The edge is too short for two fingers.
+    /// The edge is too short for two fingers, or for one tab between the plates at its ends.
     Short,
-    /// The notches would cut into one another, or through a narrow face.
+    /// Notches, tabs or slots would cut into one another, or through a narrow face.
     Narrow,
 }
 
@@ -95,6 +104,7 @@ pub(crate) fn join(net: &Net, params: &SheetParams) -> Result<Option<Jointed>, S
     let mut report = JointReport::default();
     let mut flap_folds = Vec::new();
     let mut drilled = Vec::new();
+    let mut slots = Vec::new();
     let all: Vec<usize> = (0..net.seams.len()).collect();
     let kerf = params.kerf.mm();
     match plan {
@@ -113,16 +123,37 @@ pub(crate) fn join(net: &Net, params: &SheetParams) -> Result<Option<Jointed>, S
         }
         JointPlan::Fingers(fingers, holes) => {
             let fallen = fingers::add_fingers(net, &mut boundaries, &fingers, &mut report);
-            drilled = holes::stitch(net, &boundaries, &stretches(net, &boundaries), &fallen, &holes, &mut report);
+            drilled = substitute(net, &boundaries, &fallen, holes.as_ref(), &mut report);
+        }
+        JointPlan::Tabs(tabs, holes) => {
+            let (made, fallen) = slots::add_tabs(net, &mut boundaries, &tabs, &mut report);
+            slots = made;
+            drilled = substitute(net, &boundaries, &fallen, holes.as_ref(), &mut report);
         }
     }
     let mut net = net.clone();
     for (i, piece) in net.pieces.iter_mut().enumerate() {
         let mut paths = boundaries.of_piece(i).map(|c| c.path());
         piece.outline = paths.next().unwrap_or_default();
-        piece.holes = paths.chain(drilled.iter().filter(|h| h.piece == i).map(Hole::contour)).collect();
+        let slots = slots.iter().filter(|s| s.piece == i).map(|s| s.contour.clone());
+        piece.holes = paths.chain(slots).chain(drilled.iter().filter(|h| h.piece == i).map(Hole::contour)).collect();
     }
     Ok(Some(Jointed { net, flap_folds, report }))
+}
+
+/// What seams get that fingers or tabs cannot hold: stitch holes, or a mitre, which nothing on a sheet shows.
+fn substitute(
+    net: &Net,
+    boundaries: &Boundaries,
+    fallen: &[usize],
+    holes: Option<&params::Holes>,
+    report: &mut JointReport,
+) -> Vec<Hole> {
+    if let Some(holes) = holes {
+        return holes::stitch(net, boundaries, &stretches(net, boundaries), fallen, holes, report);
+    }
+    report.mitred = fallen.iter().map(|&s| (net.seams[s].id, net.seams[s].fold_angle / 2.0)).collect();
+    Vec::new()
 }
 
 impl Hole {
@@ -137,43 +168,18 @@ impl Hole {
 #[cfg(test)]
 mod tests {
     use super::super::label::segments_meet;
-    use super::super::testing::{random_convex, two_pieces};
+    use super::super::testing::{random_convex, twins, two_pieces};
     use super::super::{SheetParams, lay_out};
     use super::*;
-    use crate::net::{Seam, SeamSide};
     use crate::units::Length;
     use proptest::prelude::*;
 
     fn with(joint: Joint) -> SheetParams {
-        SheetParams { joint, thickness: (joint == Joint::Fingers).then(|| Length::from_mm(3.0)), ..Default::default() }
-    }
-
-    /// A polygon and its copy, joined along all edges: what two faces of a thin body would be.
-    fn twins(contour: Vec<DVec2>, fold_angle: f64) -> Net {
-        let mut net = two_pieces();
-        let n = contour.len();
-        let low = contour.iter().copied().fold(DVec2::INFINITY, DVec2::min);
-        let front: Vec<DVec2> = contour.iter().map(|&p| p - low).collect();
-        let back: Vec<DVec2> = (0..n).map(|i| front[(n - i) % n] * DVec2::new(-1.0, 1.0)).collect();
-        let mut piece = |i: usize, polygon: &[DVec2], vertices: Vec<usize>| {
-            let p = &mut net.pieces[i];
-            (p.outline, p.holes) = (polygon.to_vec(), vec![]);
-            p.faces.truncate(1);
-            (p.faces[0].face, p.faces[0].polygon, p.faces[0].vertices) = (i, polygon.to_vec(), vertices);
-        };
-        piece(0, &front, (0..n).collect());
-        piece(1, &back, (0..n).map(|i| (n - i) % n).collect());
-        net.folds.clear();
-        let side = |piece: usize, a, b| SeamSide { piece: PieceId(piece), face: piece, segment: [a, b] };
-        net.seams = (0..n)
-            .map(|i| {
-                let j = (i + 1) % n;
-                let sides = [side(0, front[i], front[j]), side(1, back[(n - i) % n], back[(n - j) % n])];
-                let length = front[i].distance(front[j]);
-                Seam { id: EdgeLabel(i), edge: [i, j], length, fold_angle, sides }
-            })
-            .collect();
-        net
+        SheetParams {
+            joint,
+            thickness: matches!(joint, Joint::Fingers | Joint::Tabs).then(|| Length::from_mm(3.0)),
+            ..Default::default()
+        }
     }
 
     fn assert_simple(contour: &[DVec2]) {
@@ -205,7 +211,7 @@ mod tests {
 
     #[test]
     fn every_joint_is_laid_out_and_leaves_the_net_as_it_was() {
-        for joint in [Joint::Flaps, Joint::Rivets, Joint::Stitch, Joint::Fingers] {
+        for joint in [Joint::Flaps, Joint::Rivets, Joint::Stitch, Joint::Fingers, Joint::Tabs] {
             let net = two_pieces();
             let set = lay_out(&net, &with(joint)).expect("two small pieces");
             assert_eq!(net, two_pieces());
@@ -221,6 +227,57 @@ mod tests {
         for piece in [0, 1] {
             let area = |n: &Net| crate::geom::polygon::signed_area(&n.pieces[piece].outline);
             assert!((area(&net) - area(&jointed.net) - 45.0).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn after_the_kerf_a_tab_of_3_mm_fits_a_slot_of_3_mm() {
+        let net = two_pieces();
+        for kerf in [0.0, 0.2] {
+            let params = SheetParams {
+                kerf: Length::from_mm(kerf),
+                finger_width: Some(Length::from_mm(4.0)),
+                labels: super::super::Labels::None,
+                ..with(Joint::Tabs)
+            };
+            let set = lay_out(&net, &params).expect("two small pieces");
+            assert_eq!((set.report.joints.tabbed, set.report.joints.fallbacks.len()), (1, 0));
+            let marks: Vec<_> = set.drawings[0].marks().collect();
+            let slots: Vec<_> = marks.iter().filter(|m| m.kind == super::super::MarkKind::Hole).collect();
+            assert!(!slots.is_empty());
+            // What is cut is the drawn line and half a kerf on both sides of it.
+            for slot in &slots {
+                let p = &slot.strokes[0].points;
+                assert_eq!(p.len(), 4);
+                let sides = [p[0].distance(p[1]), p[1].distance(p[2])];
+                assert!((sides[0].min(sides[1]) + kerf - 3.0).abs() < 1e-6, "{sides:?}");
+                assert!((sides[0].max(sides[1]) + kerf - 4.0).abs() < 1e-6, "{sides:?}");
+            }
+            // The tops of tabs are a kerf wider than what comes out, the gaps between them as much narrower.
+            let tops = marks.iter().filter(|m| m.kind == super::super::MarkKind::Outline).flat_map(|m| {
+                let p = &m.strokes[0].points;
+                let n = p.len();
+                (0..n).map(|i| p[i].distance(p[(i + 1) % n])).collect::<Vec<_>>()
+            });
+            let expected = if kerf > 0.0 { slots.len() } else { 2 * slots.len() - 1 };
+            assert_eq!(tops.filter(|l| (l - kerf - 4.0).abs() < 1e-6).count(), expected);
+        }
+    }
+
+    #[test]
+    fn shallow_seams_are_stitched_or_mitred_and_the_report_says_so() {
+        for joint in [Joint::Fingers, Joint::Tabs] {
+            let net = twins(random_convex(3).into_iter().map(|p| 3.0 * p).collect(), 30.0);
+            let stitched = join(&net, &with(joint)).expect("good numbers").expect("a joint").report;
+            assert!(stitched.fallbacks.iter().all(|f| f.1 == Fallback::Shallow) && stitched.hole_pairs > 0);
+            assert_eq!(stitched.fallbacks.len(), net.seams.len());
+            let params = SheetParams { substitute: Some(Substitute::Mitre), ..with(joint) };
+            let jointed = join(&net, &params).expect("good numbers").expect("a joint");
+            assert_eq!((jointed.report.mitred.len(), jointed.report.hole_pairs), (net.seams.len(), 0));
+            assert!(jointed.report.mitred.iter().all(|m| m.1 == 15.0));
+            assert_eq!(jointed.net, net);
+            let both = SheetParams { hole_spacing: Some(Length::from_mm(8.0)), ..params };
+            assert!(join(&net, &both).map(|_| ()).expect_err("no holes").to_string().contains("hole-spacing"));
         }
     }
 
@@ -242,6 +299,23 @@ mod tests {
             let jointed = join(&net, &with(Joint::Fingers)).expect("good numbers").expect("fingers");
             jointed.net.pieces.iter().for_each(|p| assert_simple(&p.outline));
             prop_assert_eq!(jointed.report.fingered + jointed.report.fallbacks.len(), radii.len());
+        }
+
+        #[test]
+        fn tabs_leave_simple_outlines_and_slots_apart(radii in prop::collection::vec(30.0..120.0_f64, 4..12), fold in 20.0..140.0_f64) {
+            let net = twins(star(&radii), fold);
+            let jointed = join(&net, &with(Joint::Tabs)).expect("good numbers").expect("tabs");
+            prop_assert_eq!(jointed.report.tabbed + jointed.report.fallbacks.len(), radii.len());
+            for piece in &jointed.net.pieces {
+                assert_simple(&piece.outline);
+                for (i, hole) in piece.holes.iter().enumerate() {
+                    use crate::geom::polygon::{Location, locate};
+                    prop_assert!(hole.iter().all(|&p| locate(&piece.outline, p) == Location::Inside));
+                    for other in piece.holes[..i].iter().chain([&piece.outline]) {
+                        prop_assert!(!super::super::label::borders_meet(hole, other));
+                    }
+                }
+            }
         }
 
         #[test]

@@ -5,6 +5,7 @@ use serde::Deserialize;
 
 use super::super::error::SheetError;
 use super::super::params::SheetParams;
+use super::FARTHEST_LIP;
 use crate::units::{Angle, Length};
 
 /// What joins the two sides of a seam.
@@ -22,9 +23,22 @@ pub enum Joint {
     Stitch,
     /// Interlocking fingers for plates of the given thickness.
     Fingers,
+    /// Tabs on one side, and slots for them in the partner, for plates of the given thickness.
+    Tabs,
 }
 
-/// Which side of a seam carries the flap.
+/// What seams get that are too shallow or too narrow for fingers or tabs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Substitute {
+    /// Stitch holes where there is room.
+    #[default]
+    Stitch,
+    /// The bare edge, to be mitred; the notes tell the angles.
+    Mitre,
+}
+
+/// Which side of a seam carries the flap or the tabs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum FlapSide {
@@ -62,14 +76,34 @@ pub(crate) struct Fingers {
     pub width: f64,
 }
 
-/// A joint with all that it needs.
+/// Checked numbers of tabs, in mm.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Tabs {
+    pub thickness: f64,
+    pub width: f64,
+    pub side: FlapSide,
+}
+
+/// A joint with all that it needs; holes for the seams that it cannot hold, or none where these are mitred.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum JointPlan {
     None,
     Flaps(Flap),
     Rivets(Flap, Holes),
     Stitch(Holes),
-    Fingers(Fingers, Holes),
+    Fingers(Fingers, Option<Holes>),
+    Tabs(Tabs, Option<Holes>),
+}
+
+impl JointPlan {
+    /// How far the joint may stand out beyond an outline, in mm.
+    pub fn reach(&self) -> f64 {
+        match self {
+            Self::None | Self::Stitch(_) | Self::Fingers(..) => 0.0,
+            Self::Flaps(flap) | Self::Rivets(flap, _) => flap.width,
+            Self::Tabs(tabs, _) => FARTHEST_LIP * tabs.thickness,
+        }
+    }
 }
 
 /// Least material around a hole, in mm.
@@ -81,17 +115,19 @@ const WEB: f64 = 0.6;
 /// [`SheetError::JointOption`] for an option that the joint does not use, or one that it lacks;
 /// [`SheetError::OutOfRange`] for its numbers.
 pub(crate) fn plan(params: &SheetParams) -> Result<JointPlan, SheetError> {
-    use Joint::{Fingers as F, Flaps, None as N, Rivets, Stitch};
+    use Joint::{Fingers as F, Flaps, None as N, Rivets, Stitch, Tabs as T};
     let joint = params.joint;
+    let is_mitred = params.substitute == Some(Substitute::Mitre);
     let given = [
         ("flap-width", params.flap_width.is_some(), &[Flaps, Rivets][..]),
         ("flap-angle", params.flap_angle.is_some(), &[Flaps, Rivets]),
-        ("flap-side", params.flap_side.is_some(), &[Flaps, Rivets]),
-        ("thickness", params.thickness.is_some(), &[F]),
-        ("finger-width", params.finger_width.is_some(), &[F]),
-        ("hole-spacing", params.hole_spacing.is_some(), &[Stitch, Rivets, F]),
-        ("hole-diameter", params.hole_diameter.is_some(), &[Stitch, Rivets, F]),
-        ("hole-inset", params.hole_inset.is_some(), &[Stitch, F]),
+        ("flap-side", params.flap_side.is_some(), &[Flaps, Rivets, T]),
+        ("thickness", params.thickness.is_some(), &[F, T]),
+        ("finger-width", params.finger_width.is_some(), &[F, T]),
+        ("substitute", params.substitute.is_some(), &[F, T]),
+        ("hole-spacing", params.hole_spacing.is_some(), if is_mitred { &[][..] } else { &[Stitch, Rivets, F, T] }),
+        ("hole-diameter", params.hole_diameter.is_some(), if is_mitred { &[] } else { &[Stitch, Rivets, F, T] }),
+        ("hole-inset", params.hole_inset.is_some(), if is_mitred { &[] } else { &[Stitch, F, T] }),
     ];
     if let Some((option, ..)) = given.into_iter().find(|(_, given, of)| *given && !of.contains(&joint)) {
         return Err(SheetError::JointOption { option, joint, is_missing: false });
@@ -101,11 +137,16 @@ pub(crate) fn plan(params: &SheetParams) -> Result<JointPlan, SheetError> {
         Flaps => JointPlan::Flaps(flap(params, 8.0)?),
         Rivets => JointPlan::Rivets(flap(params, 12.0)?, holes(params, [25.0, 3.2])?),
         Stitch => JointPlan::Stitch(holes(params, [6.0, 1.5])?),
-        F => {
+        F | T => {
             let missing = SheetError::JointOption { option: "thickness", joint, is_missing: true };
             let thickness = length("thickness", Some(params.thickness.ok_or(missing)?), 0.0, 0.1)?;
             let width = length("finger-width", params.finger_width, 3.0 * thickness, thickness)?;
-            JointPlan::Fingers(Fingers { thickness, width }, holes(params, [6.0, 1.5])?)
+            let holes = if is_mitred { None } else { Some(holes(params, [6.0, 1.5])?) };
+            if joint == F {
+                JointPlan::Fingers(Fingers { thickness, width }, holes)
+            } else {
+                JointPlan::Tabs(Tabs { thickness, width, side: params.flap_side.unwrap_or_default() }, holes)
+            }
         }
     })
 }

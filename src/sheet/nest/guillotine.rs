@@ -144,14 +144,14 @@ fn pack(boxes: &[Boxed], order: &[usize], sheets: &[StockSheet], split: Split) -
 
 /// The sheet, the free rectangle on it and the angle that leave the narrowest strip.
 fn best_place(open: &[Sheet], b: &Boxed) -> Option<(usize, usize, f64)> {
-    let mut best: Option<((f64, f64), (usize, usize, f64))> = None;
+    let (mut least, mut best) = ((f64::INFINITY, f64::INFINITY), None);
     for (s, sheet) in open.iter().enumerate() {
         for (f, free) in sheet.free.iter().enumerate() {
             for &(angle, size) in &b.ways {
                 let rest = free.high - free.low - size;
                 let score = (rest.min_element(), rest.max_element());
-                if rest.min_element() >= 0.0 && best.is_none_or(|(least, _)| score < least) {
-                    best = Some((score, (s, f, angle)));
+                if rest.min_element() >= 0.0 && score < least {
+                    (least, best) = (score, Some((s, f, angle)));
                 }
             }
         }
@@ -160,7 +160,7 @@ fn best_place(open: &[Sheet], b: &Boxed) -> Option<(usize, usize, f64)> {
             break;
         }
     }
-    best.map(|b| b.1)
+    best
 }
 
 /// The cuts that take the margin off on the left and below; on the other sides the last cuts do it.

@@ -40,13 +40,13 @@ impl Shape {
         hull.iter_mut().for_each(|p| *p -= origin);
         let radius = parts.iter().flatten().map(|p| p.length()).fold(0.0, f64::max);
         let area = parts.iter().map(|p| signed_area(p)).sum();
-        let boxes = holes.iter().filter_map(|h| bounds(h)).map(|(low, high)| (low - origin, high - origin));
+        let boxes = holes.iter().filter_map(bounds).map(|(low, high)| (low - origin, high - origin));
         Self { origin, diameter: 2.0 * radius, area, holes: boxes.collect(), parts, hull }
     }
 
     /// The greatest extents of the parts.
     pub fn extents(&self) -> impl Iterator<Item = f64> {
-        self.parts.iter().filter_map(|p| bounds(p)).map(|(low, high)| (high - low).max_element())
+        self.parts.iter().filter_map(bounds).map(|(low, high)| (high - low).max_element())
     }
 }
 

@@ -100,6 +100,7 @@ const READERS: &[(&[&str], &str)] = &[
     (&["hull", "IN", "-o", "OUT"], "hull.ply"),
     (&["hull", "IN", "--dual", "--steps", "1,all", "-o", "OUT"], "dual.obj"),
     (&["subdivide", "doo-sabin", "IN", "--rounds", "2", "-o", "OUT"], "out.obj"),
+    (&["sierpinski", "IN", "--rounds", "2", "-o", "OUT"], "out.obj"),
     (&["planarize", "IN", "-o", "OUT"], "out.obj"),
     (&["unfold", "IN", "--sheet", "600x400", "-o", "OUT"], "out"),
     (&["unfold", "IN", "--sheet", "none", "--assembly", "pictures", "-o", "OUT"], "shown"),

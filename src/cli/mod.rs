@@ -31,7 +31,7 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use output::Console;
 
-use crate::op::{PlanarizeParams, SubdivideParams};
+use crate::op::{PlanarizeParams, SierpinskiParams, SubdivideParams};
 
 /// Carve planar 3-valence meshes, check them, and unfold them into sheets that a shop can cut.
 #[derive(Debug, Parser)]
@@ -60,6 +60,9 @@ enum Verb {
     /// Make a mesh finer: Doo–Sabin, Catmull–Clark, Loop, simplest, honeycomb, truncation, dual or triangles
     #[command(after_help = "Example: kerfold subdivide doo-sabin cube.obj --rounds 2 -o round.obj")]
     Subdivide(operator::OperatorArgs<SubdivideParams>),
+    /// Halve every edge and remove the middle of every face, over and over: one connected surface of high genus
+    #[command(after_help = "Example: kerfold sierpinski tetrahedron.obj --rounds 3 -o sierpinski.obj")]
+    Sierpinski(operator::OperatorArgs<SierpinskiParams>),
     Unfold(unfold::UnfoldArgs),
     Seams(seams::SeamsArgs),
     Dform(dform::DformArgs),
@@ -104,6 +107,7 @@ pub fn run() -> ExitCode {
         Verb::Hull(args) => hull::run(&args, &console),
         Verb::Planarize(args) => operator::run(&args, &console),
         Verb::Subdivide(args) => operator::run(&args, &console),
+        Verb::Sierpinski(args) => operator::run(&args, &console),
         Verb::Unfold(args) => unfold::run(&args, &console),
         Verb::Seams(args) => seams::run(&args, &console),
         Verb::Dform(args) => dform::run(&args, &console),

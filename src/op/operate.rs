@@ -3,9 +3,9 @@
 use std::fmt;
 
 use super::{
-    HullParams, OpContext, OpError, PlanarizeParams, ResolveParams, SliceParams, SubdivideParams, TruncateEdge,
-    TruncateFace, TruncateVertex, hull, planarize, resolve, slice, subdivide, truncate_edges, truncate_faces,
-    truncate_vertices,
+    HullParams, OpContext, OpError, PlanarizeParams, ResolveParams, SierpinskiParams, SliceParams, SubdivideParams,
+    TruncateEdge, TruncateFace, TruncateVertex, hull, planarize, resolve, sierpinski, slice, subdivide, truncate_edges,
+    truncate_faces, truncate_vertices,
 };
 use crate::mesh::Mesh;
 use crate::select::Made;
@@ -79,5 +79,12 @@ impl Operate for SubdivideParams {
     fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError> {
         let mesh = subdivide(mesh, self, context)?;
         Ok(Operated { mesh, made: None, notes: Vec::new(), is_clean: true })
+    }
+}
+
+impl Operate for SierpinskiParams {
+    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError> {
+        let (mesh, report) = sierpinski(mesh, self, context)?;
+        Ok(Operated { mesh, made: None, notes: report.notes(), is_clean: true })
     }
 }

@@ -17,8 +17,8 @@ use super::{
 };
 use crate::check::CheckParams;
 use crate::op::{
-    HullParams, Operate, PlanarizeParams, ResolveParams, SliceParams, SubdivideParams, TruncateEdge, TruncateFace,
-    TruncateVertex,
+    HullParams, Operate, PlanarizeParams, ResolveParams, SierpinskiParams, SliceParams, SubdivideParams, TruncateEdge,
+    TruncateFace, TruncateVertex,
 };
 use crate::panel::PanelParams;
 use crate::picture::RenderParams;
@@ -28,7 +28,7 @@ use crate::unfold::UnfoldParams;
 use crate::units::nearest_word;
 
 /// The keys that say what a step does, with the field of its parameters that the value goes to.
-const VERBS: [(&str, &str); 14] = [
+const VERBS: &[(&str, &str)] = &[
     ("solid", "name"),
     ("read", "path"),
     ("planes", "path"),
@@ -37,6 +37,7 @@ const VERBS: [(&str, &str); 14] = [
     ("resolve", "select"),
     ("planarize", "profile"),
     ("subdivide", "scheme"),
+    ("sierpinski", "rounds"),
     ("check", "profile"),
     ("unfold", "pieces"),
     ("dform", "matching"),
@@ -155,6 +156,7 @@ impl Source<'_> {
             ("hull", _) => Step::Hull(fields.read1::<HullParams>()?),
             ("resolve", _) => fields.operator::<ResolveParams>("resolve")?,
             ("subdivide", _) => fields.operator::<SubdivideParams>("subdivide")?,
+            ("sierpinski", _) => fields.operator::<SierpinskiParams>("sierpinski")?,
             ("planarize", _) => fields.operator::<PlanarizeParams>("planarize")?,
             ("check", _) => Step::Check(fields.read1::<CheckParams>()?),
             ("render", _) => Step::Render(fields.read1::<RenderParams>()?),

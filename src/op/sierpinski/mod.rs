@@ -1,0 +1,237 @@
+//! Sierpinski polyhedra (Srinivasan & Akleman 2004; Srinivasan 2004, VI): each vertex keeps a pyramid half as high, what lies between is gone.
+//!
+//! Every edge is halved, every corner of every face cut off, and what remains in the middle of the faces is removed: at the middle of each
+//! edge a self-loop joins the two neighbouring openings, so that the surface stays one, closed and orientable, although its pyramids seem to
+//! touch in points only. Self-loops that are there already stay as they are, in the corner where they lie.
+//!
+//! One round on a closed mesh with V vertices, E straight edges, L loops and F faces:
+//!
+//! ```text
+//!   vertices  V+E    straight edges  4E    loops  L+E    faces  2E + pyramids
+//! ```
+//!
+//! with a pyramid for each vertex, and for each further part into which loops divide a vertex. From genus 0, n rounds make
+//! V + E(4ⁿ−1)/3 vertices, E·4ⁿ straight edges and E(4ⁿ−1)/3 loops, V + 2E(4ⁿ−1)/3 faces, genus 1 − V + E(4ⁿ+2)/6.
+//!
+//! Needs: nothing. Keeps: components, positions of old vertices, groups (the triangles at the corners of a face inherit its group).
+//! Planarity: corner triangles are planar, bases of pyramids are for valence 3, others by luck. Degenerate cases: at the rim of an open mesh
+//! no loop is made, the openings on either side of it join; faces of loops only stay.
+
+mod vertex_kind;
+
+#[cfg(test)]
+mod tests;
+
+use serde::Deserialize;
+
+use super::{OpContext, OpError};
+use crate::mesh::{FaceId, HalfEdgeId, HalfEdgeMap, Mesh, VertexId, WalkBuilder};
+
+pub use vertex_kind::{VertexKind, vertex_kind};
+
+/// The most faces that may be made; more would not fit into the store with its edges.
+const MOST_FACES: usize = 1 << 27;
+/// The most rounds that may be asked for; the number of faces ends it much sooner.
+const MOST_ROUNDS: u32 = 32;
+
+/// How to make a Sierpinski polyhedron. One definition for the library, the command line and the recipe.
+#[derive(Debug, Clone, clap::Args, Deserialize)]
+pub struct SierpinskiParams {
+    /// How many rounds, 1 to 32; each makes four times as many faces.
+    #[arg(long, default_value_t = default_rounds())]
+    #[serde(default = "default_rounds")]
+    pub rounds: u32,
+}
+
+fn default_rounds() -> u32 {
+    1
+}
+
+/// What was found before the first round.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SierpinskiReport {
+    /// How many vertices there are of each kind, in the order of [`VertexKind::ALL`].
+    pub kinds: [usize; 6],
+    /// The self-loops of the result.
+    pub loops: usize,
+}
+
+impl SierpinskiReport {
+    /// The report in words: what there is, and what to expect of it.
+    pub fn notes(&self) -> Vec<String> {
+        let counted = || VertexKind::ALL.iter().zip(self.kinds).filter(|&(_, count)| count > 0);
+        let list: Vec<String> = counted().map(|(kind, count)| format!("{count} {}", kind.name())).collect();
+        let mut notes = vec![format!("vertices before the first round: {}", list.join(", "))];
+        notes.extend(
+            counted().filter_map(|(kind, _)| kind.expectation().map(|text| format!("{}: {text}", kind.name()))),
+        );
+        notes
+            .push(format!("{} self-loops of length zero hold the pyramids together; files leave them out", self.loops));
+        notes
+    }
+}
+
+/// Makes a Sierpinski polyhedron. Positions count as constructed; planes are not carried along.
+///
+/// # Errors
+/// [`OpError::RepeatOutOfRange`]; [`OpError::TooManyFaces`] before a round that would not fit; [`OpError::Cancelled`].
+pub fn sierpinski(
+    mesh: &Mesh,
+    params: &SierpinskiParams,
+    context: &OpContext<'_>,
+) -> Result<(Mesh, SierpinskiReport), OpError> {
+    if !(1..=MOST_ROUNDS).contains(&params.rounds) {
+        return Err(OpError::RepeatOutOfRange { repeat: params.rounds, limit: MOST_ROUNDS });
+    }
+    let kinds = count_kinds(mesh);
+    let mut fine: Option<Mesh> = None;
+    for round in 0..params.rounds {
+        if context.progress.is_cancelled() {
+            return Err(OpError::Cancelled);
+        }
+        context.progress.report("removing middles", round as usize, params.rounds as usize);
+        let coarse = fine.as_ref().unwrap_or(mesh);
+        let faces = coarse.edge_count().saturating_mul(4);
+        if faces > MOST_FACES {
+            return Err(OpError::TooManyFaces { round: round + 1, faces, limit: MOST_FACES });
+        }
+        fine = Some(once(coarse));
+    }
+    let fine = fine.expect("there is at least one round");
+    let loops = fine.edges().filter(|e| is_loop(&fine, e.half_edge())).count();
+    Ok((fine, SierpinskiReport { kinds, loops }))
+}
+
+fn count_kinds(mesh: &Mesh) -> [usize; 6] {
+    let mut kinds = [0; 6];
+    for v in mesh.vertices() {
+        kinds[vertex_kind(mesh, v) as usize] += 1;
+    }
+    kinds
+}
+
+fn is_loop(mesh: &Mesh, h: HalfEdgeId) -> bool {
+    mesh.origin(h) == mesh.target(h)
+}
+
+/// The next half-edge around the face that is no loop.
+fn next_straight(mesh: &Mesh, h: HalfEdgeId) -> HalfEdgeId {
+    let mut next = mesh.next(h);
+    while is_loop(mesh, next) {
+        next = mesh.next(next);
+    }
+    next
+}
+
+/// Half-edges of the fine mesh that stand for half-edges of the coarse one.
+struct Links<'a> {
+    coarse: &'a Mesh,
+    /// From the middle of a straight half-edge to its end; a loop for a loop.
+    second: HalfEdgeMap<HalfEdgeId>,
+    /// From the middle of a straight half-edge of a face to the middle of the next: it cuts off the corner at its end.
+    cut: HalfEdgeMap<HalfEdgeId>,
+    /// The new loop at the middle of a half-edge, entered from its face.
+    ring: HalfEdgeMap<HalfEdgeId>,
+}
+
+fn once(coarse: &Mesh) -> Mesh {
+    let (v, e) = (coarse.vertex_count(), coarse.edge_count());
+    let mut fine = WalkBuilder::with_capacity(v + e, 5 * e, 3 * e);
+    let links = Links::make(coarse, &mut fine);
+    let mut inherited = Vec::new();
+    for f in coarse.faces() {
+        let faces = links.corners(f, &mut fine);
+        if let Some(name) = coarse.group(f) {
+            inherited.push((faces, name));
+        }
+    }
+    links.bases(&mut fine);
+    drop(links);
+    let mut fine = fine.build();
+    for (faces, name) in inherited {
+        faces.for_each(|f| fine.set_group(FaceId::new(f), name));
+    }
+    fine
+}
+
+impl<'a> Links<'a> {
+    fn make(coarse: &'a Mesh, fine: &mut WalkBuilder) -> Self {
+        let none = || HalfEdgeMap::filled(coarse.half_edge_slots(), HalfEdgeId(u32::MAX));
+        let mut links = Self { coarse, second: none(), cut: none(), ring: none() };
+        let mut kept = vec![VertexId::new(0); coarse.vertex_slots()];
+        coarse.vertices().for_each(|v| kept[v.index()] = fine.vertex(coarse.position(v)));
+        let mut middles = vec![VertexId::new(0); coarse.edge_slots()];
+        for edge in coarse.edges() {
+            let [h, t] = edge.half_edges();
+            let [a, b] = [h, t].map(|h| kept[coarse.origin(h).index()]);
+            if a == b {
+                links.second[h] = fine.edge(a, a);
+                links.second[t] = links.second[h].twin();
+                continue;
+            }
+            let [p, q] = coarse.edge_positions(edge);
+            let middle = fine.vertex(p.midpoint(q));
+            middles[edge.index()] = middle;
+            links.second[h] = fine.edge(middle, b);
+            links.second[t] = fine.edge(middle, a);
+            if !coarse.is_rim(edge) {
+                links.ring[h] = fine.edge(middle, middle);
+                links.ring[t] = links.ring[h].twin();
+            }
+        }
+        for h in links.sides() {
+            let next = next_straight(coarse, h);
+            links.cut[h] = fine.edge(middles[h.edge().index()], middles[next.edge().index()]);
+        }
+        links
+    }
+
+    /// The straight half-edges of faces.
+    fn sides(&self) -> impl Iterator<Item = HalfEdgeId> + use<'a> {
+        let coarse = self.coarse;
+        coarse.faces().flat_map(|f| coarse.face_half_edges(f)).filter(|&h| !is_loop(coarse, h))
+    }
+
+    /// The faces at the corners of an old face, each with the loops that lie in its corner. Returns their numbers.
+    fn corners(&self, f: FaceId, fine: &mut WalkBuilder) -> std::ops::Range<usize> {
+        let coarse = self.coarse;
+        let mut made: Option<std::ops::Range<usize>> = None;
+        for h in coarse.face_half_edges(f).filter(|&h| !is_loop(coarse, h)) {
+            let next = next_straight(coarse, h);
+            let loops = std::iter::successors(Some(coarse.next(h)), |&l| Some(coarse.next(l)));
+            let loops = loops.take_while(|&l| l != next).map(|l| self.second[l]);
+            let back = self.second[next.twin()].twin();
+            let walk = std::iter::once(self.second[h]).chain(loops).chain([back, self.cut[h].twin()]);
+            let face = fine.face(walk).index();
+            made = Some(made.map_or(face, |range| range.start)..face + 1);
+        }
+        made.unwrap_or_else(|| {
+            let face = fine.face(coarse.face_half_edges(f).map(|l| self.second[l])).index();
+            face..face + 1
+        })
+    }
+
+    /// The bases of the pyramids, seen from outside through the openings: cuts around a vertex, joined by the new loops.
+    fn bases(&self, fine: &mut WalkBuilder) {
+        let coarse = self.coarse;
+        let mut is_done = HalfEdgeMap::filled(coarse.half_edge_slots(), false);
+        let mut walk = Vec::new();
+        for start in self.sides() {
+            walk.clear();
+            let mut h = start;
+            while !std::mem::replace(&mut is_done[h], true) {
+                let next = next_straight(coarse, h);
+                walk.push(self.cut[h]);
+                h = if coarse.is_rim(next.edge()) {
+                    next
+                } else {
+                    walk.push(self.ring[next]);
+                    next.twin()
+                };
+            }
+            if !walk.is_empty() {
+                fine.face(walk.iter().copied());
+            }
+        }
+    }
+}

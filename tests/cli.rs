@@ -361,7 +361,7 @@ fn mistyped_arguments_are_exit_code_2() {
         (&["solid", "dodecahedrn", "-o", "x.obj"], "dodecahedron"),
         (&["render", "fixtures/meshes/cube.obj", "-o", "x.jpg"], ".png"),
         (&["unfold", "fixtures/meshes/cube.obj", "--animate", "x.gltf", "-o", "x"], "something.glb"),
-        (&["unfold", "fixtures/meshes/cube.obj", "--joint", "tabs", "-o", "x"], "thickness"),
+        (&["unfold", "fixtures/meshes/cube.off", "--joint", "tabs", "-o", "x"], "thickness"),
         (&["check", "fixtures/meshes/cube.obj", "--report", "x.txt"], ".json"),
         (&["cut", "edge", "fixtures/meshes/cube.obj", "--select", "hamiltonain", "-o", "x.obj"], "hamiltonian"),
     ];

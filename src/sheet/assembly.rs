@@ -60,7 +60,6 @@ struct Zip {
     reached: BTreeSet<usize>,
     ranks: Vec<Option<Rank>>,
     waiting: BTreeSet<Rank>,
-    is_begun: bool,
 }
 
 impl Zip {
@@ -70,10 +69,12 @@ impl Zip {
             at.entry(v).or_default().push(i);
             *open.entry(v).or_default() += 1;
         }
-        // Before anything is closed nothing can be closed like a zip.
-        let ranks: Vec<Option<Rank>> = (0..ends.len()).map(|i| Some((true, true, i))).collect();
+        // A net of one piece begins at a tip of its seams, too.
+        let is_tip = |both: &[usize; 2]| both.iter().any(|v| open[v] == 1);
+        let ranks: Vec<Option<Rank>> =
+            ends.iter().enumerate().map(|(i, both)| Some((!is_tip(both), true, i))).collect();
         let waiting = ranks.iter().flatten().copied().collect();
-        Self { ends, at, open, reached: BTreeSet::new(), ranks, waiting, is_begun: false }
+        Self { ends, at, open, reached: BTreeSet::new(), ranks, waiting }
     }
 
     fn best(&self) -> Option<usize> {
@@ -88,11 +89,7 @@ impl Zip {
             self.reached.insert(v);
             *self.open.entry(v).or_default() -= 1;
         }
-        let changed: Vec<usize> = if std::mem::replace(&mut self.is_begun, true) {
-            self.ends[i].iter().flat_map(|v| &self.at[v]).copied().collect()
-        } else {
-            (0..self.ends.len()).collect()
-        };
+        let changed: Vec<usize> = self.ends[i].iter().flat_map(|v| &self.at[v]).copied().collect();
         for j in changed {
             if let Some(old) = self.ranks[j] {
                 let ends = &self.ends[j];

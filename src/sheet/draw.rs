@@ -418,6 +418,7 @@ mod tests {
     use super::super::params::ScoreStyle;
     use super::super::testing::{net_of, random_convex, ring, square, strips, two_pieces};
     use super::super::verify::edges;
+    use super::super::{NestParams, Rotation};
     use super::*;
     use crate::units::Length;
 
@@ -515,7 +516,8 @@ mod tests {
     #[test]
     fn a_chain_of_narrow_faces_becomes_one_hinge_field() {
         let net = strips(8, 5.0, 80.0);
-        let params = SheetParams { hinge: Some(Length::from_mm(6.0)), ..SheetParams::default() };
+        let nest = NestParams { rotations: Rotation::Fixed, ..NestParams::default() };
+        let params = SheetParams { hinge: Some(Length::from_mm(6.0)), nest, ..SheetParams::default() };
         let (drawing, _) = drawn(&net, &params);
         // Six narrow faces between two wide ones: seven folds, none scored, and a row between every two.
         assert_eq!(ids(&drawing, LayerKind::Score), [""; 0]);

@@ -15,8 +15,8 @@ use super::error::{Position, RecipeError};
 use super::{DformParams, FabricateParams, OperatorStep, PlanesStep, ReadStep, Recipe, Step};
 use crate::check::CheckParams;
 use crate::op::{
-    HullParams, Operate, PlanarizeParams, ResolveParams, SierpinskiParams, SliceParams, SubdivideParams, TruncateEdge,
-    TruncateFace, TruncateVertex,
+    HullParams, Operate, PlanarizeParams, ResolveParams, RindParams, SierpinskiParams, SliceParams, SubdivideParams,
+    TruncateEdge, TruncateFace, TruncateVertex,
 };
 use crate::picture::RenderParams;
 use crate::shape::SolidParams;
@@ -25,7 +25,7 @@ use crate::unfold::UnfoldParams;
 use crate::units::nearest_word;
 
 /// The keys that say what a step does, with the field of its parameters that the value goes to.
-const VERBS: [(&str, &str); 13] = [
+const VERBS: [(&str, &str); 14] = [
     ("solid", "name"),
     ("read", "path"),
     ("planes", "path"),
@@ -35,6 +35,7 @@ const VERBS: [(&str, &str); 13] = [
     ("planarize", "profile"),
     ("subdivide", "scheme"),
     ("sierpinski", "rounds"),
+    ("rind", "thickness"),
     ("check", "profile"),
     ("unfold", "pieces"),
     ("dform", "matching"),
@@ -152,6 +153,7 @@ impl Source<'_> {
             ("resolve", _) => fields.operator::<ResolveParams>("resolve")?,
             ("subdivide", _) => fields.operator::<SubdivideParams>("subdivide")?,
             ("sierpinski", _) => fields.operator::<SierpinskiParams>("sierpinski")?,
+            ("rind", _) => fields.operator::<RindParams>("rind")?,
             ("planarize", _) => fields.operator::<PlanarizeParams>("planarize")?,
             ("check", _) => Step::Check(fields.read1::<CheckParams>()?),
             ("render", _) => Step::Render(fields.read1::<RenderParams>()?),

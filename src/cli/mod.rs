@@ -31,7 +31,7 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use output::Console;
 
-use crate::op::{PlanarizeParams, SierpinskiParams, SubdivideParams};
+use crate::op::{PlanarizeParams, RindParams, SierpinskiParams, SubdivideParams};
 
 /// Carve planar 3-valence meshes, check them, and unfold them into sheets that a shop can cut.
 #[derive(Debug, Parser)]
@@ -63,6 +63,9 @@ enum Verb {
     /// Halve every edge and remove the middle of every face, over and over: one connected surface of high genus
     #[command(after_help = "Example: kerfold sierpinski tetrahedron.obj --rounds 3 -o sierpinski.obj")]
     Sierpinski(operator::OperatorArgs<SierpinskiParams>),
+    /// Make a shell of even thickness, with faces punched through or peeled off; exit code 1 when it crosses itself
+    #[command(after_help = "Example: kerfold rind ball.obj --thickness 2mm --peel sides=5 -o rind.obj")]
+    Rind(operator::OperatorArgs<RindParams>),
     Unfold(unfold::UnfoldArgs),
     Seams(seams::SeamsArgs),
     Dform(dform::DformArgs),
@@ -108,6 +111,7 @@ pub fn run() -> ExitCode {
         Verb::Planarize(args) => operator::run(&args, &console),
         Verb::Subdivide(args) => operator::run(&args, &console),
         Verb::Sierpinski(args) => operator::run(&args, &console),
+        Verb::Rind(args) => operator::run(&args, &console),
         Verb::Unfold(args) => unfold::run(&args, &console),
         Verb::Seams(args) => seams::run(&args, &console),
         Verb::Dform(args) => dform::run(&args, &console),

@@ -170,6 +170,18 @@ pub enum OpError {
         /// The faces, by number.
         faces: Vec<usize>,
     },
+    /// A face group that no face belongs to.
+    #[error("there is no face group `{group}`; `kerfold info` lists the groups")]
+    NoSuchGroup {
+        /// What was given.
+        group: String,
+    },
+    /// A face that has no normal.
+    #[error("face {0} has no area, so it has no normal; remove it or weld its corners")]
+    NoArea(FaceId),
+    /// A shell of which every face would be opened.
+    #[error("every face would be opened, so nothing would be left; leave at least one face out")]
+    AllOpened,
     /// The user asked to stop.
     #[error("stopped before the end; nothing was written")]
     Cancelled,

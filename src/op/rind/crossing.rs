@@ -1,0 +1,112 @@
+//! Where a shell crosses itself: the second skin turns round or comes too near to the first.
+
+use glam::{DVec3, IVec3};
+
+use super::Opening;
+use super::offset::Skin;
+use crate::geom::{Frame, triangulate};
+use crate::mesh::{FaceId, FaceMap, Mesh};
+
+/// By how much less than the thickness a distance may be: the rounding of the construction, with room for flat corners.
+const SLACK: f64 = 1e-6;
+
+/// The faces that stay and that the second skin comes nearer to than their thickness, or whose sides turn round; ascending.
+pub(super) fn crossing_faces(
+    mesh: &Mesh,
+    openings: &FaceMap<Opening>,
+    thickness: &FaceMap<f64>,
+    skin: &Skin,
+) -> Vec<usize> {
+    let solid: Vec<FaceId> = mesh.faces().filter(|&f| openings[f] == Opening::None).collect();
+    let turns_round = |f: FaceId| {
+        mesh.face_half_edges(f).any(|h| {
+            let (a, b) = (mesh.origin(h), mesh.target(h));
+            let before = mesh.position(b) - mesh.position(a);
+            a != b && before.dot(skin.positions[b] - skin.positions[a]) < -SLACK * before.length_squared()
+        })
+    };
+    let mut found: Vec<usize> = solid.iter().filter(|&&f| turns_round(f)).map(|f| f.index()).collect();
+    found.extend(too_near(mesh, &solid, thickness, skin).iter().map(|f| f.index()));
+    found.sort_unstable();
+    found.dedup();
+    found
+}
+
+/// Faces with a vertex of the second skin nearer than their thickness.
+fn too_near(mesh: &Mesh, solid: &[FaceId], thickness: &FaceMap<f64>, skin: &Skin) -> Vec<FaceId> {
+    let Some((low, high)) = mesh.bounds() else { return Vec::new() };
+    let reach = solid.iter().map(|&f| thickness[f].abs()).fold(0.0, f64::max);
+    let fineness = (solid.len() as f64).sqrt().clamp(4.0, 128.0);
+    let cells = Cells { low, size: reach.max((high - low).max_element() / fineness) };
+    let mut entries: Vec<([i32; 3], u32)> = Vec::new();
+    let triangles = triangles_of(mesh, solid);
+    for (i, (_, corners)) in triangles.iter().enumerate() {
+        let bounds = corners.iter().fold((corners[0], corners[0]), |(a, b), p| (a.min(*p), b.max(*p)));
+        cells.between(bounds.0, bounds.1).for_each(|cell| entries.push((cell, i as u32)));
+    }
+    entries.sort_unstable();
+    let mut is_near = FaceMap::filled(mesh.face_slots(), false);
+    for v in mesh.vertices() {
+        let p = skin.positions[v];
+        if p.cmplt(low - reach).any() || p.cmpgt(high + reach).any() {
+            continue;
+        }
+        for cell in cells.between(p - reach, p + reach) {
+            let start = entries.partition_point(|e| e.0 < cell);
+            for &(_, i) in entries[start..].iter().take_while(|e| e.0 == cell) {
+                let (f, corners) = &triangles[i as usize];
+                let wanted = thickness[*f].abs() * (1.0 - SLACK) - skin.residuals[v];
+                is_near[*f] |= nearest_on_triangle(p, corners).distance(p) < wanted;
+            }
+        }
+    }
+    solid.iter().copied().filter(|&f| is_near[f]).collect()
+}
+
+fn triangles_of(mesh: &Mesh, faces: &[FaceId]) -> Vec<(FaceId, [DVec3; 3])> {
+    let of_face = |&f: &FaceId| {
+        let corners = mesh.face_positions(f);
+        let plane = mesh.plane(f).expect("the skin was made of planes");
+        let frame = Frame::on_plane(&plane);
+        let flat: Vec<_> = corners.iter().map(|&p| frame.flatten(p)).collect();
+        let triangles = if corners.len() == 3 { vec![[0, 1, 2]] } else { triangulate(&flat) };
+        triangles.into_iter().map(move |t| (f, t.map(|i| corners[i])))
+    };
+    faces.iter().flat_map(of_face).collect()
+}
+
+/// Cubes that divide space.
+struct Cells {
+    low: DVec3,
+    size: f64,
+}
+
+impl Cells {
+    fn of(&self, p: DVec3) -> IVec3 {
+        ((p - self.low) / self.size).floor().as_ivec3()
+    }
+
+    fn between(&self, low: DVec3, high: DVec3) -> impl Iterator<Item = [i32; 3]> + use<> {
+        let (a, b) = (self.of(low), self.of(high));
+        (a.x..=b.x).flat_map(move |x| (a.y..=b.y).flat_map(move |y| (a.z..=b.z).map(move |z| [x, y, z])))
+    }
+}
+
+/// The point of a triangle nearest to `p`: the foot of the perpendicular if it lies inside, else the nearest point of a side.
+fn nearest_on_triangle(p: DVec3, corners: &[DVec3; 3]) -> DVec3 {
+    let [a, b, c] = *corners;
+    let normal = (b - a).cross(c - a);
+    let square = normal.length_squared();
+    let foot = if square > 0.0 { p - normal * ((p - a).dot(normal) / square) } else { p };
+    let sides = [(a, b), (b, c), (c, a)];
+    if square > 0.0 && sides.iter().all(|&(u, v)| (v - u).cross(foot - u).dot(normal) >= 0.0) {
+        return foot;
+    }
+    let on_side = |(u, v): (DVec3, DVec3)| {
+        let along = v - u;
+        let share = (p - u).dot(along) / along.length_squared();
+        if share.is_nan() { u } else { u + along * share.clamp(0.0, 1.0) }
+    };
+    let feet = sides.map(on_side);
+    feet.into_iter().min_by(|x, y| x.distance_squared(p).total_cmp(&y.distance_squared(p))).unwrap_or(a)
+}

@@ -1,0 +1,206 @@
+//! Rind: a shell of even thickness, with faces punched through or peeled off (Srinivasan 2004, V).
+//!
+//! The second skin has the links of the first, turned inside out; each of its vertices lies where the planes of its faces meet after each was
+//! moved by the thickness: exactly with three planes, in the least-squares sense with more, with the residual told. A punched face is joined
+//! to its partner by a pipe, a quad for each side. Peeling also takes away the walls without thickness between neighbouring openings, the
+//! vertices in the midst of peeled faces, and the 2-gons that would be left over. Rims are openings, too, so a sheet becomes a slab.
+//!
+//! With F_o opened faces, E_o edges and V_o vertices taken away, and b sides of openings that stay:
+//!
+//! ```text
+//!   vertices  2(V − V_o)    edges  2(E − E_o) + b    faces  2(F − F_o) + b    Euler number  2(χ − F_o + E_o − V_o)
+//! ```
+//!
+//! so k openings of which no two are neighbours leave genus 2g + k − 1, and none at all leaves two components. Needs: faces with an area.
+//! Keeps: groups, planes, and to the bit the positions of the first skin. A negative thickness grows outwards. Planarity: where three
+//! planes meet, or more after a move by the thickness still do, faces of the second skin are as planar as those of the first. Degenerate
+//! cases: faces at a vertex that are coplanar, or parallel to one line, move it the shortest way; self-loops and 2-gons are legal. When the
+//! thickness is more than the shape allows, the faces are named and the result is marked as not clean.
+
+mod crossing;
+mod offset;
+mod shell;
+
+#[cfg(test)]
+mod tests;
+
+use std::fmt;
+use std::str::FromStr;
+
+use serde::{Deserialize, Deserializer, de};
+
+use super::{OpContext, OpError};
+use crate::geom::RoundingBound;
+use crate::mesh::{FaceId, FaceMap, Mesh};
+use crate::select::{Made, Selection};
+use crate::units::Length;
+
+/// How to make a rind. One definition for the library, the command line and the recipe.
+#[derive(Debug, Clone, clap::Args, Deserialize)]
+pub struct RindParams {
+    /// Thickness of the shell, in mm unless a unit is given; inwards, or outwards when negative.
+    #[arg(long, allow_negative_numbers = true)]
+    pub thickness: Length,
+    /// Another thickness for one face group, of the same sign; may be given several times.
+    #[arg(long, value_name = "GROUP=LENGTH", allow_hyphen_values = true)]
+    #[serde(default)]
+    pub thickness_of: Vec<GroupThickness>,
+    /// Faces to open, in the selection language; neighbours keep a wall without thickness between them.
+    #[arg(long, value_name = "SELECTION")]
+    #[serde(default)]
+    pub punch: Option<Selection>,
+    /// Faces to open, in the selection language, with the walls to neighbouring openings taken away.
+    #[arg(long, value_name = "SELECTION")]
+    #[serde(default)]
+    pub peel: Option<Selection>,
+}
+
+/// The thickness of one face group: `lid=3mm`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GroupThickness {
+    /// The group.
+    pub group: String,
+    /// Its thickness.
+    pub thickness: Length,
+}
+
+impl FromStr for GroupThickness {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (group, length) = text.rsplit_once('=').ok_or_else(|| format!("`{text}` is not like lid=3mm"))?;
+        let thickness = length.parse().map_err(|e: crate::units::UnitError| e.to_string())?;
+        Ok(Self { group: group.trim().to_owned(), thickness })
+    }
+}
+
+impl fmt::Display for GroupThickness {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}={}", self.group, self.thickness)
+    }
+}
+
+impl<'de> Deserialize<'de> for GroupThickness {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        String::deserialize(deserializer)?.parse().map_err(de::Error::custom)
+    }
+}
+
+/// How a face is opened.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Opening {
+    /// Not at all.
+    None,
+    /// With all its walls; holes of an open mesh, too.
+    Punched,
+    /// Without walls to other openings.
+    Peeled,
+}
+
+/// What a rind came out as.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct RindReport {
+    /// How many faces were opened; rims count.
+    pub openings: usize,
+    /// How many walls without thickness were taken away.
+    pub walls_removed: usize,
+    /// The genus that the openings must leave, summed over the components.
+    pub genus: usize,
+    /// Components of the result.
+    pub components: usize,
+    /// The largest distance of a vertex of the second skin from one of the planes that it should lie on, in mm.
+    pub residual_mm: f64,
+    /// Faces, in ids of the mesh before, that the second skin comes nearer to than their thickness, or whose sides turn round.
+    pub crossing: Vec<usize>,
+}
+
+impl RindReport {
+    /// The report in words.
+    pub fn notes(&self) -> Vec<String> {
+        let mut notes = vec![format!(
+            "{} openings, {} walls without thickness taken away; {} components, genus {}",
+            self.openings, self.walls_removed, self.components, self.genus
+        )];
+        if self.residual_mm > 0.0 {
+            notes.push(format!(
+                "vertices of more than three planes: the second skin is up to {:.3e} mm off the thickness there",
+                self.residual_mm
+            ));
+        }
+        if !self.crossing.is_empty() {
+            let shown: Vec<String> = self.crossing.iter().take(8).map(usize::to_string).collect();
+            let more = if self.crossing.len() > 8 { ", …" } else { "" };
+            notes.push(format!(
+                "the shell crosses itself at {} faces ({}{more}): the thickness is more than the shape allows there; take less",
+                self.crossing.len(),
+                shown.join(", ")
+            ));
+        }
+        notes
+    }
+}
+
+/// Makes a rind. Returns the mesh, what was made (the second skin and the walls), and a report.
+///
+/// # Errors
+/// [`OpError::Select`] for an empty selection; [`OpError::DepthTooSmall`] when a thickness is within rounding; [`OpError::Exclude`] for
+/// thicknesses of both signs; [`OpError::NoSuchGroup`]; [`OpError::NoArea`] for a face without a normal; [`OpError::AllOpened`] when no
+/// face would be left; [`OpError::Cancelled`].
+pub fn rind(mesh: &Mesh, params: &RindParams, context: &OpContext<'_>) -> Result<(Mesh, Made, RindReport), OpError> {
+    let thickness = thicknesses(mesh, params)?;
+    let openings = openings(mesh, params, context)?;
+    if mesh.faces().all(|f| openings[f] != Opening::None) {
+        return Err(OpError::AllOpened);
+    }
+    let skin = offset::offset(mesh, &thickness)?;
+    if context.progress.is_cancelled() {
+        return Err(OpError::Cancelled);
+    }
+    let shell = shell::Shell::plan(mesh, &openings);
+    let (made_mesh, made) = shell.build(&skin, params.thickness.mm() < 0.0);
+    let mut report = shell.report(&made_mesh);
+    // What is below the rounding of the construction is no residual.
+    report.residual_mm = mesh.vertices().map(|v| skin.residuals[v]).fold(0.0, f64::max);
+    if report.residual_mm <= bound(mesh) {
+        report.residual_mm = 0.0;
+    }
+    report.crossing = crossing::crossing_faces(mesh, &openings, &thickness, &skin);
+    Ok((made_mesh, made, report))
+}
+
+fn bound(mesh: &Mesh) -> f64 {
+    mesh.bounds().map_or(0.0, |(low, high)| RoundingBound::of_box(low, high).length())
+}
+
+fn thicknesses(mesh: &Mesh, params: &RindParams) -> Result<FaceMap<f64>, OpError> {
+    let usual = params.thickness.mm();
+    let least = 8.0 * bound(mesh);
+    let check = |mm: f64| {
+        let is_enough = mm.abs() > least && mm.is_finite();
+        if is_enough { Ok(mm) } else { Err(OpError::DepthTooSmall { depth: mm, least }) }
+    };
+    let mut thickness = FaceMap::filled(mesh.face_slots(), check(usual)?);
+    for special in &params.thickness_of {
+        if !mesh.groups().contains(&special.group) {
+            return Err(OpError::NoSuchGroup { group: special.group.clone() });
+        }
+        let mm = check(special.thickness.mm())?;
+        if mm.signum() != usual.signum() {
+            return Err(OpError::Exclude { first: "a thickness inwards", second: "one outwards" });
+        }
+        mesh.faces().filter(|&f| mesh.group(f) == Some(&special.group)).for_each(|f| thickness[f] = mm);
+    }
+    Ok(thickness)
+}
+
+fn openings(mesh: &Mesh, params: &RindParams, context: &OpContext<'_>) -> Result<FaceMap<Opening>, OpError> {
+    let mut openings = FaceMap::filled(mesh.face_slots(), Opening::None);
+    let mut open = |faces: Vec<FaceId>, how: Opening| faces.into_iter().for_each(|f| openings[f] = how);
+    open(mesh.holes().collect(), Opening::Punched);
+    for (selection, how) in [(&params.punch, Opening::Punched), (&params.peel, Opening::Peeled)] {
+        if let Some(selection) = selection {
+            open(selection.faces(&context.select(mesh))?, how);
+        }
+    }
+    Ok(openings)
+}

@@ -102,6 +102,7 @@ const READERS: &[(&[&str], &str)] = &[
     (&["subdivide", "doo-sabin", "IN", "--rounds", "2", "-o", "OUT"], "out.obj"),
     (&["sierpinski", "IN", "--rounds", "2", "-o", "OUT"], "out.obj"),
     (&["rind", "IN", "--thickness", "2mm", "--punch", "0", "--peel", "1,2", "-o", "OUT"], "out.obj"),
+    (&["menger", "IN", "--thickness", "1/4", "-o", "OUT"], "out.obj"),
     (&["planarize", "IN", "-o", "OUT"], "out.obj"),
     (&["unfold", "IN", "--sheet", "600x400", "-o", "OUT"], "out"),
     (&["seams", "IN"], ""),

@@ -15,8 +15,8 @@ use super::error::{Position, RecipeError};
 use super::{DformParams, FabricateParams, OperatorStep, PlanesStep, ReadStep, Recipe, Step};
 use crate::check::CheckParams;
 use crate::op::{
-    HullParams, Operate, PlanarizeParams, ResolveParams, RindParams, SierpinskiParams, SliceParams, SubdivideParams,
-    TruncateEdge, TruncateFace, TruncateVertex,
+    HullParams, MengerParams, Operate, PlanarizeParams, ResolveParams, RindParams, SierpinskiParams, SliceParams,
+    SubdivideParams, TruncateEdge, TruncateFace, TruncateVertex,
 };
 use crate::picture::RenderParams;
 use crate::shape::SolidParams;
@@ -25,7 +25,7 @@ use crate::unfold::UnfoldParams;
 use crate::units::nearest_word;
 
 /// The keys that say what a step does, with the field of its parameters that the value goes to.
-const VERBS: [(&str, &str); 14] = [
+const VERBS: [(&str, &str); 15] = [
     ("solid", "name"),
     ("read", "path"),
     ("planes", "path"),
@@ -35,6 +35,7 @@ const VERBS: [(&str, &str); 14] = [
     ("planarize", "profile"),
     ("subdivide", "scheme"),
     ("sierpinski", "rounds"),
+    ("menger", "rounds"),
     ("rind", "thickness"),
     ("check", "profile"),
     ("unfold", "pieces"),
@@ -154,6 +155,7 @@ impl Source<'_> {
             ("subdivide", _) => fields.operator::<SubdivideParams>("subdivide")?,
             ("sierpinski", _) => fields.operator::<SierpinskiParams>("sierpinski")?,
             ("rind", _) => fields.operator::<RindParams>("rind")?,
+            ("menger", _) => fields.operator::<MengerParams>("menger")?,
             ("planarize", _) => fields.operator::<PlanarizeParams>("planarize")?,
             ("check", _) => Step::Check(fields.read1::<CheckParams>()?),
             ("render", _) => Step::Render(fields.read1::<RenderParams>()?),

@@ -15,13 +15,15 @@ use clap::ValueEnum;
 use words::{DEFINITIONS, count, escaped, figure, optional};
 
 use super::base64::base64;
-use crate::check::{Details, EdgeDetail, FaceReport, Finding, Report, Unit, Verdict, VertexDetail};
+use crate::check::{Details, EdgeDetail, FaceReport, Finding, Report, Unit, Verdict, VertexDetail, short};
 use crate::mesh::FaceId;
 
 /// Rows of each table when only the worst are listed.
 const LISTED: usize = 24;
 /// The same for findings, which are long.
 const FINDINGS: usize = 12;
+/// Deviations below this share of the model are the rounding of a computation.
+const ROUNDING: f64 = 1e-9;
 /// Colours of bars that keep the limit, and that do not.
 const KEPT: [u8; 3] = [96, 140, 190];
 const BROKEN: [u8; 3] = [190, 60, 48];
@@ -188,7 +190,6 @@ fn verdict(is_kept: bool) -> String {
 fn deviations(page: &ReportPage<'_>) -> String {
     /// Upper ends of the bins, in per cent of the limit; the last bin has none.
     const ENDS: [f64; 13] = [10., 20., 30., 40., 50., 60., 70., 80., 90., 100., 150., 200., 500.];
-    const BINS: usize = 20;
     let r = page.report;
     let mut counts = [0; ENDS.len() + 1];
     for f in &r.faces {
@@ -198,24 +199,35 @@ fn deviations(page: &ReportPage<'_>) -> String {
     let colour = |i: usize| if i < 10 { KEPT } else { BROKEN };
     let shares: Vec<Bar> =
         counts.iter().enumerate().map(|(i, &count)| Bar { label: label(i), count, colour: colour(i) }).collect();
+    format!(
+        "<section><h2>How the panels spread</h2>\n<p>Number of panels by how much of the tightest limit they use; beyond 100 % \
+         a limit is broken.</p>\n{}{}</section>\n",
+        chart::bars("Panels by share of the limit", "per cent of the limit used", &shares, Some((10.0, "limit"))),
+        distances(r)
+    )
+}
+
+/// The histogram in mm; a sentence where there is nothing but rounding to show.
+fn distances(r: &Report) -> String {
+    const BINS: usize = 20;
+    if r.worst.mm <= ROUNDING * r.model.size_mm.max_element() {
+        return "<p>No corner is off the plane of its panel by more than rounding.</p>\n".to_owned();
+    }
     let mut counts = [0; BINS];
     for f in &r.faces {
-        let share = if r.worst.mm > 0.0 { f.planarity.mm / r.worst.mm } else { 0.0 };
-        counts[((share * BINS as f64) as usize).min(BINS - 1)] += 1;
+        counts[((f.planarity.mm / r.worst.mm * BINS as f64) as usize).min(BINS - 1)] += 1;
     }
     let width = r.worst.mm / BINS as f64;
     let bar = |(i, &count): (usize, &usize)| {
-        let label = if i % 4 == 3 { words::shown((i + 1) as f64 * width) } else { String::new() };
+        let label = if i % 4 == 3 { short((i + 1) as f64 * width) } else { String::new() };
         let is_over = r.limits.mm.is_some_and(|limit| i as f64 * width >= limit);
         Bar { label, count, colour: if is_over { BROKEN } else { KEPT } }
     };
-    let distances: Vec<Bar> = counts.iter().enumerate().map(bar).collect();
+    let bars: Vec<Bar> = counts.iter().enumerate().map(bar).collect();
     let limit = r.limits.mm.filter(|&limit| limit < r.worst.mm).map(|limit| (limit / width, "limit in mm"));
     format!(
-        "<section><h2>How the panels spread</h2>\n<p>Number of panels by how much of the tightest limit they use; beyond 100 % \
-         a limit is broken.</p>\n{}<p>Number of panels by the largest distance of a corner from the plane.</p>\n{}</section>\n",
-        chart::bars("Panels by share of the limit", "per cent of the limit used", &shares, Some((10.0, "limit"))),
-        chart::bars("Panels by distance in mm", "up to, in mm", &distances, limit)
+        "<p>Number of panels by the largest distance of a corner from the plane.</p>\n{}",
+        chart::bars("Panels by distance in mm", "up to, in mm", &bars, limit)
     )
 }
 

@@ -26,7 +26,7 @@ pub fn report_pictures(mesh: &Mesh, report: &Report, render: &RenderParams) -> R
     let view = |picture: Picture, caption: &str| ReportPicture { caption: caption.to_owned(), png: picture.to_png() };
     let views = vec![
         view(
-            render_shares(mesh, &sized(1400, 720, Colour::Planarity), &shares)?,
+            render_shares(mesh, &sized(1400, 640, Colour::Planarity), &shares)?,
             "Each panel by how much of its limit it uses, in per cent: blue is planar, from orange on the limit is broken; \
              200 % and more look alike.",
         ),

@@ -49,5 +49,6 @@ footer { margin-top: 3rem; border-top: 1px solid var(--line); padding-top: .6rem
   .panels, .views, .definitions dl { grid-template-columns: 1fr; } table { font-size: .8rem; } }
 @page { size: A4; margin: 15mm 14mm; }
 @media print { body { max-width: none; padding: 0; background: #fff; font-size: 10pt; } h2 { margin-top: 1.4rem; }
-  h2, h3, .note, section > p { break-after: avoid; } h1 { font-size: 20pt; } p { orphans: 3; widows: 3; } .definitions { break-inside: avoid; } }
+  h2, h3, .note, section > p { break-after: avoid; } h1 { font-size: 20pt; } p { orphans: 3; widows: 3; } .definitions { break-inside: avoid; }
+  p { break-inside: avoid; } }
 ";

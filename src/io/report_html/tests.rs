@@ -132,6 +132,9 @@ fn every_panel_node_and_fold_stands_in_one_bar() {
     assert_eq!(sums["Panels by distance in mm"], report.faces.len());
     assert_eq!(sums["Nodes by valence"], mesh.vertex_count());
     assert_eq!(sums["Edges by dihedral angle"], details.edges.len());
+    let (flat, ..) = page_of(&cube(), ReportRows::Worst, &CheckParams::default());
+    assert!(flat.contains("more than rounding") && !flat.contains("Panels by distance in mm"));
+    assert!(flat.contains("Pass: ") && !flat.contains("class=\"fail\""));
 }
 
 #[test]

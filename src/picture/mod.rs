@@ -15,7 +15,7 @@ mod params;
 mod scene;
 mod sheet;
 
-pub use model::render_model;
+pub use model::{render_marked, render_model, render_shares};
 pub use params::{Colour, EdgeLines, Projection, RenderParams, UpAxis, View, ViewError};
 pub use sheet::{Polyline, StrokeLayer, Strokes, render_sheet};
 

@@ -14,6 +14,7 @@ mod materials;
 mod outputs;
 mod parse;
 mod planes;
+mod report_pictures;
 mod seam_choice;
 
 #[cfg(test)]
@@ -32,6 +33,7 @@ pub use job::Job;
 pub use materials::{MaterialError, material, with_material};
 pub use outputs::{fabrication_outputs, job_outputs, sheet_picture};
 pub use planes::{PlanesStep, solid_of_planes};
+pub use report_pictures::report_pictures;
 pub use seam_choice::SeamChoice;
 
 use crate::check::CheckParams;

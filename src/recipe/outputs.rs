@@ -1,9 +1,11 @@
 //! What a job leaves in its folder, as names and bytes; nothing is written here.
 
 use super::fabricate::piece_list;
-use super::{Fabrication, Job, StepFailure};
+use super::{Fabrication, Job, StepFailure, report_pictures};
+use crate::check::details;
 use crate::io::layout_json::write_layout_json;
 use crate::io::pieces_json::write_pieces_json;
+use crate::io::report_html::{ReportPage, ReportRows, check_html};
 use crate::io::report_json::check_json;
 use crate::io::sheet_files::sheet_files;
 use crate::io::{MeshFormat, WriteOptions, mesh_bytes};
@@ -26,6 +28,9 @@ pub fn job_outputs(job: &Job, command: &str) -> Result<Vec<Output>, StepFailure>
         ("model.png".to_owned(), render_model(mesh, &job.render)?.to_png()),
         ("report.json".to_owned(), check_json(&job.report()?, command).into_bytes()),
     ];
+    if job.is_check_asked {
+        outputs.push(("report.html".to_owned(), report_page(job, command)?.into_bytes()));
+    }
     for step in &job.hull_steps {
         outputs.push((step.file_name("model"), render_model(&step.mesh, &job.render)?.to_png()));
     }
@@ -37,6 +42,14 @@ pub fn job_outputs(job: &Job, command: &str) -> Result<Vec<Output>, StepFailure>
         }
     }
     Ok(outputs)
+}
+
+/// The page of the report, with the pictures seen as the recipe says.
+fn report_page(job: &Job, command: &str) -> Result<String, StepFailure> {
+    let (mesh, report) = (job.mesh()?, job.report()?);
+    let pictures = report_pictures(mesh, &report, &job.render)?;
+    let (title, rows, details) = ("model", ReportRows::Worst, details(mesh));
+    Ok(check_html(&ReportPage { title, report: &report, details: &details, pictures: &pictures, rows, command }))
 }
 
 /// Pieces, layout and sheets; the pieces only when no sheets were asked for.

@@ -219,7 +219,7 @@ fn distances(r: &Report) -> String {
     }
     let width = r.worst.mm / BINS as f64;
     let bar = |(i, &count): (usize, &usize)| {
-        let label = if i % 4 == 3 { short((i + 1) as f64 * width) } else { String::new() };
+        let label = if i % 4 == 1 { short((i + 1) as f64 * width) } else { String::new() };
         let is_over = r.limits.mm.is_some_and(|limit| i as f64 * width >= limit);
         Bar { label, count, colour: if is_over { BROKEN } else { KEPT } }
     };

@@ -93,6 +93,8 @@ const READERS: &[(&[&str], &str)] = &[
     (&["info", "IN"], ""),
     (&["check", "IN"], ""),
     (&["check", "IN", "--report", "OUT"], "report.json"),
+    (&["check", "IN", "--report", "OUT", "--up", "y", "--view", "iso"], "report.html"),
+    (&["check", "IN", "--rows", "all", "--report", "OUT"], "report.csv"),
     (&["cut", "vertex", "IN", "--select", "all", "--offset", "0.25", "-o", "OUT"], "out.obj"),
     (&["cut", "edge", "IN", "--select", "0", "--offset", "0.2", "-o", "OUT"], "out.ply"),
     (&["cut", "face", "IN", "--select", "0", "-o", "OUT"], "out.off"),
@@ -102,6 +104,7 @@ const READERS: &[(&[&str], &str)] = &[
     (&["subdivide", "doo-sabin", "IN", "--rounds", "2", "-o", "OUT"], "out.obj"),
     (&["sierpinski", "IN", "--rounds", "2", "-o", "OUT"], "out.obj"),
     (&["rind", "IN", "--thickness", "2mm", "--punch", "0", "--peel", "1,2", "-o", "OUT"], "out.obj"),
+    (&["menger", "IN", "--thickness", "1/4", "-o", "OUT"], "out.obj"),
     (&["planarize", "IN", "-o", "OUT"], "out.obj"),
     (&["unfold", "IN", "--sheet", "600x400", "-o", "OUT"], "out"),
     (&["unfold", "IN", "--sheet", "none", "--assembly", "pictures", "-o", "OUT"], "shown"),
@@ -274,6 +277,13 @@ fn findings_are_exit_code_1() {
     let ran = run(&["check", &model, "--require", "valence3"]);
     assert_eq!((ran.code, ran.err.as_str()), (Some(1), ""), "{}", ran.out);
     assert!(ran.out.contains("valence"), "{}", ran.out);
+    let page = folder.path("report.html");
+    let ran = run(&["check", &model, "--require", "valence3", "--report", &page, "--json", "--rows", "all"]);
+    assert_eq!((ran.code, ran.err.as_str()), (Some(1), ""), "{}", ran.out);
+    let told: Value = serde_json::from_str(&ran.out).expect("JSON");
+    assert_eq!(["vertices", "edges"].map(|key| told[key].as_array().map(Vec::len)), [Some(6), Some(12)]);
+    let page = fs::read_to_string(&page).expect("a page");
+    assert!(page.contains("Fail: 6 findings") && page.contains("octahedron.obj"));
 }
 
 #[test]

@@ -3,12 +3,14 @@
 //! [`check`] measures a mesh and compares it with the limits of a [`Profile`] and with what the user requires. It prints
 //! nothing and decides nothing but pass or fail; the writers in `io` show the [`Report`].
 
+mod details;
 mod findings;
 mod params;
 mod profile;
 mod report;
 mod short;
 
+pub use details::{Details, EdgeDetail, VertexDetail, details};
 pub use params::{CheckError, CheckParams, Requirement};
 pub use profile::{Breach, Limits, Profile, Unit};
 pub use report::{

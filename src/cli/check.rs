@@ -6,11 +6,15 @@ use super::error::CliError;
 use super::input::Input;
 use super::output::command_line;
 use super::{Console, Outcome};
-use crate::check::{CheckParams, Report, check};
+use crate::check::{CheckParams, Report, check, details};
 use crate::io::output::write_file;
 use crate::io::report_csv::check_csv;
-use crate::io::report_json::check_json;
+use crate::io::report_html::{ReportPage, ReportRows, check_html};
+use crate::io::report_json::check_json_with;
 use crate::io::report_text::check_text;
+use crate::mesh::Mesh;
+use crate::picture::{RenderParams, UpAxis, View};
+use crate::recipe::report_pictures;
 
 /// Measure planarity, valence, manifoldness, convexity and genus against limits; exit code 1 when something breaks them
 #[derive(Debug, clap::Args)]
@@ -22,32 +26,68 @@ pub(super) struct CheckArgs {
     input: Input,
     #[command(flatten)]
     check: CheckParams,
-    /// Also write the report to a file: .json or .csv
+    /// Also write the report to a file: .html (one page with pictures, to hand on or print), .json or .csv
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
+    /// Rows of the lists of vertices and edges in JSON, and of all lists in HTML: without it JSON has none of the two, HTML
+    /// the worst
+    #[arg(long, value_enum, default_value_t)]
+    rows: ReportRows,
+    /// Where to look from in the pictures of the HTML page, as in `render`
+    #[arg(long, default_value_t, allow_hyphen_values = true)]
+    view: View,
+    /// The axis of the model that points up in the pictures
+    #[arg(long, value_enum, default_value_t)]
+    up: UpAxis,
 }
 
 pub(super) fn run(args: &CheckArgs, console: &Console) -> Result<Outcome, CliError> {
-    let writer = args.report.as_deref().map(report_writer).transpose()?;
+    let format = args.report.as_deref().map(report_format).transpose()?;
     let read = args.input.read()?;
     let report = check(&read.mesh, &args.check)?;
     let command = command_line();
-    if let Some((path, write)) = args.report.as_ref().zip(writer) {
-        write_file(path, write(&report, &command).as_bytes())?;
+    if let Some((path, format)) = args.report.as_ref().zip(format) {
+        let text = match format {
+            ReportFormat::Html => page(args, &read.mesh, &report, &command)?,
+            ReportFormat::Json => json(args, &read.mesh, &report, &command),
+            ReportFormat::Csv => check_csv(&report, &command),
+        };
+        write_file(path, text.as_bytes())?;
     }
     console.notes(&read.notes);
-    let text = if console.json { check_json(&report, &command) } else { check_text(&report, &command) };
+    let text = if console.json { json(args, &read.mesh, &report, &command) } else { check_text(&report, &command) };
     console.result(&text)?;
     Ok(if report.has_findings() { Outcome::Findings } else { Outcome::Clean })
 }
 
-type ReportWriter = fn(&Report, &str) -> String;
+fn json(args: &CheckArgs, mesh: &Mesh, report: &Report, command: &str) -> String {
+    let details = (args.rows == ReportRows::All).then(|| details(mesh));
+    check_json_with(report, details.as_ref(), command)
+}
+
+fn page(args: &CheckArgs, mesh: &Mesh, report: &Report, command: &str) -> Result<String, CliError> {
+    let render = RenderParams { view: args.view, up: args.up, ..RenderParams::default() };
+    let pictures = report_pictures(mesh, report, &render)?;
+    let title = args.input.input.file_name().map_or("model".into(), |name| name.to_string_lossy());
+    let title = if title == "-" { "model".into() } else { title };
+    let details = details(mesh);
+    let page = ReportPage { title: &title, report, details: &details, pictures: &pictures, rows: args.rows, command };
+    Ok(check_html(&page))
+}
+
+#[derive(Clone, Copy)]
+enum ReportFormat {
+    Html,
+    Json,
+    Csv,
+}
 
 /// Chosen before anything is read, so that a mistyped name costs nothing.
-fn report_writer(path: &Path) -> Result<ReportWriter, CliError> {
+fn report_format(path: &Path) -> Result<ReportFormat, CliError> {
     match path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase).as_deref() {
-        Some("json") => Ok(check_json),
-        Some("csv") => Ok(check_csv),
+        Some("html" | "htm") => Ok(ReportFormat::Html),
+        Some("json") => Ok(ReportFormat::Json),
+        Some("csv") => Ok(ReportFormat::Csv),
         _ => Err(CliError::UnknownReport { path: path.to_owned() }),
     }
 }

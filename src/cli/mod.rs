@@ -31,7 +31,7 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use output::Console;
 
-use crate::op::{PlanarizeParams, RindParams, SierpinskiParams, SubdivideParams};
+use crate::op::{MengerParams, PlanarizeParams, RindParams, SierpinskiParams, SubdivideParams};
 
 /// Carve planar 3-valence meshes, check them, and unfold them into sheets that a shop can cut.
 #[derive(Debug, Parser)]
@@ -66,6 +66,9 @@ enum Verb {
     /// Make a shell of even thickness, with faces punched through or peeled off; exit code 1 when it crosses itself
     #[command(after_help = "Example: kerfold rind ball.obj --thickness 2mm --peel sides=5 -o rind.obj")]
     Rind(operator::OperatorArgs<RindParams>),
+    /// Dig a tunnel into every face, over and over; `--exact` makes Menger's own sponge of a cube; exit code 1 when it crosses itself
+    #[command(after_help = "Example: kerfold menger dodecahedron.obj --thickness 0.2 -o sponge.obj")]
+    Menger(operator::OperatorArgs<MengerParams>),
     Unfold(unfold::UnfoldArgs),
     Seams(seams::SeamsArgs),
     Dform(dform::DformArgs),
@@ -112,6 +115,7 @@ pub fn run() -> ExitCode {
         Verb::Subdivide(args) => operator::run(&args, &console),
         Verb::Sierpinski(args) => operator::run(&args, &console),
         Verb::Rind(args) => operator::run(&args, &console),
+        Verb::Menger(args) => operator::run(&args, &console),
         Verb::Unfold(args) => unfold::run(&args, &console),
         Verb::Seams(args) => seams::run(&args, &console),
         Verb::Dform(args) => dform::run(&args, &console),

@@ -3,6 +3,7 @@
 //! [`read_mesh`] reads OBJ, PLY, STL and OFF, [`write_mesh`] writes them; `-` is standard input or output and means OBJ.
 //! Everything that kerfold writes goes through [`output`], so that a file is whole or not there.
 
+mod base64;
 pub mod bloom_glb;
 pub mod dxf;
 mod error;
@@ -20,6 +21,7 @@ pub mod pieces_json;
 pub mod planes_csv;
 mod read;
 pub mod report_csv;
+pub mod report_html;
 pub mod report_json;
 pub mod report_text;
 pub mod sheet_files;

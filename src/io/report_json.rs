@@ -7,17 +7,22 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use crate::check::{FaceReport, Finding, Limits, Report};
+use crate::check::{Details, EdgeDetail, FaceReport, Finding, Limits, Report, VertexDetail};
 use crate::measure::Summary;
 use crate::mesh::VertexId;
 
 /// The report of `check`, with one line for each face and each finding.
 pub fn check_json(report: &Report, command: &str) -> String {
+    check_json_with(report, None, command)
+}
+
+/// The same, and with `details` one line for each vertex and each edge.
+pub fn check_json_with(report: &Report, details: Option<&Details>, command: &str) -> String {
     let valence = Valence {
         histogram: &report.valence.histogram,
         other: report.valence.other.iter().map(|v| v.index()).collect(),
     };
-    object(&[
+    let mut fields = vec![
         ("command", compact(command)),
         ("model", compact(&model(report))),
         ("planarity", planarity(report)),
@@ -34,7 +39,12 @@ pub fn check_json(report: &Report, command: &str) -> String {
                 compact(&Conical { vertex: node.vertex.index(), valence: node.valence, residual: node.residual })
             })),
         ),
-    ])
+    ];
+    if let Some(details) = details {
+        fields.push(("vertices", lines(details.vertices.iter().map(|v| compact(&vertex(v))))));
+        fields.push(("edges", lines(details.edges.iter().map(|e| compact(&edge(e))))));
+    }
+    object(&fields)
 }
 
 /// The summary of `info`. `notes` are what the reader had to say.
@@ -179,6 +189,23 @@ struct Concave {
 }
 
 #[derive(Serialize)]
+struct Vertex {
+    vertex: usize,
+    valence: usize,
+    rim: bool,
+    residual: Option<f64>,
+    deficit_degrees: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct Edge {
+    edge: usize,
+    ends: [usize; 2],
+    length_mm: f64,
+    dihedral_degrees: Option<f64>,
+}
+
+#[derive(Serialize)]
 struct Conical {
     vertex: usize,
     valence: usize,
@@ -222,6 +249,25 @@ fn face(f: &FaceReport) -> Face {
         permille: p.permille,
         degrees: p.degrees,
         percent: p.percent,
+    }
+}
+
+fn vertex(v: &VertexDetail) -> Vertex {
+    Vertex {
+        vertex: v.vertex.index(),
+        valence: v.valence,
+        rim: v.is_on_rim,
+        residual: v.residual,
+        deficit_degrees: v.deficit_degrees,
+    }
+}
+
+fn edge(e: &EdgeDetail) -> Edge {
+    Edge {
+        edge: e.edge.index(),
+        ends: e.ends.map(|v| v.index()),
+        length_mm: e.length_mm,
+        dihedral_degrees: e.dihedral_degrees,
     }
 }
 

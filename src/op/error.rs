@@ -182,6 +182,33 @@ pub enum OpError {
     /// A shell of which every face would be opened.
     #[error("every face would be opened, so nothing would be left; leave at least one face out")]
     AllOpened,
+    /// An angle is not in its range.
+    #[error("the {what} angle is {degrees} degrees, but it must be at least {least} and below {limit}")]
+    AngleOutOfRange {
+        /// Which angle.
+        what: &'static str,
+        /// What was given.
+        degrees: f64,
+        /// The least that is allowed.
+        least: f64,
+        /// The end of the range, not part of it.
+        limit: f64,
+    },
+    /// The operator needs a closed mesh.
+    #[error(
+        "{what} needs a closed mesh, but this one has {holes} holes; close them first, or make a shell of it with `rind`"
+    )]
+    NotClosed {
+        /// What was to be made.
+        what: &'static str,
+        /// How many holes there are.
+        holes: usize,
+    },
+    /// The exact Menger sponge of something else.
+    #[error(
+        "the exact sponge is that of a cube, box or parallelepiped with 6 faces and 8 corners; leave `exact` out for other solids"
+    )]
+    NotABox,
     /// The user asked to stop.
     #[error("stopped before the end; nothing was written")]
     Cancelled,

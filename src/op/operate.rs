@@ -3,9 +3,9 @@
 use std::fmt;
 
 use super::{
-    HullParams, OpContext, OpError, PlanarizeParams, ResolveParams, RindParams, SierpinskiParams, SliceParams,
-    SubdivideParams, TruncateEdge, TruncateFace, TruncateVertex, hull, planarize, resolve, rind, sierpinski, slice,
-    subdivide, truncate_edges, truncate_faces, truncate_vertices,
+    HullParams, MengerParams, OpContext, OpError, PlanarizeParams, ResolveParams, RindParams, SierpinskiParams,
+    SliceParams, SubdivideParams, TruncateEdge, TruncateFace, TruncateVertex, hull, menger, planarize, resolve, rind,
+    sierpinski, slice, subdivide, truncate_edges, truncate_faces, truncate_vertices,
 };
 use crate::mesh::Mesh;
 use crate::select::Made;
@@ -93,5 +93,12 @@ impl Operate for RindParams {
     fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError> {
         let (mesh, made, report) = rind(mesh, self, context)?;
         Ok(Operated { mesh, made: Some(made), notes: report.notes(), is_clean: report.crossing.is_empty() })
+    }
+}
+
+impl Operate for MengerParams {
+    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError> {
+        let (mesh, report) = menger(mesh, self, context)?;
+        Ok(Operated { mesh, made: None, notes: report.notes(), is_clean: report.crossing.is_empty() })
     }
 }

@@ -10,16 +10,21 @@ use crate::mesh::Mesh;
 
 /// The legend of a picture.
 pub(super) enum Legend {
-    /// A scale from 0 to the largest deviation in mm.
-    Planarity { top: f64 },
+    /// A scale from 0 to `top`.
+    Scale { title: &'static str, top: f64 },
     /// How many vertices there are of each valence.
     Valence { counts: BTreeMap<usize, usize> },
 }
 
 impl Legend {
-    /// A scale from planar to `top`.
+    /// A scale from planar to `top` mm.
     pub fn planarity(top: f64) -> Self {
-        Self::Planarity { top }
+        Self::Scale { title: "PLANARITY MM", top }
+    }
+
+    /// A scale from nothing to twice the limit.
+    pub fn limit() -> Self {
+        Self::Scale { title: "% OF LIMIT", top: 200.0 }
     }
 
     /// The valences of a mesh; 6 stands for 6 and more.
@@ -41,7 +46,7 @@ impl Legend {
         let letter = letter_height(pixmap.width(), pixmap.height());
         let left = pixmap.width() as f32 - letter * 13.5;
         match self {
-            Self::Planarity { top } => draw_scale(pixmap, *top, left, letter),
+            Self::Scale { title, top } => draw_scale(pixmap, title, *top, [left, letter]),
             Self::Valence { counts } => draw_counts(pixmap, counts, left, letter),
         }
     }
@@ -52,10 +57,10 @@ fn letter_height(width: u32, height: u32) -> f32 {
     (width.min(height) as f32 / 62.0).max(6.0)
 }
 
-fn draw_scale(pixmap: &mut Pixmap, top: f64, left: f32, letter: f32) {
+fn draw_scale(pixmap: &mut Pixmap, title: &str, top: f64, [left, letter]: [f32; 2]) {
     let height = pixmap.height() as f32;
     let (above, bar) = (height * 0.28, height * 0.44);
-    write(pixmap, "PLANARITY MM", (left, above - 2.2 * letter), letter, paint::LINE);
+    write(pixmap, title, (left, above - 2.2 * letter), letter, paint::LINE);
     let rows = bar.round() as usize;
     for row in 0..rows {
         let share = 1.0 - (row as f64 + 0.5) / rows as f64;

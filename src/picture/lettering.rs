@@ -4,7 +4,7 @@
 use tiny_skia::{LineCap, LineJoin, Paint, PathBuilder, Pixmap, Stroke, Transform};
 
 /// Strokes on a grid of 4 × 6, y up from the base line: two digits a point, a blank between strokes.
-const GLYPHS: [(char, &str); 26] = [
+const GLYPHS: [(char, &str); 29] = [
     ('0', "10 01 05 16 36 45 41 30 10"),
     ('1', "15 26 20"),
     ('2', "05 16 36 45 44 00 40"),
@@ -30,6 +30,9 @@ const GLYPHS: [(char, &str); 26] = [
     ('T', "06 46|26 20"),
     ('V', "06 20 46"),
     ('Y', "06 23 46|23 20"),
+    ('F', "46 06 00|03 33"),
+    ('O', "10 01 05 16 36 45 41 30 10"),
+    ('%', "46 00|06 16 15 05 06|30 40 41 31 30"),
     ('e', "02 42 43 34 14 03 01 10 40"),
 ];
 /// From one character to the next, in grid steps.
@@ -69,7 +72,7 @@ mod tests {
 
     #[test]
     fn all_that_legends_write_has_glyphs_on_the_grid() {
-        for character in "PLANARITY MM VALENCE 0123456789 6+ 1.50e-7".chars().filter(|&c| c != ' ') {
+        for character in "PLANARITY MM VALENCE 0123456789 6+ 1.50e-7 % OF LIMIT".chars().filter(|&c| c != ' ') {
             let (_, strokes) = GLYPHS.iter().find(|&&(c, _)| c == character).expect("a glyph");
             for point in strokes.split(['|', ' ']) {
                 let on_grid = matches!(point.as_bytes(), [b'0'..=b'4', b'0'..=b'6']);

@@ -16,7 +16,7 @@ mod scene;
 mod sheet;
 mod strip;
 
-pub use model::render_model;
+pub use model::{render_marked, render_model, render_shares};
 pub use params::{Colour, EdgeLines, Projection, RenderParams, UpAxis, View, ViewError};
 pub use sheet::{Polyline, StrokeLayer, Strokes, render_sheet};
 pub use strip::{Cell, render_strip};

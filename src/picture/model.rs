@@ -28,15 +28,47 @@ const PLANAR: f64 = 1e-6;
 /// [`PictureError::SizeOutOfRange`], [`PictureError::NoDirection`], [`PictureError::NoFaces`] and
 /// [`PictureError::VertexTooFar`].
 pub fn render_model(mesh: &Mesh, params: &RenderParams) -> Result<Picture, PictureError> {
+    let (legend, colours) = colours(mesh, params.colour);
+    draw_model(mesh, params, legend, &colours)
+}
+
+/// Draws a model with each face coloured by how much of its limit it uses: 1 is the limit, from 2 on the colour stays. The
+/// legend is in per cent. `params.colour` does not count.
+///
+/// # Errors
+/// As [`render_model`].
+pub fn render_shares(mesh: &Mesh, params: &RenderParams, shares: &FaceMap<f64>) -> Result<Picture, PictureError> {
+    let mut colours = FaceMap::filled(mesh.face_slots(), paint::FRONT);
+    for f in mesh.faces() {
+        colours[f] = paint::scale_colour(shares[f] / 2.0);
+    }
+    draw_model(mesh, &RenderParams { colour: Colour::Planarity, ..params.clone() }, Some(Legend::limit()), &colours)
+}
+
+/// Draws a pale model with one face in red, without a legend. `params.colour` does not count.
+///
+/// # Errors
+/// As [`render_model`].
+pub fn render_marked(mesh: &Mesh, params: &RenderParams, marked: FaceId) -> Result<Picture, PictureError> {
+    let mut colours = FaceMap::filled(mesh.face_slots(), paint::PALE);
+    colours[marked] = paint::scale_colour(0.8);
+    draw_model(mesh, &RenderParams { colour: Colour::Planarity, ..params.clone() }, None, &colours)
+}
+
+fn draw_model(
+    mesh: &Mesh,
+    params: &RenderParams,
+    legend: Option<Legend>,
+    colours: &FaceMap<[u8; 3]>,
+) -> Result<Picture, PictureError> {
     let (width, height) = params.pixels();
     let mut pixmap = super::blank(width, height)?;
     if mesh.face_count() == 0 {
         return Err(PictureError::NoFaces);
     }
-    let (legend, colours) = colours(mesh, params.colour);
     let legend = legend.filter(|_| width.min(height) >= 160);
     let camera = Camera::fitted(&[mesh], params, window(width, height, legend.is_some()))?;
-    let scene = Scene::new(mesh, params, &camera, &colours);
+    let scene = Scene::new(mesh, params, &camera, colours);
     draw(&mut pixmap, mesh, &scene, Division { workers: workers(), rows: BAND_ROWS });
     if let Some(legend) = legend {
         legend.draw(&mut pixmap);

@@ -16,6 +16,7 @@ mod outputs;
 mod panels;
 mod parse;
 mod planes;
+mod report_pictures;
 mod seam_choice;
 mod show;
 
@@ -37,6 +38,7 @@ pub use nest::{NestError, NestStep, nest_files};
 pub use outputs::{fabrication_outputs, job_outputs, sheet_picture};
 pub use panels::{PanelFiles, PanelOptionError, Panelled, SolidFile, panel_model, panel_outputs};
 pub use planes::{PlanesStep, solid_of_planes};
+pub use report_pictures::report_pictures;
 pub use seam_choice::SeamChoice;
 pub use show::{AnimationFile, AnimationFileError, AssemblyForm, ShowParams, show_outputs};
 

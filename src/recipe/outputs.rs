@@ -1,9 +1,11 @@
 //! What a job leaves in its folder, as names and bytes; nothing is written here.
 
 use super::fabricate::piece_list;
-use super::{Fabrication, Job, StepFailure, panel_outputs, show_outputs};
+use super::{Fabrication, Job, StepFailure, panel_outputs, report_pictures, show_outputs};
+use crate::check::details;
 use crate::io::layout_json::write_order_layout_json;
 use crate::io::pieces_json::write_pieces_json;
+use crate::io::report_html::{ReportPage, ReportRows, check_html};
 use crate::io::report_json::check_json;
 use crate::io::sheet_files::sheet_files;
 use crate::io::{MeshFormat, WriteOptions, mesh_bytes};
@@ -27,6 +29,9 @@ pub fn job_outputs(job: &Job, command: &str) -> Result<Vec<Output>, StepFailure>
         outputs.push(("model.obj".to_owned(), mesh_bytes(MeshFormat::Obj, mesh, &options)?));
         outputs.push(("model.png".to_owned(), render_model(mesh, &job.render)?.to_png()));
         outputs.push(("report.json".to_owned(), check_json(&job.report()?, command).into_bytes()));
+        if job.is_check_asked {
+            outputs.push(("report.html".to_owned(), report_page(job, command)?.into_bytes()));
+        }
     }
     for step in &job.hull_steps {
         outputs.push((step.file_name("model"), render_model(&step.mesh, &job.render)?.to_png()));
@@ -48,6 +53,14 @@ pub fn job_outputs(job: &Job, command: &str) -> Result<Vec<Output>, StepFailure>
         outputs.extend(show_outputs(fabrication, mesh, &job.show, &job.render, command)?);
     }
     Ok(outputs)
+}
+
+/// The page of the report, with the pictures seen as the recipe says.
+fn report_page(job: &Job, command: &str) -> Result<String, StepFailure> {
+    let (mesh, report) = (job.mesh()?, job.report()?);
+    let pictures = report_pictures(mesh, &report, &job.render)?;
+    let (title, rows, details) = ("model", ReportRows::Worst, details(mesh));
+    Ok(check_html(&ReportPage { title, report: &report, details: &details, pictures: &pictures, rows, command }))
 }
 
 /// Pieces, layout and sheets; the pieces only when no sheets were asked for.

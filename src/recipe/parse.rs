@@ -17,8 +17,8 @@ use super::{
 };
 use crate::check::CheckParams;
 use crate::op::{
-    HullParams, Operate, PlanarizeParams, ResolveParams, RindParams, SierpinskiParams, SliceParams, SubdivideParams,
-    TruncateEdge, TruncateFace, TruncateVertex,
+    HullParams, MengerParams, Operate, PlanarizeParams, ResolveParams, RindParams, SierpinskiParams, SliceParams,
+    SubdivideParams, TruncateEdge, TruncateFace, TruncateVertex,
 };
 use crate::panel::PanelParams;
 use crate::picture::RenderParams;
@@ -38,6 +38,7 @@ const VERBS: &[(&str, &str)] = &[
     ("planarize", "profile"),
     ("subdivide", "scheme"),
     ("sierpinski", "rounds"),
+    ("menger", "rounds"),
     ("rind", "thickness"),
     ("check", "profile"),
     ("unfold", "pieces"),
@@ -159,6 +160,7 @@ impl Source<'_> {
             ("subdivide", _) => fields.operator::<SubdivideParams>("subdivide")?,
             ("sierpinski", _) => fields.operator::<SierpinskiParams>("sierpinski")?,
             ("rind", _) => fields.operator::<RindParams>("rind")?,
+            ("menger", _) => fields.operator::<MengerParams>("menger")?,
             ("planarize", _) => fields.operator::<PlanarizeParams>("planarize")?,
             ("check", _) => Step::Check(fields.read1::<CheckParams>()?),
             ("render", _) => Step::Render(fields.read1::<RenderParams>()?),

@@ -5,6 +5,7 @@ mod cutter;
 mod divide;
 mod error;
 mod flat;
+mod handle;
 mod hull;
 mod menger;
 mod operate;
@@ -28,6 +29,7 @@ mod tests;
 
 pub use cutter::Capping;
 pub use error::OpError;
+pub use handle::{FaceCorner, HandleParams, HandleReport, Weights, handle};
 pub use hull::{Axis, HullParams, HullPart, HullReport, HullStep, Step, Steps, halfspaces, hull};
 pub use menger::{MengerParams, MengerReport, Thickness, menger};
 pub use operate::{Operate, Operated};

@@ -15,8 +15,8 @@ use super::error::{Position, RecipeError};
 use super::{DformParams, FabricateParams, OperatorStep, PlanesStep, ReadStep, Recipe, Step};
 use crate::check::CheckParams;
 use crate::op::{
-    HullParams, MengerParams, Operate, PlanarizeParams, ResolveParams, RindParams, SierpinskiParams, SliceParams,
-    SubdivideParams, TruncateEdge, TruncateFace, TruncateVertex,
+    HandleParams, HullParams, MengerParams, Operate, PlanarizeParams, ResolveParams, RindParams, SierpinskiParams,
+    SliceParams, SubdivideParams, TruncateEdge, TruncateFace, TruncateVertex,
 };
 use crate::picture::RenderParams;
 use crate::shape::SolidParams;
@@ -25,7 +25,7 @@ use crate::unfold::UnfoldParams;
 use crate::units::nearest_word;
 
 /// The keys that say what a step does, with the field of its parameters that the value goes to.
-const VERBS: [(&str, &str); 15] = [
+const VERBS: [(&str, &str); 16] = [
     ("solid", "name"),
     ("read", "path"),
     ("planes", "path"),
@@ -35,6 +35,7 @@ const VERBS: [(&str, &str); 15] = [
     ("planarize", "profile"),
     ("subdivide", "scheme"),
     ("sierpinski", "rounds"),
+    ("handle", "from"),
     ("menger", "rounds"),
     ("rind", "thickness"),
     ("check", "profile"),
@@ -156,6 +157,7 @@ impl Source<'_> {
             ("sierpinski", _) => fields.operator::<SierpinskiParams>("sierpinski")?,
             ("rind", _) => fields.operator::<RindParams>("rind")?,
             ("menger", _) => fields.operator::<MengerParams>("menger")?,
+            ("handle", _) => fields.operator::<HandleParams>("handle")?,
             ("planarize", _) => fields.operator::<PlanarizeParams>("planarize")?,
             ("check", _) => Step::Check(fields.read1::<CheckParams>()?),
             ("render", _) => Step::Render(fields.read1::<RenderParams>()?),

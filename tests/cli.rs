@@ -105,6 +105,10 @@ const READERS: &[(&[&str], &str)] = &[
     (&["sierpinski", "IN", "--rounds", "2", "-o", "OUT"], "out.obj"),
     (&["rind", "IN", "--thickness", "2mm", "--punch", "0", "--peel", "1,2", "-o", "OUT"], "out.obj"),
     (&["menger", "IN", "--thickness", "1/4", "-o", "OUT"], "out.obj"),
+    (
+        &["handle", "IN", "--from", "0", "--to", "1", "--weights", "500mm,500mm", "--segments", "16", "-o", "OUT"],
+        "out.obj",
+    ),
     (&["planarize", "IN", "-o", "OUT"], "out.obj"),
     (&["unfold", "IN", "--sheet", "600x400", "-o", "OUT"], "out"),
     (&["unfold", "IN", "--sheet", "none", "--assembly", "pictures", "-o", "OUT"], "shown"),

@@ -20,6 +20,10 @@ const RECIPES: &[(&str, usize, usize)] = &[
     ("two-piece-d-form.toml", 2, 0),
 ];
 
+/// Recipes that end with a model: its genus.
+const MODELS: &[(&str, usize)] =
+    &[("cup.toml", 1), ("menger-cube.toml", 81), ("peeled-ball.toml", 11), ("sierpinski-tetrahedron.toml", 15)];
+
 fn run(name: &str) -> Job {
     let folder = Path::new("fixtures/recipes");
     let text = std::fs::read_to_string(folder.join(name)).expect(name);
@@ -34,7 +38,9 @@ fn every_recipe_gives_its_pieces_without_overlap() {
         .map(|e| e.expect("an entry").file_name().to_string_lossy().into_owned())
         .collect();
     listed.sort();
-    assert_eq!(listed, RECIPES.iter().map(|r| r.0).collect::<Vec<_>>());
+    let mut known: Vec<&str> = RECIPES.iter().map(|r| r.0).chain(MODELS.iter().map(|m| m.0)).collect();
+    known.sort_unstable();
+    assert_eq!(listed, known);
     for &(name, pieces, genus) in RECIPES {
         let job = run(name);
         let mesh = job.mesh().expect("a mesh");
@@ -44,6 +50,17 @@ fn every_recipe_gives_its_pieces_without_overlap() {
         let proof = prove(mesh, &fabrication.net).unwrap_or_else(|e| panic!("{name}: {e}"));
         assert_eq!(proof.overlaps, 0, "{name}");
         assert!(!fabrication.sheets.drawings.is_empty(), "{name}");
+    }
+}
+
+#[test]
+fn models_have_their_genus() {
+    for &(name, genus) in MODELS {
+        let job = run(name);
+        let mesh = job.mesh().expect("a mesh");
+        assert!(mesh.faults().is_empty() && mesh.is_closed() && mesh.components().len() == 1, "{name}");
+        assert_eq!(kerfold::measure::genus(mesh), genus, "{name}");
+        assert!(kerfold::measure::volume(mesh) > 0.0, "{name}");
     }
 }
 

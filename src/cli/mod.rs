@@ -31,7 +31,7 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use output::Console;
 
-use crate::op::{MengerParams, PlanarizeParams, RindParams, SierpinskiParams, SubdivideParams};
+use crate::op::{HandleParams, MengerParams, PlanarizeParams, RindParams, SierpinskiParams, SubdivideParams};
 
 /// Carve planar 3-valence meshes, check them, and unfold them into sheets that a shop can cut.
 #[derive(Debug, Parser)]
@@ -69,6 +69,9 @@ enum Verb {
     /// Dig a tunnel into every face, over and over; `--exact` makes Menger's own sponge of a cube; exit code 1 when it crosses itself
     #[command(after_help = "Example: kerfold menger dodecahedron.obj --thickness 0.2 -o sponge.obj")]
     Menger(operator::OperatorArgs<MengerParams>),
+    /// Join two faces by a curved handle, or by a hole when the weights are negative; exit code 1 when it crosses itself
+    #[command(after_help = "Example: kerfold handle cup.obj --from 2 --to 5 --segments 8 -o mug.obj")]
+    Handle(operator::OperatorArgs<HandleParams>),
     Unfold(unfold::UnfoldArgs),
     Seams(seams::SeamsArgs),
     Dform(dform::DformArgs),
@@ -116,6 +119,7 @@ pub fn run() -> ExitCode {
         Verb::Sierpinski(args) => operator::run(&args, &console),
         Verb::Rind(args) => operator::run(&args, &console),
         Verb::Menger(args) => operator::run(&args, &console),
+        Verb::Handle(args) => operator::run(&args, &console),
         Verb::Unfold(args) => unfold::run(&args, &console),
         Verb::Seams(args) => seams::run(&args, &console),
         Verb::Dform(args) => dform::run(&args, &console),

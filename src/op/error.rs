@@ -209,6 +209,24 @@ pub enum OpError {
         "the exact sponge is that of a cube, box or parallelepiped with 6 faces and 8 corners; leave `exact` out for other solids"
     )]
     NotABox,
+    /// A face or corner that is not there.
+    #[error("there is no {what} {id}; `kerfold info` tells how many there are")]
+    NoSuchElement {
+        /// What was looked for.
+        what: &'static str,
+        /// Its number.
+        id: usize,
+    },
+    /// Two faces between which no handle can be.
+    #[error("no handle from face {from} to face {to}: {reason}")]
+    NoHandle {
+        /// The first face.
+        from: u32,
+        /// The second face.
+        to: u32,
+        /// Why not, and what to do.
+        reason: &'static str,
+    },
     /// The user asked to stop.
     #[error("stopped before the end; nothing was written")]
     Cancelled,

@@ -3,9 +3,9 @@
 use std::fmt;
 
 use super::{
-    HullParams, MengerParams, OpContext, OpError, PlanarizeParams, ResolveParams, RindParams, SierpinskiParams,
-    SliceParams, SubdivideParams, TruncateEdge, TruncateFace, TruncateVertex, hull, menger, planarize, resolve, rind,
-    sierpinski, slice, subdivide, truncate_edges, truncate_faces, truncate_vertices,
+    HandleParams, HullParams, MengerParams, OpContext, OpError, PlanarizeParams, ResolveParams, RindParams,
+    SierpinskiParams, SliceParams, SubdivideParams, TruncateEdge, TruncateFace, TruncateVertex, handle, hull, menger,
+    planarize, resolve, rind, sierpinski, slice, subdivide, truncate_edges, truncate_faces, truncate_vertices,
 };
 use crate::mesh::Mesh;
 use crate::select::Made;
@@ -100,5 +100,12 @@ impl Operate for MengerParams {
     fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError> {
         let (mesh, report) = menger(mesh, self, context)?;
         Ok(Operated { mesh, made: None, notes: report.notes(), is_clean: report.crossing.is_empty() })
+    }
+}
+
+impl Operate for HandleParams {
+    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError> {
+        let (mesh, made, report) = handle(mesh, self, context)?;
+        Ok(Operated { mesh, made: Some(made), notes: report.notes(), is_clean: report.crossing.is_empty() })
     }
 }

@@ -17,8 +17,8 @@ use super::{
 };
 use crate::check::CheckParams;
 use crate::op::{
-    HullParams, MengerParams, Operate, PlanarizeParams, ResolveParams, RindParams, SierpinskiParams, SliceParams,
-    SubdivideParams, TruncateEdge, TruncateFace, TruncateVertex,
+    HandleParams, HullParams, MengerParams, Operate, PlanarizeParams, ResolveParams, RindParams, SierpinskiParams,
+    SliceParams, SubdivideParams, TruncateEdge, TruncateFace, TruncateVertex,
 };
 use crate::panel::PanelParams;
 use crate::picture::RenderParams;
@@ -38,6 +38,7 @@ const VERBS: &[(&str, &str)] = &[
     ("planarize", "profile"),
     ("subdivide", "scheme"),
     ("sierpinski", "rounds"),
+    ("handle", "from"),
     ("menger", "rounds"),
     ("rind", "thickness"),
     ("check", "profile"),
@@ -161,6 +162,7 @@ impl Source<'_> {
             ("sierpinski", _) => fields.operator::<SierpinskiParams>("sierpinski")?,
             ("rind", _) => fields.operator::<RindParams>("rind")?,
             ("menger", _) => fields.operator::<MengerParams>("menger")?,
+            ("handle", _) => fields.operator::<HandleParams>("handle")?,
             ("planarize", _) => fields.operator::<PlanarizeParams>("planarize")?,
             ("check", _) => Step::Check(fields.read1::<CheckParams>()?),
             ("render", _) => Step::Render(fields.read1::<RenderParams>()?),

@@ -160,7 +160,8 @@ impl Joins {
         let is_one = self.strips[v] < 2;
         for &start in &around {
             let opens = !self.closed[mesh.prev(start).edge()];
-            if !(opens && !is_one) && !(is_one && start == around[0]) {
+            let begins = if is_one { start == around[0] } else { opens };
+            if !begins {
                 continue;
             }
             let mut h = start;

@@ -45,6 +45,13 @@ fn too_near(mesh: &Mesh, solid: &[FaceId], thickness: &FaceMap<f64>, skin: &Skin
         cells.between(bounds.0, bounds.1).for_each(|cell| entries.push((cell, i as u32)));
     }
     entries.sort_unstable();
+    // The skin keeps its distance from planes; the corners of a face that is not planar lie beside its plane.
+    let mut unevenness = FaceMap::filled(mesh.face_slots(), 0.0);
+    for &f in solid {
+        let plane = mesh.plane(f).expect("the skin was made of planes");
+        let beside = mesh.face_vertices(f).map(|v| plane.signed_distance(mesh.position(v)).abs());
+        unevenness[f] = beside.fold(0.0, f64::max);
+    }
     let mut is_near = FaceMap::filled(mesh.face_slots(), false);
     for v in mesh.vertices() {
         let p = skin.positions[v];
@@ -55,7 +62,7 @@ fn too_near(mesh: &Mesh, solid: &[FaceId], thickness: &FaceMap<f64>, skin: &Skin
             let start = entries.partition_point(|e| e.0 < cell);
             for &(_, i) in entries[start..].iter().take_while(|e| e.0 == cell) {
                 let (f, corners) = &triangles[i as usize];
-                let wanted = thickness[*f].abs() * (1.0 - SLACK) - skin.residuals[v];
+                let wanted = thickness[*f].abs() * (1.0 - SLACK) - skin.residuals[v] - unevenness[*f];
                 is_near[*f] |= nearest_on_triangle(p, corners).distance(p) < wanted;
             }
         }

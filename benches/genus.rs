@@ -1,0 +1,92 @@
+//! Sierpinski polyhedra and Doo–Sabin at a million faces: seconds of processor time, bytes a face at the peak, and whether time is linear.
+//!
+//! Bars: a million faces within a second and 300 bytes a face; from 1e4 to 1e6 faces the time for a face at most doubles. Each case runs in
+//! a process of its own, since the peak of a process never falls. Peer: none; TopMod, the only other program with these operators, is not
+//! packaged anywhere, and its times of an earlier build are no measurement of this run.
+
+#![allow(clippy::print_stdout, reason = "a bench prints")]
+
+use std::process::{Command, ExitCode};
+use std::time::Instant;
+
+use kerfold::mesh::Mesh;
+use kerfold::op::{OpContext, Scheme, SierpinskiParams, SubdivideParams, sierpinski, subdivide};
+use kerfold::shape;
+
+const SECONDS: f64 = 1.0;
+const BYTES: f64 = 300.0;
+/// Rounds on an icosahedron that make some 1e4, 1e5 and 1e6 faces.
+const ROUNDS: [u32; 3] = [5, 7, 8];
+
+fn sierpinskied(mesh: &Mesh, rounds: u32) -> Mesh {
+    sierpinski(mesh, &SierpinskiParams { rounds }, &OpContext::default()).expect("it fits").0
+}
+
+fn smoothed(mesh: &Mesh, rounds: u32) -> Mesh {
+    subdivide(mesh, &SubdivideParams::new(Scheme::DooSabin, rounds), &OpContext::default()).expect("it fits")
+}
+
+/// Peak of this process in bytes; `None` where the system does not tell.
+fn peak() -> Option<f64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find(|l| l.starts_with("VmHWM:"))?;
+    line.split_whitespace().nth(1)?.parse::<f64>().ok().map(|kib| kib * 1024.0)
+}
+
+/// Processor time of this thread; both operators use one.
+fn cpu_seconds() -> Option<f64> {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    Some(text.split_whitespace().next()?.parse::<f64>().ok()? / 1e9)
+}
+
+/// One case in this process: faces, seconds, bytes.
+fn case(name: &str, rounds: u32) {
+    let start = shape::icosahedron(100.0);
+    let before = peak().unwrap_or(f64::NAN);
+    let (clock, cpu) = (Instant::now(), cpu_seconds());
+    let made = if name == "sierpinski" { sierpinskied(&start, rounds) } else { smoothed(&start, rounds) };
+    let wall = clock.elapsed().as_secs_f64();
+    let seconds = cpu.zip(cpu_seconds()).map_or(wall, |(before, after)| after - before);
+    println!("{} {seconds} {}", made.face_count(), peak().unwrap_or(f64::NAN) - before);
+}
+
+fn run(name: &str, rounds: u32) -> [f64; 3] {
+    let program = std::env::current_exe().expect("this program");
+    let output = Command::new(program).args(["case", name, &rounds.to_string()]).output().expect("it starts");
+    let text = String::from_utf8(output.stdout).expect("text");
+    let numbers: Vec<f64> = text.split_whitespace().filter_map(|n| n.parse().ok()).collect();
+    numbers.try_into().expect("three numbers")
+}
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().collect();
+    if let Some(at) = arguments.iter().position(|a| a == "case") {
+        case(&arguments[at + 1], arguments[at + 2].parse().expect("rounds"));
+        return ExitCode::SUCCESS;
+    }
+    let mut is_missed = false;
+    for name in ["sierpinski", "doo-sabin"] {
+        let mut shares = Vec::new();
+        for rounds in ROUNDS {
+            let [faces, seconds, bytes] = run(name, rounds);
+            println!("{name}: {faces:.0} faces, {seconds:.3} s, {:.0} bytes a face", bytes / faces);
+            shares.push(seconds / faces);
+            if faces > 5e5 {
+                let (per_million, per_face) = (seconds / faces * 1e6, bytes / faces);
+                println!(
+                    "{name}: {per_million:.2} s for a million faces (bar {SECONDS}), {per_face:.0} bytes a face (bar {BYTES})"
+                );
+                is_missed |= per_million > SECONDS || per_face > BYTES || per_face.is_nan();
+            }
+        }
+        let ratio = shares[shares.len() - 1] / shares[0];
+        println!("{name}: a face takes {ratio:.2} times as long in the largest as in the smallest (bar 2)");
+        is_missed |= ratio > 2.0;
+    }
+    println!("peer: none, see the head of this file");
+    if is_missed {
+        println!("MISSED: a bar above");
+        return ExitCode::FAILURE;
+    }
+    ExitCode::SUCCESS
+}

@@ -1,0 +1,116 @@
+//! Random chains of operators that change the genus, with subdivisions and cuts among them: sound after every one.
+
+use kerfold::mesh::{Mesh, assert_sound};
+use kerfold::op::{
+    HandleParams, MengerParams, OpContext, Operate, RindParams, Scheme, SierpinskiParams, SubdivideParams, Thickness,
+    TruncateEdge, TruncateFace, TruncateVertex,
+};
+use kerfold::select::Selection;
+use kerfold::shape;
+use kerfold::units::{Angle, Length};
+
+/// Seeds that are tried, operators in each, and edges beyond which a chain ends.
+const SEEDS: u64 = 1000;
+const STEPS: usize = 10;
+const MOST_EDGES: usize = 1200;
+
+struct Dice(u64);
+
+impl Dice {
+    fn roll(&mut self, sides: usize) -> usize {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (self.0 >> 33) as usize % sides
+    }
+
+    fn one_of(&mut self, ids: &[u32]) -> u32 {
+        ids[self.roll(ids.len())]
+    }
+}
+
+fn faces(mesh: &Mesh) -> Vec<u32> {
+    mesh.faces().map(|f| f.index() as u32).collect()
+}
+
+fn chosen(dice: &mut Dice, ids: &[u32], most: usize) -> Selection {
+    let mut ids: Vec<u32> = (0..=dice.roll(most)).map(|_| dice.one_of(ids)).collect();
+    ids.sort_unstable();
+    ids.dedup();
+    Selection::of_ids(ids).expect("at least one")
+}
+
+fn step(dice: &mut Dice, mesh: &Mesh) -> Box<dyn Operate> {
+    let all = faces(mesh);
+    match dice.roll(9) {
+        0 => Box::new(SierpinskiParams { rounds: 1 }),
+        1 => Box::new(MengerParams { thickness: Thickness::Share(0.2), ..MengerParams::default() }),
+        2 | 3 => Box::new(RindParams {
+            thickness: Length::from_mm([0.3, -0.3, 2.0][dice.roll(3)]),
+            thickness_of: Vec::new(),
+            punch: (dice.roll(2) == 0).then(|| chosen(dice, &all, 3)),
+            peel: (dice.roll(2) == 0).then(|| chosen(dice, &all, 5)),
+        }),
+        4 | 5 => {
+            let corner = |face: u32| face.to_string().parse().expect("a face");
+            let (from, to) = (dice.one_of(&all), dice.one_of(&all));
+            Box::new(HandleParams {
+                from: corner(from),
+                to: corner(to),
+                segments: 1 + dice.roll(4) as u32,
+                weights: None,
+                twist: Angle::from_degrees(90.0 * dice.roll(3) as f64),
+            })
+        }
+        6 => {
+            let schemes = [Scheme::DooSabin, Scheme::CatmullClark, Scheme::Loop, Scheme::Simplest, Scheme::Dual];
+            Box::new(SubdivideParams::new(schemes[dice.roll(schemes.len())], 1))
+        }
+        7 => Box::new(SubdivideParams::new(
+            [Scheme::Honeycomb, Scheme::Truncation, Scheme::Triangulate][dice.roll(3)],
+            1,
+        )),
+        _ => {
+            let vertices: Vec<u32> = mesh.vertices().map(|v| v.index() as u32).collect();
+            let edges: Vec<u32> = mesh.edges().map(|e| e.index() as u32).collect();
+            match dice.roll(3) {
+                0 => Box::new(TruncateVertex::new(chosen(dice, &vertices, 3), 0.2)),
+                1 => Box::new(TruncateEdge::new(chosen(dice, &edges, 2), 0.2)),
+                _ => Box::new(TruncateFace::new(chosen(dice, &all, 2), 0.2)),
+            }
+        }
+    }
+}
+
+#[test]
+fn random_chains_stay_sound() {
+    let (mut done, mut refused) = (0, 0);
+    for seed in 0..SEEDS {
+        let mut dice = Dice(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15).wrapping_add(1));
+        let mut mesh = match dice.roll(5) {
+            0 => shape::tetrahedron(20.0),
+            1 => shape::cube(20.0),
+            2 => shape::octahedron(20.0),
+            3 => shape::prism(5, 20.0),
+            _ => shape::antiprism(4, 20.0),
+        };
+        for _ in 0..STEPS {
+            if mesh.edge_count() > MOST_EDGES {
+                break;
+            }
+            let operator = step(&mut dice, &mesh);
+            match operator.operate(&mesh, &OpContext::default()) {
+                Ok(made) => {
+                    assert!(
+                        made.mesh.faults().is_empty(),
+                        "seed {seed}: {operator:?}: {:?}",
+                        made.mesh.faults().first()
+                    );
+                    done += 1;
+                    mesh = made.mesh;
+                }
+                Err(_) => refused += 1,
+            }
+        }
+        assert_sound(&mesh);
+    }
+    assert!(done > 3 * SEEDS as usize && refused < done, "{done} done, {refused} refused");
+}

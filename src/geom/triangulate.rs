@@ -169,9 +169,11 @@ fn outside_faces(net: &ConstrainedDelaunayTriangulation<Point2<f64>>) -> Vec<boo
 pub fn triangulate_contours(contours: &[Vec<DVec2>]) -> Vec<[usize; 3]> {
     let count: usize = contours.iter().map(Vec::len).sum();
     let references: Vec<&[DVec2]> = contours.iter().map(Vec::as_slice).collect();
+    // Every hole adds its corners and two triangles more; a corner on another contour's side leaves another number.
+    let is_whole = |triangles: &[[usize; 3]]| triangles.len() + 4 == count + 2 * contours.len();
     match triangulate_region(&references) {
         // No corner met another one, so their numbers are those of the contours.
-        Some((corners, triangles)) if corners.len() == count => triangles,
+        Some((corners, triangles)) if corners.len() == count && is_whole(&triangles) => triangles,
         _ => contours.first().map_or_else(Vec::new, |outline| triangulate(outline)),
     }
 }

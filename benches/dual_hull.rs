@@ -6,6 +6,9 @@
 
 #![allow(clippy::print_stdout, reason = "a bench prints")]
 
+mod clock;
+
+use clock::{peak_megabytes, process_seconds};
 use std::fmt::Write as _;
 use std::process::{Command, Stdio};
 use std::time::Instant;
@@ -71,7 +74,7 @@ fn run_case(shape: &str, n: usize) {
     // Several runs in a row: the system counts CPU time in hundredths of a second.
     let repeats = (3_000_000 / n).clamp(3, 200);
     let (mut wall, mut polytope) = (f64::INFINITY, Polytope::default());
-    let cpu_start = cpu_seconds();
+    let cpu_start = process_seconds();
     for _ in 0..repeats {
         drop(std::mem::take(&mut polytope));
         let start = Instant::now();
@@ -79,27 +82,10 @@ fn run_case(shape: &str, n: usize) {
         polytope = intersect(&planes, &options).expect("bounded");
         wall = wall.min(start.elapsed().as_secs_f64());
     }
-    let cpu = (cpu_seconds() - cpu_start) / repeats as f64;
+    let cpu = (process_seconds() - cpu_start) / repeats as f64;
     let counts = [polytope.faces.len(), polytope.edge_count(), polytope.vertices.len()];
     assert_eq!(counts, [n, 3 * n - 6, 2 * n - 4], "the counts are wrong");
     println!("{wall} {cpu} {} F {} E {} V {}", peak_megabytes(), counts[0], counts[1], counts[2]);
-}
-
-/// CPU seconds of this process, all threads, in hundredths; not a number where there is no `/proc`.
-fn cpu_seconds() -> f64 {
-    let text = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
-    // After the name in brackets: state is the first field, user and system ticks the 12th and 13th; 100 ticks a second.
-    let rest = text.rsplit(") ").next().unwrap_or_default();
-    let fields: Vec<f64> = rest.split(' ').filter_map(|w| w.parse().ok()).collect();
-    fields.get(10).zip(fields.get(11)).map_or(f64::NAN, |(user, system)| (user + system) / 100.0)
-}
-
-fn peak_megabytes() -> f64 {
-    let text = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let line = text.lines().find(|line| line.starts_with("VmHWM:"));
-    let kilobytes: Option<f64> =
-        line.and_then(|line| line.split_whitespace().nth(1)).and_then(|word| word.parse().ok());
-    kilobytes.map_or(f64::NAN, |k| k / 1024.0)
 }
 
 fn planes(shape: &str, n: usize) -> Vec<HalfSpace> {

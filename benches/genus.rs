@@ -6,8 +6,10 @@
 
 #![allow(clippy::print_stdout, reason = "a bench prints")]
 
+mod clock;
+
+use clock::{peak_megabytes, thread_seconds};
 use std::process::{Command, ExitCode};
-use std::time::Instant;
 
 use kerfold::mesh::Mesh;
 use kerfold::op::{OpContext, Scheme, SierpinskiParams, SubdivideParams, sierpinski, subdivide};
@@ -26,28 +28,14 @@ fn smoothed(mesh: &Mesh, rounds: u32) -> Mesh {
     subdivide(mesh, &SubdivideParams::new(Scheme::DooSabin, rounds), &OpContext::default()).expect("it fits")
 }
 
-/// Peak of this process in bytes; `None` where the system does not tell.
-fn peak() -> Option<f64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find(|l| l.starts_with("VmHWM:"))?;
-    line.split_whitespace().nth(1)?.parse::<f64>().ok().map(|kib| kib * 1024.0)
-}
-
-/// Processor time of this thread; both operators use one.
-fn cpu_seconds() -> Option<f64> {
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-    Some(text.split_whitespace().next()?.parse::<f64>().ok()? / 1e9)
-}
-
 /// One case in this process: faces, seconds, bytes.
 fn case(name: &str, rounds: u32) {
     let start = shape::icosahedron(100.0);
-    let before = peak().unwrap_or(f64::NAN);
-    let (clock, cpu) = (Instant::now(), cpu_seconds());
+    let before = peak_megabytes();
+    let start_time = thread_seconds();
     let made = if name == "sierpinski" { sierpinskied(&start, rounds) } else { smoothed(&start, rounds) };
-    let wall = clock.elapsed().as_secs_f64();
-    let seconds = cpu.zip(cpu_seconds()).map_or(wall, |(before, after)| after - before);
-    println!("{} {seconds} {}", made.face_count(), peak().unwrap_or(f64::NAN) - before);
+    let seconds = thread_seconds() - start_time;
+    println!("{} {seconds} {}", made.face_count(), (peak_megabytes() - before) * 1024.0 * 1024.0);
 }
 
 fn run(name: &str, rounds: u32) -> [f64; 3] {

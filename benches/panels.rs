@@ -5,6 +5,9 @@
 
 #![allow(clippy::print_stdout, reason = "a bench prints")]
 
+mod clock;
+
+use clock::{peak_megabytes, process_seconds};
 use kerfold::io::svg::write_svg;
 use kerfold::mesh::Mesh;
 use kerfold::panel::{Hardware, PanelParams, ReferenceSide, panel_net, plates, schedule};
@@ -100,34 +103,17 @@ struct Clock {
 
 impl Clock {
     fn start() -> Self {
-        let now = cpu_seconds();
+        let now = process_seconds();
         Self { start: now, last: now }
     }
 
     fn lap(&mut self, what: &str) {
-        let now = cpu_seconds();
+        let now = process_seconds();
         println!("  {:>8.2} CPU s  {what}", now - self.last);
         self.last = now;
     }
 
     fn total(&self) -> f64 {
-        cpu_seconds() - self.start
+        process_seconds() - self.start
     }
-}
-
-/// CPU seconds of this process, all threads; on Linux only, else not a number.
-fn cpu_seconds() -> f64 {
-    let text = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
-    // After the name in brackets: state is the first field, user and system ticks the 12th and 13th; 100 ticks a second.
-    let rest = text.rsplit(") ").next().unwrap_or_default();
-    let fields: Vec<f64> = rest.split(' ').filter_map(|w| w.parse().ok()).collect();
-    fields.get(10).zip(fields.get(11)).map_or(f64::NAN, |(user, system)| (user + system) / 100.0)
-}
-
-fn peak_megabytes() -> f64 {
-    let text = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let line = text.lines().find(|line| line.starts_with("VmHWM:"));
-    let kilobytes: Option<f64> =
-        line.and_then(|line| line.split_whitespace().nth(1)).and_then(|word| word.parse().ok());
-    kilobytes.map_or(f64::NAN, |k| k / 1024.0)
 }

@@ -6,10 +6,12 @@
 
 #![allow(clippy::print_stdout, reason = "a bench prints")]
 
+mod clock;
+
+use clock::thread_seconds;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::process::{Command, Stdio};
-use std::time::Instant;
 
 use kerfold::io::{ReadOptions, read_mesh};
 use kerfold::mesh::Mesh;
@@ -164,18 +166,9 @@ fn verdict(holds: bool) -> &'static str {
     if holds { "" } else { "  MISSED" }
 }
 
-/// What came out and the CPU seconds of this thread that it took: on Linux from the scheduler's own count, else, and where
-/// that count is too coarse, wall time.
+/// What came out and the processor seconds of this thread that it took.
 fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
-    const COARSE: f64 = 0.02;
-    let (wall, cpu) = (Instant::now(), cpu_seconds());
+    let before = thread_seconds();
     let result = work();
-    let wall = wall.elapsed().as_secs_f64();
-    let cpu = cpu.zip(cpu_seconds()).map(|(before, after)| after - before);
-    (result, cpu.filter(|_| wall > COARSE).unwrap_or(wall))
-}
-
-fn cpu_seconds() -> Option<f64> {
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-    Some(text.split_whitespace().next()?.parse::<f64>().ok()? / 1e9)
+    (result, thread_seconds() - before)
 }

@@ -11,9 +11,11 @@
 
 #![allow(clippy::print_stdout, reason = "a bench prints")]
 
+mod clock;
+
+use clock::thread_seconds;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::time::Instant;
 
 use kerfold::io::{ReadOptions, read_mesh};
 use kerfold::mesh::{Mesh, SplitVertex};
@@ -174,9 +176,9 @@ fn report(name: &str, row: &Row, bar: f64, most: usize) {
 fn run(mesh: &Mesh, split_vertices: &[SplitVertex], pieces: PiecesMode, effort: u32) -> Result<Row, String> {
     let params = UnfoldParams { pieces, effort, ..UnfoldParams::default() };
     let source = Source { scale: 1.0, split_vertices };
-    let start = cpu_seconds();
+    let start = thread_seconds();
     let net = unfold(mesh, &Seams::Free, &params, &source, &Silent).map_err(|fault| fault.to_string())?;
-    let seconds = cpu_seconds() - start;
+    let seconds = thread_seconds() - start;
     let proof = prove(mesh, &net).map_err(|fault| fault.to_string())?;
     assert_eq!(proof.overlaps, 0, "the proof counts overlaps");
     Ok(Row { faces: mesh.face_count(), parts: components(mesh), pieces: net.pieces.len(), seconds })
@@ -184,15 +186,6 @@ fn run(mesh: &Mesh, split_vertices: &[SplitVertex], pieces: PiecesMode, effort: 
 
 fn components(mesh: &Mesh) -> usize {
     mesh.components().len()
-}
-
-/// CPU seconds of this thread from the scheduler's own count; where there is none, seconds on the clock.
-fn cpu_seconds() -> f64 {
-    static START: std::sync::OnceLock<Instant> = std::sync::OnceLock::new();
-    let start = START.get_or_init(Instant::now);
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
-    let nanoseconds: Option<f64> = text.split_whitespace().next().and_then(|word| word.parse().ok());
-    nanoseconds.map_or(start.elapsed().as_secs_f64(), |ns| ns * 1e-9)
 }
 
 const DECIMATE: &str = "

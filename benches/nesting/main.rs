@@ -7,6 +7,10 @@
 
 #![allow(clippy::print_stdout, reason = "a bench prints")]
 
+#[path = "../clock/mod.rs"]
+mod clock;
+
+use clock::{peak_megabytes, process_seconds};
 use std::io::Write as _;
 use std::process::{Command, Stdio};
 
@@ -73,9 +77,9 @@ fn main() {
 
 fn run(set: &Set, effort: u32, seed: u64) -> (f64, usize, f64) {
     let nest = NestParams { nest_effort: effort, nest_seed: seed, ..NestParams::default() };
-    let before = cpu_seconds();
+    let before = process_seconds();
     let result = laid(set, nest);
-    let cpu = cpu_seconds() - before;
+    let cpu = process_seconds() - before;
     let sheets = result.layout.sheets.len();
     let along = |p: DVec2| if set.sheet.x >= set.sheet.y { p.x } else { p.y };
     let last = result.layout.sheets.last().expect("pieces");
@@ -117,11 +121,11 @@ fn many(count: usize) {
         (0..count).map(|i| set.pieces[i % set.pieces.len()].iter().map(|&p| p * 0.25).collect()).collect();
     set.pieces = pieces;
     let bound = set.pieces.iter().map(|p| area(p)).sum::<f64>() / (set.sheet.x * set.sheet.y);
-    let before = cpu_seconds();
+    let before = process_seconds();
     let result = laid(&set, NestParams::default());
     println!(
         "{count} small pieces: {:.1} CPU s (bar 120), {:.0} MB (bar 2000), {} sheets, bound {bound:.2}",
-        cpu_seconds() - before,
+        process_seconds() - before,
         peak_megabytes(),
         result.layout.sheets.len()
     );
@@ -152,19 +156,4 @@ print('eff %.3f, %.1f CPU s' % (s.width / q['along'], resource.getrusage(resourc
     }
     let output = python.wait_with_output().map(|o| String::from_utf8_lossy(&o.stdout).trim().to_owned());
     output.unwrap_or_else(|error| error.to_string())
-}
-
-/// CPU seconds of this process: user ticks of a hundredth; not a number where there is no /proc.
-fn cpu_seconds() -> f64 {
-    let text = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
-    let rest = text.rsplit(") ").next().unwrap_or_default();
-    let fields: Vec<f64> = rest.split(' ').filter_map(|w| w.parse().ok()).collect();
-    fields.get(10).zip(fields.get(11)).map_or(f64::NAN, |(user, system)| (user + system) / 100.0)
-}
-
-fn peak_megabytes() -> f64 {
-    let text = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let line = text.lines().find(|line| line.starts_with("VmHWM:"));
-    let kilobytes = line.and_then(|l| l.split_whitespace().nth(1)).and_then(|w| w.parse::<f64>().ok());
-    kilobytes.map_or(f64::NAN, |k| k / 1024.0)
 }

@@ -1,6 +1,6 @@
 //! The meeting point of three planes, solved on residuals.
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 use super::Plane;
 
@@ -10,13 +10,15 @@ use super::Plane;
 /// `None` when the planes do not meet in one well-determined point.
 #[inline]
 pub fn meet_three(planes: [&Plane; 3], near: DVec3) -> Option<DVec3> {
-    let rows = DMat3::from_cols(planes[0].normal(), planes[1].normal(), planes[2].normal()).transpose();
-    let residuals = DVec3::from_array(planes.map(|p| p.signed_distance(near)));
+    let [n0, n1, n2] = planes.map(Plane::normal);
+    let [r0, r1, r2] = planes.map(|p| p.signed_distance(near));
+    let across = n1.cross(n2);
     // The normals have unit length: the determinant is the volume that they span.
-    if rows.determinant().abs() < 1e-9 {
+    let determinant = n0.dot(across);
+    if determinant.abs() < 1e-9 {
         return None;
     }
-    let step = rows.inverse() * residuals;
+    let step = (across * r0 + n2.cross(n0) * r1 + n0.cross(n1) * r2) / determinant;
     step.is_finite().then_some(near - step)
 }
 

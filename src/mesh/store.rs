@@ -18,7 +18,7 @@ pub(crate) use links::Region;
 pub use links::{LinkError, Renumbering};
 
 /// A polygon mesh: a closed, orientable 2-manifold whose faces may be marked as holes.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Default)]
 pub struct Mesh {
     vertices: Vec<Vertex>,
     half_edges: Vec<HalfEdge>,
@@ -103,6 +103,31 @@ pub enum Corner {
     At(HalfEdgeId),
     /// The only corner of a point sphere.
     Lone(VertexId),
+}
+
+/// A copy is made to be changed: it has room for a sixteenth more of everything, so that the first cut does not move all of it to
+/// larger tables.
+impl Clone for Mesh {
+    fn clone(&self) -> Self {
+        Self {
+            vertices: roomy(&self.vertices),
+            half_edges: roomy(&self.half_edges),
+            faces: roomy(&self.faces),
+            seams: roomy(&self.seams),
+            planes: roomy(&self.planes),
+            groups: self.groups.clone(),
+            free_vertices: self.free_vertices.clone(),
+            free_edges: self.free_edges.clone(),
+            free_faces: self.free_faces.clone(),
+            holes: self.holes,
+        }
+    }
+}
+
+fn roomy<T: Copy>(table: &[T]) -> Vec<T> {
+    let mut copy = Vec::with_capacity(table.len() + table.len() / 16);
+    copy.extend_from_slice(table);
+    copy
 }
 
 impl Mesh {
@@ -261,6 +286,15 @@ impl Mesh {
     /// Length of a side table for the faces and holes.
     pub fn face_slots(&self) -> usize {
         self.faces.len()
+    }
+
+    /// Makes room for so many more vertices, edges and faces, so that adding them does not move the tables.
+    pub(crate) fn reserve(&mut self, vertices: usize, edges: usize, faces: usize) {
+        self.vertices.reserve(vertices);
+        self.half_edges.reserve(2 * edges);
+        self.seams.reserve(edges);
+        self.faces.reserve(faces);
+        self.planes.reserve(faces);
     }
 
     // ---- attributes ----------------------------------------------------------------------------------------------

@@ -152,6 +152,13 @@ pub(super) struct Cutter {
     pub(super) classified: usize,
 }
 
+/// A table of zeros with room for a sixteenth more, as a copied mesh has it; memory that no cut asks for is never touched.
+fn zeros<T: Copy + Default>(count: usize) -> Vec<T> {
+    let mut table = vec![T::default(); count + count / 16];
+    table.truncate(count);
+    table
+}
+
 impl Cutter {
     pub(super) fn new(mesh: Mesh) -> Self {
         let (low, high) = mesh.bounds().unwrap_or_default();
@@ -164,12 +171,12 @@ impl Cutter {
             cut: 0,
             done: Cut::default(),
             faces_before: faces as u32,
-            sides: vec![0; mesh.vertex_slots()],
-            born: vec![0; mesh.vertex_slots()],
-            lineage: vec![0; faces],
-            shapes: vec![0; faces],
-            doomed: vec![0; faces],
-            decided: vec![0; faces],
+            sides: zeros(mesh.vertex_slots()),
+            born: zeros(mesh.vertex_slots()),
+            lineage: zeros(faces),
+            shapes: zeros(faces),
+            doomed: zeros(faces),
+            decided: zeros(faces),
             is_open,
             region: Vec::new(),
             reached: Vec::new(),
@@ -182,6 +189,22 @@ impl Cutter {
             classified: 0,
             mesh,
         }
+    }
+
+    /// Makes room for so many cuts of corners with three edges: two vertices, three edges and a face more for each. Slots that earlier cuts
+    /// left free count; other cuts only find their room sooner.
+    pub(super) fn reserve(&mut self, cuts: usize) {
+        self.mesh.reserve(2 * cuts, 3 * cuts, cuts);
+        for (table, room) in [
+            (&mut self.sides, 2 * cuts),
+            (&mut self.born, 2 * cuts),
+            (&mut self.lineage, cuts),
+            (&mut self.doomed, cuts),
+            (&mut self.decided, cuts),
+        ] {
+            table.reserve(room);
+        }
+        self.shapes.reserve(cuts);
     }
 
     /// Forgets what was made so far: the mesh as it is now becomes "the mesh before the command".

@@ -154,6 +154,7 @@ pub(super) fn truncate(
         let done = match settings.disjoint {
             Disjoint::No => {
                 let elements = choose(&offsets)?;
+                cutter.reserve(elements.len());
                 cut_round(&mut cutter, &elements, settings.scope, context.progress)?
             }
             Disjoint::Yes => {

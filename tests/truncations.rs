@@ -11,7 +11,7 @@ use kerfold::geom::{Plane, fit_plane};
 use kerfold::measure::{face_diameter, volume};
 use kerfold::mesh::{FaceId, Mesh, assert_sound};
 use kerfold::op::{
-    CutReport, OpContext, OpError, TruncateEdge, TruncateFace, TruncateVertex, truncate_edges, truncate_faces,
+    CutReport, OpContext, OpError, Scope, TruncateEdge, TruncateFace, TruncateVertex, truncate_edges, truncate_faces,
     truncate_vertices,
 };
 use kerfold::select::Selection;
@@ -295,6 +295,37 @@ fn size_and_place_do_not_matter() {
                     (expected.counts, expected.valences.clone(), expected.sides.clone()),
                     "{title}"
                 );
+            }
+        }
+    }
+}
+
+/// The plane of the paper at a third of the edges, round after round, in millimetres at the origin and 37 m away: neighbours meet from the third
+/// round on, which the report says, and faces stay planar whether or not. All vertices for four rounds, one corner for ten.
+#[test]
+fn the_papers_plane_at_a_third_overcuts_from_the_third_round_on() {
+    let runs = (1..=4).map(|repeat| ("all", repeat, Scope::Global)).chain([("0", 10, Scope::Local)]);
+    for (select, repeat, scope) in runs {
+        for shift in [DVec3::ZERO, DVec3::new(37_000.0, -37_000.0, 37_000.0)] {
+            let mut mesh = shape::cube(100.0);
+            mesh.clear_planes();
+            for v in mesh.vertices().collect::<Vec<_>>() {
+                mesh.set_position(v, mesh.position(v) + shift, true);
+            }
+            let select: Selection = select.parse().expect("a selection");
+            let params = TruncateVertex { repeat, scope, ..TruncateVertex::new(select, 1.0 / 3.0) };
+            let (cut, report) = truncate_vertices(&mesh, &params, &OpContext::default()).expect("something is left");
+            assert_sound(&cut);
+            assert_eq!(report.overcut.is_empty(), repeat < 3, "round {repeat}: {} overcut", report.overcut.len());
+            // A corner cut off becomes a triangle of its own, unless another cut meets it.
+            let caps = cut.faces().filter(|&f| cut.face_vertices(f).count() == 3).count();
+            assert_eq!(caps == 8 * 3_usize.pow(repeat - 1), repeat < 3, "round {repeat}: {caps} triangles");
+            let diameter = kerfold::measure::size(&cut).length();
+            for f in cut.faces() {
+                let corners = cut.face_positions(f);
+                let plane = fit_plane(&corners).expect("a plane");
+                let off = corners.iter().map(|&p| plane.signed_distance(p).abs()).fold(0.0, f64::max);
+                assert!(off <= 1e-12 * diameter, "round {repeat} at {shift}: {f} is {off:e} off its plane");
             }
         }
     }

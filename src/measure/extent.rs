@@ -41,7 +41,7 @@ pub fn volume(mesh: &Mesh) -> f64 {
     mesh.faces_and_holes()
         .map(|f| {
             let corners: Vec<DVec3> = mesh.face_vertices(f).map(|v| mesh.position(v) - centre).collect();
-            let fan = corners.windows(2).skip(1).map(|w| corners[0].dot(w[0].cross(w[1])));
+            let fan = corners.windows(2).skip(1).map(|w| corners[0].dot(doubled_area([corners[0], w[0], w[1]])));
             fan.sum::<f64>()
         })
         .sum::<f64>()
@@ -55,7 +55,21 @@ pub fn size(mesh: &Mesh) -> DVec3 {
 
 fn area_vector(corners: &[DVec3]) -> DVec3 {
     let Some(&first) = corners.first() else { return DVec3::ZERO };
-    corners.windows(2).map(|w| (w[0] - first).cross(w[1] - first)).sum::<DVec3>() / 2.0
+    corners.windows(2).map(|w| doubled_area([first, w[0], w[1]])).sum::<DVec3>() / 2.0
+}
+
+/// Twice the area vector of a triangle, from its two shortest sides: rounding is relative to their product, so that a needle keeps
+/// its digits however far it reaches.
+fn doubled_area([a, b, c]: [DVec3; 3]) -> DVec3 {
+    let sides = [b - a, c - b, a - c];
+    let lengths = sides.map(DVec3::length_squared);
+    if lengths[0] >= lengths[1].max(lengths[2]) {
+        sides[1].cross(sides[2])
+    } else if lengths[1] >= lengths[2] {
+        sides[2].cross(sides[0])
+    } else {
+        sides[0].cross(sides[1])
+    }
 }
 
 #[cfg(test)]
@@ -75,5 +89,17 @@ mod tests {
         let bottom = FaceId::new(0);
         assert!((face_diameter(&mesh, bottom) - 13f64.sqrt()).abs() < 1e-12);
         assert!((face_centroid(&mesh, bottom) - far - DVec3::new(1.0, 1.5, 0.0)).length() < 1e-9);
+    }
+
+    #[test]
+    fn a_needle_keeps_the_digits_of_its_volume() {
+        // A prism over a right triangle with legs of 2^-24, 18 long and askew; its corners are exact.
+        let (along, width) = (DVec3::new(16.0, 14.0, -3.0), 2.0_f64.powi(-24));
+        let base = [DVec3::ZERO, DVec3::X * width, DVec3::Y * width];
+        let points: Vec<DVec3> = base.iter().copied().chain(base.map(|p| p + along)).collect();
+        let faces: [&[usize]; 5] = [&[0, 1, 2], &[5, 4, 3], &[1, 0, 3, 4], &[2, 1, 4, 5], &[0, 2, 5, 3]];
+        let mesh = Mesh::from_faces(points, faces.map(<[usize]>::to_vec)).expect("a prism");
+        let exact = 3.0 * width * width / 2.0;
+        assert!((volume(&mesh) - exact).abs() < 1e-8 * exact, "{} for {exact}", volume(&mesh));
     }
 }

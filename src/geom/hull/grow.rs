@@ -99,14 +99,14 @@ impl<'a> Borders<'a> {
             left: Vec::new(),
         };
         let mut parts: Vec<Part<'_>> = surfaces.into_iter().enumerate().map(part).collect();
-        each(&mut parts, |part| part.grow(cloud, self.order, inserted));
+        each(&mut parts, cloud.len() as usize, |part| part.grow(cloud, self.order, inserted));
         let mut left = Vec::new();
         let mut growths = Vec::with_capacity(parts.len());
         for part in parts {
             left.extend(part.left);
             growths.extend(part.growth);
         }
-        surface.join(growths, &division, left.len());
+        surface.join(growths, &division);
         left
     }
 

@@ -5,15 +5,16 @@ use glam::DVec3;
 use super::cloud::{Cloud, PlaneSigns};
 use super::contract::contract;
 use super::determinant::excess;
+use super::fans::polygons;
 use super::grow::grow;
 use super::interior::{Centre, deepest_point};
-use super::merge::{Faces, fan_starts};
+use super::merge::Faces;
 use super::order::{MOST_POINTS, Order, insertion_order};
-use super::parallel::{each, fill, fill_runs, share_of};
-use super::polytope::{Polygons, Polytope};
+use super::parallel::fill;
+use super::polytope::Polytope;
 use super::split::split;
 use super::start::{Flat, enclose_centre, far_apart};
-use super::surface::{NONE, Slot, Surface, room};
+use super::surface::{Slot, Surface, room};
 
 /// A half-space: all x with normal · x ≤ offset.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -216,8 +217,13 @@ fn exact_intersection(half_spaces: &[HalfSpace], centre: DVec3, simple: bool) ->
     // A dual point carries the rounding of the slack, one ulp, and of the division and the product, half an ulp each.
     let (cloud, scale) = Cloud::new(near, 4.0, PlaneSigns::new(half_spaces, &order.points));
     let mut facets = room(count);
-    let surface = dual_hull(&cloud, &order, &mut facets)?;
-    let faces = if simple && !surface.has_zeros() { Faces::unmerged(&surface) } else { Faces::of(&surface, &cloud) };
+    let mut surface = dual_hull(&cloud, &order, &mut facets)?;
+    let faces = if simple && !surface.has_zeros() {
+        surface.compact();
+        Faces::unmerged(&surface)
+    } else {
+        Faces::of(&surface, &cloud)
+    };
     let vertices = vertices(&surface, &faces, cloud.points(), scale, centre);
     drop(cloud);
     let (half_spaces, faces) = polygons(&surface, &faces, &order.points);
@@ -305,7 +311,8 @@ pub(super) fn widest_triple(points: &[DVec3]) -> [DVec3; 3] {
 /// Where q·y = 1 for three dual points, with the residuals solved for again: y lies on the planes to rounding, however flat
 /// they meet.
 pub(super) fn meeting_point([a, b, c]: [DVec3; 3]) -> DVec3 {
-    let normal = (b - a).cross(c - a);
+    let (ab, ac) = (b - a, c - a);
+    let normal = ab.cross(ac);
     let inverse = 1.0 / normal.dot(a);
     let mut best = normal * inverse;
     for _ in 0..3 {
@@ -314,7 +321,8 @@ pub(super) fn meeting_point([a, b, c]: [DVec3; 3]) -> DVec3 {
         if residuals.abs().max_element() <= 2.0 * f64::EPSILON {
             break;
         }
-        let turned = b.cross(c) * residuals.x + c.cross(a) * residuals.y + a.cross(b) * residuals.z;
+        let [x, y, z] = residuals.to_array();
+        let turned = normal * x + ac.cross(a) * (y - x) + a.cross(ab) * (z - x);
         let better = best + turned * inverse;
         if !better.is_finite() {
             break;
@@ -322,100 +330,6 @@ pub(super) fn meeting_point([a, b, c]: [DVec3; 3]) -> DVec3 {
         best = better;
     }
     best
-}
-
-/// The faces of the solid: for each dual point that is a corner the dual faces around it. Also which half-spaces they are of.
-fn polygons(surface: &Surface<'_>, faces: &Faces, order: &[u32]) -> (Vec<u32>, Polygons) {
-    let mut shares = runs_by_place(surface, faces, order.len());
-    // Runs in the order of the half-spaces: first how long each is, then where it begins.
-    let mut begins = vec![0_u32; order.len()];
-    let mut place_of = vec![0_u32; order.len()];
-    let sizes = shares.iter().flat_map(|share| &share.sizes);
-    for ((&i, &size), place) in order.iter().zip(sizes).zip(0..) {
-        begins[i as usize] = size;
-        place_of[i as usize] = place;
-    }
-    let half_spaces: Vec<u32> = (0..order.len() as u32).filter(|&i| begins[i as usize] > 0).collect();
-    let mut total = 0;
-    for begin in &mut begins {
-        total += std::mem::replace(begin, total);
-    }
-    let next = |&i: &u32| begins.get(i as usize + 1).copied().unwrap_or(total);
-    let ends = half_spaces.iter().map(next).collect();
-    let mut corners = vec![0; total as usize];
-    shares.iter_mut().for_each(RunsByPlace::sizes_to_ends);
-    let share_length = shares.first().map_or(1, |share| share.sizes.len()).max(1);
-    fill_runs(&mut corners, &begins, |own, mut corners| {
-        for place in &place_of[own] {
-            let run = shares[*place as usize / share_length].run(*place as usize % share_length);
-            let (here, rest) = corners.split_at_mut(run.len());
-            here.copy_from_slice(run);
-            corners = rest;
-        }
-    });
-    (half_spaces, Polygons::from_runs(corners, ends))
-}
-
-/// The dual faces around some points, in the order of their places.
-struct RunsByPlace {
-    /// Place of the first point.
-    first: usize,
-    /// How many dual faces there are around each point; none around those that are no corner of the dual hull, inside a dual face or edge: their
-    /// planes only touch the solid. Later where each run ends.
-    sizes: Vec<u32>,
-    runs: Vec<u32>,
-}
-
-impl RunsByPlace {
-    fn sizes_to_ends(&mut self) {
-        let mut end = 0;
-        for size in &mut self.sizes {
-            end += *size;
-            *size = end;
-        }
-    }
-
-    /// The run of a point, once sizes are ends.
-    fn run(&self, i: usize) -> &[u32] {
-        let begin = if i == 0 { 0 } else { self.sizes[i - 1] };
-        &self.runs[begin as usize..self.sizes[i] as usize]
-    }
-
-    fn collect(&mut self, surface: &Surface<'_>, faces: &Faces, starts: &[u32]) {
-        let mut around = Vec::new();
-        for (place, &start) in (self.first as u32..).zip(&starts[self.first..][..self.sizes.len()]) {
-            let before = self.runs.len();
-            if start != NONE && faces.has_merged() {
-                faces.around(surface, place, start, &mut around);
-                if around.len() > 2 {
-                    self.runs.extend_from_slice(&around);
-                }
-            } else if start != NONE {
-                let mut f = start;
-                loop {
-                    self.runs.push(faces.of_facet(f));
-                    f = surface.next_around(place, f);
-                    if f == start {
-                        break;
-                    }
-                }
-            }
-            self.sizes[place as usize - self.first] = (self.runs.len() - before) as u32;
-        }
-    }
-}
-
-/// The dual faces around all points, by shares of the places of equal length.
-fn runs_by_place(surface: &Surface<'_>, faces: &Faces, points: usize) -> Vec<RunsByPlace> {
-    let starts = fan_starts(surface, points);
-    let length = share_of(points);
-    let share = |first| {
-        let length = length.min(points - first);
-        RunsByPlace { first, sizes: vec![0; length], runs: Vec::with_capacity(6 * length + 64) }
-    };
-    let mut shares: Vec<RunsByPlace> = (0..points).step_by(length).map(share).collect();
-    each(&mut shares, |share| share.collect(surface, faces, &starts));
-    shares
 }
 
 /// Contracts what is shorter than rounding. Planes that then span no face any more are left out and the rest is intersected

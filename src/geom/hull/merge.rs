@@ -79,17 +79,9 @@ impl Faces {
         Self { face_of, count: first.len(), first, has_merged }
     }
 
-    /// Every facet a face of its own.
+    /// Every facet a face of its own; there are no free slots.
     pub(super) fn unmerged(surface: &Surface<'_>) -> Self {
-        if surface.len() == surface.slots() {
-            return Self { face_of: Vec::new(), first: Vec::new(), count: surface.len(), has_merged: false };
-        }
-        let mut face_of = vec![NONE; surface.slots()];
-        let first: Vec<u32> = surface.live().collect();
-        for (face, &f) in first.iter().enumerate() {
-            face_of[f as usize] = face as u32;
-        }
-        Self { face_of, count: first.len(), first, has_merged: false }
+        Self { face_of: Vec::new(), first: Vec::new(), count: surface.len(), has_merged: false }
     }
 
     /// How many faces there are.

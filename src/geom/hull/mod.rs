@@ -11,6 +11,7 @@
 mod cloud;
 mod contract;
 mod determinant;
+mod fans;
 mod grow;
 mod halfspaces;
 mod interior;

@@ -57,7 +57,7 @@ pub(super) fn insertion_order(n: usize, direction: impl Fn(usize) -> DVec3 + Syn
     seed_points.iter_mut().zip(seeds).for_each(|(point, &key)| *point = number(key));
     let mut cells: Vec<(&[u64], &mut [u32])> =
         late.chunks(CELL_POINTS).zip(late_points.chunks_mut(CELL_POINTS)).collect();
-    each(&mut cells, |(keys, points)| by_rounds(keys, points));
+    each(&mut cells, n, |(keys, points)| by_rounds(keys, points));
     let firsts: Vec<u64> = cells.iter().map(|(keys, _)| late_place(keys[0])).collect();
     let cell_of = |&key: &u64| firsts.partition_point(|&first| first <= seed_place(key)).saturating_sub(1) as u32;
     let seed_cells = seeds.iter().map(cell_of).collect();
@@ -103,7 +103,7 @@ fn by_rounds(keys: &[u64], points: &mut [u32]) {
 
 /// How the sides of the cube are divided.
 struct Layout {
-    ranges: [Range; 6],
+    sides: [Raster; 6],
     rounds: u32,
     /// Levels of the curve.
     bits: u32,
@@ -111,10 +111,11 @@ struct Layout {
 
 impl Layout {
     fn of(n: usize, direction: &impl Fn(usize) -> DVec3) -> Self {
+        let bits = (n.max(1).ilog2() / 2 + 4).min(CURVE_BITS);
         Self {
-            ranges: ranges(n, direction),
+            sides: ranges(n, direction).map(|range| Raster::of(range, bits)),
             rounds: (n / FIRST_ROUND).max(1).ilog2().min((1 << ROUND_BITS) - 1),
-            bits: (n.max(1).ilog2() / 2 + 4).min(CURVE_BITS),
+            bits,
         }
     }
 
@@ -123,7 +124,7 @@ impl Layout {
     fn key(&self, direction: DVec3) -> u64 {
         let late = lateness(direction);
         let (side, u) = on_cube(direction);
-        let curve = hilbert(self.ranges[side].cell(u, self.bits), self.bits);
+        let curve = hilbert(self.sides[side].cell(u), self.bits);
         let place = (side as u64) << (2 * self.bits) | u64::from(curve);
         if late >= CELL_ROUNDS || self.rounds < 2 * CELL_ROUNDS {
             (u64::from(self.rounds - late.min(self.rounds)) << PLACE_BITS | place) << INDEX_BITS
@@ -140,13 +141,24 @@ struct Range {
     high: [f64; 2],
 }
 
-impl Range {
-    fn cell(&self, u: [f64; 2], bits: u32) -> [u32; 2] {
+/// Where the cells of a curve lie within a range.
+#[derive(Clone, Copy)]
+struct Raster {
+    low: [f64; 2],
+    /// Cells per length.
+    density: [f64; 2],
+    bits: u32,
+}
+
+impl Raster {
+    fn of(Range { low, high }: Range, bits: u32) -> Self {
         let cells = f64::from(1_u32 << bits);
-        std::array::from_fn(|k| {
-            // A cast saturates, so that what lies beyond the ends goes to them, and takes the NaN of no width to 0.
-            (((u[k] - self.low[k]) / (self.high[k] - self.low[k]) * cells) as u32).min((1 << bits) - 1)
-        })
+        Self { low, density: std::array::from_fn(|k| cells / (high[k] - low[k])), bits }
+    }
+
+    fn cell(&self, u: [f64; 2]) -> [u32; 2] {
+        // A cast saturates, so that what lies beyond the ends goes to them, and takes the NaN of no width to 0.
+        std::array::from_fn(|k| (((u[k] - self.low[k]) * self.density[k]) as u32).min((1 << self.bits) - 1))
     }
 }
 
@@ -165,20 +177,18 @@ fn ranges(n: usize, direction: &impl Fn(usize) -> DVec3) -> [Range; 6] {
 /// The side of the cube that a direction meets, and where. The three sides around a corner follow one another, so that half of
 /// the curve has a short border.
 fn on_cube(direction: DVec3) -> (usize, [f64; 2]) {
-    let size = direction.abs();
-    let axis = if size.x >= size.y && size.x >= size.z {
-        0
-    } else if size.y >= size.z {
-        1
-    } else {
-        2
-    };
-    let height = direction[axis];
+    // By index, since nothing can foresee a branch.
+    let coordinates = direction.to_array();
+    let size = coordinates.map(f64::abs);
+    let larger = usize::from(size[1] > size[0]);
+    let axis = [larger, 2][usize::from(size[2] > size[larger])];
+    let height = coordinates[axis];
     if height == 0.0 {
         return (0, [0.0; 2]);
     }
-    let u = [direction[(axis + 1) % 3], direction[(axis + 2) % 3]].map(|x| x / height.abs());
-    (axis + if height < 0.0 { 3 } else { 0 }, u)
+    let inverse = 1.0 / height.abs();
+    let u = [coordinates[[1, 2, 0][axis]] * inverse, coordinates[[2, 0, 1][axis]] * inverse];
+    (axis + 3 * usize::from(height < 0.0), u)
 }
 
 /// The place of a cell along the Hilbert curve of a square with 2^bits cells a side.

@@ -10,15 +10,20 @@ pub(super) fn fill<T: Send>(out: &mut [T], make: impl Fn(usize) -> T + Sync) {
     in_shares(out, |start, part| part.iter_mut().enumerate().for_each(|(i, value)| *value = make(start + i)));
 }
 
-/// Runs `work` on shares of runs that lie one behind the other in `out`: run i begins at `begins[i]`. Each share is told which runs are its own.
-pub(super) fn fill_runs<T: Send>(out: &mut [T], begins: &[u32], work: impl Fn(Range<usize>, &mut [T]) + Sync) {
-    let share = share_of(begins.len());
+/// Runs `work` on shares of `count` runs that lie one behind the other in `out`. Each share is told which runs are its own.
+pub(super) fn fill_runs<T: Send>(
+    out: &mut [T],
+    count: usize,
+    begin: impl Fn(usize) -> usize,
+    work: impl Fn(Range<usize>, &mut [T]) + Sync,
+) {
+    let share = share_of(count);
     std::thread::scope(|scope| {
         let mut rest = out;
-        for start in (0..begins.len()).step_by(share) {
-            let own = start..(start + share).min(begins.len());
-            let is_last = own.end == begins.len();
-            let length = if is_last { rest.len() } else { (begins[own.end] - begins[own.start]) as usize };
+        for start in (0..count).step_by(share) {
+            let own = start..(start + share).min(count);
+            let is_last = own.end == count;
+            let length = if is_last { rest.len() } else { begin(own.end) - begin(own.start) };
             let (part, others) = rest.split_at_mut(length);
             rest = others;
             let work = &work;
@@ -40,9 +45,9 @@ pub(super) fn sort(keys: &mut [u64]) {
     }
 }
 
-/// Runs `work` on every value, each long work.
-pub(super) fn each<T: Send>(values: &mut [T], work: impl Fn(&mut T) + Sync) {
-    let share = values.len().div_ceil(threads()).max(1);
+/// Runs `work` on every value, which stand for `count` smaller ones in all.
+pub(super) fn each<T: Send>(values: &mut [T], count: usize, work: impl Fn(&mut T) + Sync) {
+    let share = values.len().div_ceil(threads_for(count)).max(1);
     std::thread::scope(|scope| {
         let mut shares = values.chunks_mut(share);
         let own = shares.next();
@@ -56,11 +61,15 @@ pub(super) fn each<T: Send>(values: &mut [T], work: impl Fn(&mut T) + Sync) {
 
 /// The length of equal shares of `count` values, one for each processor.
 pub(super) fn share_of(count: usize) -> usize {
-    count.div_ceil(threads().min(count / WORTH_A_THREAD + 1)).max(1)
+    count.div_ceil(threads_for(count)).max(1)
 }
 
-fn threads() -> usize {
-    std::thread::available_parallelism().map_or(1, |n| n.get())
+/// How many threads are worth it for so many values. The system is only asked when more than one may be.
+fn threads_for(count: usize) -> usize {
+    match count / WORTH_A_THREAD + 1 {
+        1 => 1,
+        most => std::thread::available_parallelism().map_or(1, |n| n.get()).min(most),
+    }
 }
 
 /// Runs `work` on equal shares of `values`, each with the index of its first; returns the length of a share.

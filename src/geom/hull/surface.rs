@@ -60,14 +60,15 @@ struct Scratch {
     stack: Vec<Pending>,
 }
 
-/// A side of a seen facet that is still to be crossed.
+/// A neighbour of a seen facet that is still to be entered or left outside.
 #[derive(Clone, Copy)]
 struct Pending {
     facet: u32,
-    /// The facet on its other side.
-    beyond: u32,
-    /// The product of its ends, seen from the point at hand.
-    cross: DVec3,
+    /// Which of its sides leads back.
+    back: u32,
+    is_seen: bool,
+    /// Its corner that is not on that side, seen from the point at hand.
+    third: DVec3,
 }
 
 /// What became of a point.
@@ -174,14 +175,9 @@ impl<'a> Surface<'a> {
     }
 
     /// Inserts a point into a part of a surface if that concerns no side at its border and needs no exact walk; whether the
-    /// point is settled. If not, the next walk begins where this one did.
+    /// point is settled. If not, the next walk begins where this one ended, since the next point lies near this one.
     pub(super) fn insert_within<S: Signs>(&mut self, cloud: &Cloud<S>, p: u32) -> bool {
-        let begin = self.last;
-        let is_settled = self.insert_quickly(cloud, p) == Quick::Settled;
-        if !is_settled {
-            self.last = begin;
-        }
-        is_settled
+        self.insert_quickly(cloud, p) == Quick::Settled
     }
 
     fn insert_quickly<S: Signs>(&mut self, cloud: &Cloud<S>, p: u32) -> Quick {
@@ -327,51 +323,56 @@ impl<'a> Surface<'a> {
         seen.clear();
         rim.clear();
         stack.clear();
-        let target = cloud.point(p);
+        let view = View { cloud, p, target: cloud.point(p) };
         let Facet { corners, across } = self.facet(first);
         let facets = &mut *self.facets;
-        let [a, b, c] = corners.map(|v| cloud.point(v) - target);
+        let [a, b, c] = corners.map(|v| view.corner(v));
         let bc = b.cross(c);
         let height = cloud.settled_height(corners, p, a.dot(bc));
-        let mut has_zeros = height == Side::On;
-        if height == Side::Normal {
-            if (across[0] | across[1] | across[2]) & BORDER != 0 {
-                return Insertion::AtBorder;
-            }
-            stack.push(Pending { facet: first, beyond: across[2], cross: c.cross(a) });
-            stack.push(Pending { facet: first, beyond: across[1], cross: bc });
-            stack.push(Pending { facet: first, beyond: across[0], cross: a.cross(b) });
-            facets[first as usize][0] |= SEEN;
-            seen.push(first);
+        self.has_zeros |= height == Side::On;
+        if height != Side::Normal {
+            return Insertion::NotSeen;
         }
-        while let Some(Pending { facet: f, beyond: g, cross }) = stack.pop() {
-            let [a, b, c, ab, bc, ca] = facets[g as usize];
+        if (across[0] | across[1] | across[2]) & BORDER != 0 {
+            return Insertion::AtBorder;
+        }
+        facets[first as usize][0] |= SEEN;
+        seen.push(first);
+        let crosses = [a.cross(b), bc, c.cross(a)];
+        for side in [2, 1, 0] {
+            if let Some(pending) = view.beyond(facets, first, across[side], crosses[side], &mut self.has_zeros) {
+                stack.push(pending);
+            }
+        }
+        while let Some(Pending { facet: f, back, is_seen, third }) = stack.pop() {
+            let [a, b, c, ab, bc, ca] = facets[f as usize];
             if a & SEEN != 0 {
                 continue;
             }
-            // Seen from the facet beyond, the side runs the other way round. Only its third corner is new.
+            if !is_seen {
+                rim.push(f << 2 | back);
+                continue;
+            }
             let (corners, across) = ([a, b, c], [ab, bc, ca]);
-            let back = position(across, f);
-            let after = NEXT[back];
+            let after = NEXT[back as usize];
             let before = NEXT[after];
-            let third = cloud.point(corners[before]) - target;
-            let height = cloud.settled_height(corners, p, -third.dot(cross));
-            if height == Side::Normal {
-                if (across[after] | across[before]) & BORDER != 0 {
-                    return Insertion::AtBorder;
-                }
-                let (to, from) = (cloud.point(corners[back]) - target, cloud.point(corners[after]) - target);
-                stack.push(Pending { facet: g, beyond: across[before], cross: third.cross(to) });
-                stack.push(Pending { facet: g, beyond: across[after], cross: from.cross(third) });
-                facets[g as usize][0] |= SEEN;
-                seen.push(g);
-            } else {
-                has_zeros |= height == Side::On;
-                rim.push(g << 2 | back as u32);
+            if (across[after] | across[before]) & BORDER != 0 {
+                return Insertion::AtBorder;
+            }
+            facets[f as usize][0] |= SEEN;
+            seen.push(f);
+            // Both neighbours are looked at before either is needed: so their facets and corners arrive from memory together.
+            let (to, from) = (view.corner(corners[back as usize]), view.corner(corners[after]));
+            let second = view.beyond(facets, f, across[before], third.cross(to), &mut self.has_zeros);
+            let next = view.beyond(facets, f, across[after], from.cross(third), &mut self.has_zeros);
+            if let Some(second) = second {
+                stack.push(second);
+            }
+            if let Some(next) = next {
+                stack.push(next);
             }
         }
-        self.has_zeros |= has_zeros;
-        if seen.is_empty() { Insertion::NotSeen } else { Insertion::Done }
+        Insertion::Done
     }
 
     /// Builds the fan in the slots of the seen facets, so that neighbours stay near each other in memory.
@@ -405,6 +406,28 @@ impl<'a> Surface<'a> {
         self.last = first;
     }
 
+    /// Moves the last facets into the free slots, so that the slots below [`Self::len`] are all there are.
+    pub(super) fn compact(&mut self) {
+        let mut holes = std::mem::take(&mut self.free);
+        holes.sort_unstable();
+        for hole in holes {
+            while self.used > self.count && self.is_free(self.used as u32 - 1) {
+                self.used -= 1;
+            }
+            if self.used == self.count {
+                break;
+            }
+            self.used -= 1;
+            let last = self.used as u32;
+            for g in self.facet(last).across {
+                let side = self.side_to(g, last);
+                self.facets[g as usize][3 + side] = hole;
+            }
+            self.facets[hole as usize] = std::mem::take(&mut self.facets[last as usize]);
+        }
+        self.last = 0;
+    }
+
     /// Which side of `f` leads to `g`.
     pub(super) fn side_to(&self, f: u32, g: u32) -> usize {
         position(self.facet(f).across, g)
@@ -415,6 +438,35 @@ impl<'a> Surface<'a> {
         self.random = self.random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         // The upper bits of the generator, times three, divided by their range.
         ((u64::from(self.random) * 3) >> 32) as usize
+    }
+}
+
+/// The surface seen from a point that is to be inserted.
+struct View<'a, S> {
+    cloud: &'a Cloud<S>,
+    p: u32,
+    target: DVec3,
+}
+
+impl<S: Signs> View<'_, S> {
+    #[inline(always)]
+    fn corner(&self, v: u32) -> DVec3 {
+        self.cloud.point(v) - self.target
+    }
+
+    /// What lies beyond a side of facet `f`, of which `cross` is the product of the ends; nothing if that is among the seen already.
+    #[inline(always)]
+    fn beyond(&self, facets: &[Slot], f: u32, g: u32, cross: DVec3, has_zeros: &mut bool) -> Option<Pending> {
+        let [a, b, c, ab, bc, ca] = facets[g as usize];
+        if a & SEEN != 0 {
+            return None;
+        }
+        // Seen from the facet beyond, the side runs the other way round. Only its third corner is new.
+        let (corners, back) = ([a, b, c], position([ab, bc, ca], f));
+        let third = self.corner(corners[NEXT[NEXT[back]]]);
+        let height = self.cloud.settled_height(corners, self.p, -third.dot(cross));
+        *has_zeros |= height == Side::On;
+        Some(Pending { facet: g, back: back as u32, is_seen: height == Side::Normal, third })
     }
 }
 

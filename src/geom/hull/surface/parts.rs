@@ -90,8 +90,8 @@ impl Surface<'_> {
         Growth { used: self.used, count: self.count, free, has_zeros: self.has_zeros }
     }
 
-    /// Puts the parts together again; at most `left` points are still to be inserted.
-    pub(in super::super) fn join(&mut self, parts: Vec<Growth>, division: &Division, left: usize) {
+    /// Puts the parts together again.
+    pub(in super::super) fn join(&mut self, parts: Vec<Growth>, division: &Division) {
         self.free.clear();
         self.count = 0;
         self.used = division.begins[parts.len()];
@@ -99,8 +99,7 @@ impl Surface<'_> {
             self.count += part.count;
             self.has_zeros |= part.has_zeros;
             self.free.extend(part.free);
-            // Each point takes two more facets at most.
-            self.free.extend((ends[0] + part.used..ends[1]).take(2 * left).map(|f| f as u32));
+            self.free.extend((ends[0] + part.used..ends[1]).map(|f| f as u32));
         }
         let first = self.live().next();
         self.last = first.unwrap_or(0);

@@ -108,7 +108,11 @@ fn assert_clean(name: &str, drawings: &[kerfold::sheet::Drawing], params: &Sheet
             assert_eq!(lint(&pages[0], &limits).findings, [], "{place}");
         }
     }
-    for drawing in drawings {
+}
+
+/// The first drawing, cut up onto sheets of paper.
+fn assert_tiles_clean(name: &str, drawings: &[kerfold::sheet::Drawing], params: &SheetParams) {
+    if let Some(drawing) = drawings.first() {
         let bytes = write_tiles(drawing, Paper::A4, params.style(), "kerfold").expect("known letters");
         let (_, pages) = read_artwork(Path::new("x"), &bytes).expect("a PDF");
         assert!(pages.len() > 1);
@@ -125,7 +129,19 @@ fn sheets_with_shared_lines_pass() {
         let corner = |k: usize| DVec2::from_angle(i as f64 + k as f64 * std::f64::consts::TAU / corners as f64) * 25.0;
         (0..corners).map(corner).collect()
     };
-    let piece = |i: usize| Piece { id: PieceId(i), outline: ring(i), holes: Vec::new(), faces: Vec::new() };
+    let polygon = |corners: &[[f64; 2]]| corners.iter().map(|&c| DVec2::from(c)).collect::<Vec<_>>();
+    let ell = polygon(&[[0.0, 0.0], [80.0, 0.0], [80.0, 30.0], [30.0, 30.0], [30.0, 80.0], [0.0, 80.0]]);
+    let triangle = polygon(&[[0.0, 0.0], [60.0, 0.0], [0.0, 40.0]]);
+    let bar = polygon(&[[0.0, 0.0], [150.0, 0.0], [150.0, 20.0], [0.0, 20.0]]);
+    let mixed = |i: usize| [&ell, &triangle, &bar, &triangle][i % 4].clone();
+    let shapes: [&dyn Fn(usize) -> Vec<DVec2>; 2] = [&ring, &mixed];
+    for shape in shapes {
+        assert_shared_lines_pass(shape);
+    }
+}
+
+fn assert_shared_lines_pass(shape: &dyn Fn(usize) -> Vec<DVec2>) {
+    let piece = |i: usize| Piece { id: PieceId(i), outline: shape(i), holes: Vec::new(), faces: Vec::new() };
     let net = Net {
         scale: 1.0,
         counts: MeshCounts::default(),
@@ -152,7 +168,9 @@ fn nothing_is_found_in_what_we_write_ourselves() {
         let recipe = Recipe::parse(&text).expect("a recipe");
         let job = Job::run(&recipe, folder, &Silent).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
         if let Some((fabrication, params)) = &job.fabrication {
-            assert_clean(&path.display().to_string(), &fabrication.sheets.drawings, params);
+            let name = path.display().to_string();
+            assert_clean(&name, &fabrication.sheets.drawings, params);
+            assert_tiles_clean(&name, &fabrication.sheets.drawings, params);
         }
     }
 }

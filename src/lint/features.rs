@@ -94,7 +94,7 @@ pub(super) fn open_contours(lines: &[Line], contours: &Contours, params: &LintPa
         }
         let (Some(&a), Some(&b)) = (line.points.first(), line.points.last()) else { continue };
         // A cut from one cut to another closes what these leave open: lines that two parts share.
-        if [a, b].iter().all(|&p| on.is_cut(p, Some(i))) {
+        if on.is_closed_by_cuts(i) {
             continue;
         }
         let words = format!("its ends are {} mm apart", short(a.distance(b)));

@@ -44,13 +44,25 @@ impl<'a> On<'a> {
         Self { lines, bounds: bounds.collect(), gap }
     }
 
-    /// Whether a cut other than `but` runs through a point.
-    pub fn is_cut(&self, p: DVec2, but: Option<usize>) -> bool {
+    /// Whether a cut runs through a point.
+    pub fn is_cut(&self, p: DVec2) -> bool {
+        (0..self.lines.len()).any(|i| self.touches(i, p, |_| true))
+    }
+
+    /// Whether both ends of an open line lie on cuts: others, or itself further along.
+    pub fn is_closed_by_cuts(&self, i: usize) -> bool {
+        let points = &self.lines[i].points;
+        let last = points.len() - 1;
+        [(points[0], 0), (points[last], last - 1)]
+            .into_iter()
+            .all(|(end, own)| (0..self.lines.len()).any(|j| self.touches(j, end, |segment| j != i || segment != own)))
+    }
+
+    /// Whether one of the segments that are asked for, of a cut, runs through a point.
+    fn touches(&self, i: usize, p: DVec2, is_asked: impl Fn(usize) -> bool) -> bool {
         let grown = DVec2::splat(self.gap);
-        self.bounds.iter().enumerate().filter(|(i, _)| Some(*i) != but).any(|(i, b)| {
-            b.is_some_and(|(low, high)| p.cmpge(low - grown).all() && p.cmple(high + grown).all())
-                && self.lines[i].segments().any(|s| distance(p, s).0 <= self.gap)
-        })
+        self.bounds[i].is_some_and(|(low, high)| p.cmpge(low - grown).all() && p.cmple(high + grown).all())
+            && self.lines[i].segments().enumerate().any(|(k, s)| is_asked(k) && distance(p, s).0 <= self.gap)
     }
 }
 
@@ -153,7 +165,7 @@ fn partners(
     });
     // Where a third line passes, the two end on it and not on one another.
     let third = On::of(rings, gap);
-    let is_free = |end: usize| !third.is_cut(flat[end], None);
+    let is_free = |end: usize| !third.is_cut(flat[end]);
     let one = |end: usize| match meeting[end].as_slice() {
         // Where three or more ends meet nobody can tell which belong together.
         [other] if meeting[*other].len() == 1 && other / 2 != end / 2 && is_free(end) && is_free(*other) => {

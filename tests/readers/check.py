@@ -15,9 +15,9 @@ import ezdxf
 import vpype
 import vpype_cli
 from ezdxf.audit import Auditor
-from shapely import set_precision
+from shapely import unary_union
 from shapely.geometry import LineString, Polygon
-from shapely.ops import polygonize, unary_union
+from shapely.ops import polygonize
 from svgpathtools import parse_path
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -213,8 +213,8 @@ def check_shared(kerfold, out):
         lines = []
         for _, _, drawn in layers["cut-outer"]:
             lines += [LineString([(s.start.real, s.start.imag), (s.end.real, s.end.imag)]) for s in drawn]
-        # Ends that lie on other lines are rounded to four decimals.
-        united = unary_union([set_precision(line, ROUNDING) for line in lines])
+        # Ends that lie on other lines are rounded to four decimals: on the grid they meet.
+        united = unary_union(lines, grid_size=ROUNDING)
         drawn = sum(line.length for line in lines)
         check(abs(united.length - drawn) < ROUNDING * len(lines), "shapely", sheet, f"{drawn} mm drawn, {united.length} apart")
         areas += [cell.area for cell in polygonize(united)]

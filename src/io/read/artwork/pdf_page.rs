@@ -197,9 +197,6 @@ impl Painter<'_> {
             if let Some((low, high)) = state.clip
                 && let Some((from, to)) = bounds(&points)
             {
-                if from.cmpgt(high).any() || to.cmplt(low).any() {
-                    continue;
-                }
                 self.is_window |= from.cmplt(low).any() || to.cmpgt(high).any();
             }
             self.out.path((points, closed), &Place { layer: &told, name: None, operation, colour });

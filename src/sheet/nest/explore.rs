@@ -80,26 +80,31 @@ impl Explore<'_, '_, '_, '_> {
         while best.bins > 0 && self.field.work < self.work && !self.progress.is_cancelled() {
             let done = 100 * (self.field.work - start) / total;
             self.progress.report("nesting: per cent of the effort", done as usize, 100);
+            // A round costs something even where no two pieces come near each other.
+            self.field.work += self.field.pieces as u64;
             restore(self.field, &best.spots);
             self.field.forget();
             let Some(shorter) = self.shorter(&best, step) else { break };
             if fails > 0 {
                 self.disturb(shorter.0);
             }
-            match self.separate(shorter.0) {
-                End::Apart => {
-                    best = self.layout();
+            let end = self.separate(shorter.0);
+            // A piece that fits at few angles only may stick out of the shortened sheet, apart from all others.
+            let better = Some(self.layout()).filter(|l| end == End::Apart && (l.bins, l.used) < (best.bins, best.used));
+            match (end, better) {
+                (_, Some(better)) => {
+                    best = better;
                     fails = 0;
                     step = (step * 1.2).min(most);
                 }
-                End::Stuck => {
+                (End::OutOfWork, None) => break,
+                (End::Apart | End::Stuck, None) => {
                     fails += 1;
                     if fails >= MOST_FAILS && self.field.pieces < 20 {
                         break;
                     }
                     step = (step * 0.5).max(LAST_STEP);
                 }
-                End::OutOfWork => break,
             }
         }
         restore(self.field, &best.spots);

@@ -90,7 +90,8 @@ impl Explore<'_, '_, '_, '_> {
             }
             let end = self.separate(shorter.0);
             // A piece that fits at few angles only may stick out of the shortened sheet, apart from all others.
-            let better = Some(self.layout()).filter(|l| end == End::Apart && (l.bins, l.used) < (best.bins, best.used));
+            let is_better = end == End::Apart && self.is_inside();
+            let better = is_better.then(|| self.layout()).filter(|l| (l.bins, l.used) < (best.bins, best.used));
             match (end, better) {
                 (_, Some(better)) => {
                     best = better;
@@ -113,6 +114,17 @@ impl Explore<'_, '_, '_, '_> {
         }
         self.full(best.bins);
         best
+    }
+
+    /// Whether every piece lies inside its sheet, as far as that is open.
+    fn is_inside(&self) -> bool {
+        (0..self.field.pieces).all(|i| {
+            let spot = self.field.spots[i];
+            let room = &self.field.rooms[spot.bin];
+            let slack = 1e-9 * (room.high - room.low).length();
+            let (low, high) = self.field.range(&self.field.posed[i], spot.bin);
+            (low - spot.at).max_element() <= slack && (spot.at - high).max_element() <= slack
+        })
     }
 
     /// Lays pieces straight where there is room for it, and moves them together; no sheet gets longer by that.

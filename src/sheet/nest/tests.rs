@@ -201,13 +201,9 @@ fn who_stops_the_search_gets_the_best_so_far() {
 /// A lone piece that fits its sheet at few angles only: the search must see that it cannot be laid shorter, and end.
 #[test]
 fn a_piece_that_hardly_fits_ends_the_search() {
-    let long = vec![
-        DVec2::ZERO,
-        DVec2::new(118.0, 0.0),
-        DVec2::new(120.0, 40.0),
-        DVec2::new(60.0, 98.0),
-        DVec2::new(-2.0, 40.0),
-    ];
+    // The room inside the margin is 120 x 100.
+    let corners = [[0.0, 0.0], [116.0, 0.0], [118.0, 40.0], [59.0, 98.0], [0.0, 40.0]];
+    let long: Vec<DVec2> = corners.map(DVec2::from).to_vec();
     let mut params = params(130.0, 110.0);
     params.nest.nest_effort = 5;
     for seed in 0..6 {

@@ -11,6 +11,12 @@ fn output(name: &str) -> String {
     path.pop();
     path.push("examples");
     path.push(format!("{name}{}", std::env::consts::EXE_SUFFIX));
+    if !path.exists() {
+        // `cargo test --test examples` alone does not build them.
+        let release = (!cfg!(debug_assertions)).then_some("--release");
+        let built = Command::new(env!("CARGO")).args(["build", "--quiet", "--examples"]).args(release).status();
+        assert!(built.expect("cargo").success(), "the examples do not build");
+    }
     let done = Command::new(&path).output().unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     assert!(done.status.success(), "{name}: {}", String::from_utf8_lossy(&done.stderr));
     String::from_utf8(done.stdout).expect("text")

@@ -1,5 +1,29 @@
 //! kerfold carves planar 3-valence meshes, proves that they are so, and unfolds them into sheets that a shop can cut.
 //!
+//! A solid or a file becomes a [`Mesh`](mesh::Mesh); operators ([`op`]) carve it and return a new one; [`check`](mod@check) measures it;
+//! [`unfold`](mod@unfold) makes a net, which [`unfold::prove`] checks by code of its own; [`sheet`] lays it out. Each operator has one
+//! parameter struct, which is also the command line's and the recipe's.
+//!
+//! ```
+//! use kerfold::op::{OpContext, TruncateEdge, truncate_edges};
+//! use kerfold::progress::Silent;
+//! use kerfold::shape::{SolidParams, solid};
+//! use kerfold::unfold::{Seams, Source, UnfoldParams, prove, unfold};
+//! use kerfold::units::Length;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let cube = solid(&SolidParams { name: "cube".parse()?, edge: Some(Length::from_mm(80.0)), size: None })?;
+//! // Every edge along z is cut off: planar faces, three edges at every vertex.
+//! let cut = TruncateEdge::new("along=z".parse()?, 0.25);
+//! let (column, _) = truncate_edges(&cube, &cut, &OpContext::default())?;
+//! let source = Source { scale: 1.0, split_vertices: &[] };
+//! let net = unfold(&column, &Seams::Free, &UnfoldParams::default(), &source, &Silent)?;
+//! let proof = prove(&column, &net)?;
+//! assert_eq!((column.face_count(), net.pieces.len(), proof.overlaps), (10, 1, 0));
+//! # Ok(())
+//! # }
+//! ```
+//!
 //! The modules are layers; each uses only those below it (`docs/architecture.md`).
 
 pub mod geom;
@@ -25,5 +49,7 @@ pub mod io;
 pub mod lint;
 pub mod picture;
 pub mod recipe;
+
+pub mod gallery;
 
 pub mod cli;

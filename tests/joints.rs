@@ -75,10 +75,25 @@ fn assert_no_cross(what: &str, a: &Lines, b: &Lines) {
     }
 }
 
+/// With the four decimals of a file, no contour goes out along a line and back on it.
+fn assert_no_spike(what: &str, contour: &Lines) {
+    let mut points: Vec<[i64; 2]> =
+        contour.iter().map(|[a, _]| a.to_array().map(|x| (x * 1e4).round() as i64)).collect();
+    points.dedup();
+    let n = points.len();
+    for i in 0..n {
+        let [before, tip, after] = [points[(i + n - 1) % n], points[i], points[(i + 1) % n]];
+        assert!(before != after, "{what}: out to {tip:?} and back to {after:?}, in 0.1 µm");
+    }
+}
+
 fn assert_sheet(what: &str, drawing: &Drawing) {
     let outlines = lines(drawing, |k| k == MarkKind::Outline);
     let holes = lines(drawing, |k| k == MarkKind::Hole);
     let cuts: Lines = outlines.iter().chain(&holes).flat_map(|(_, l)| l.clone()).collect();
+    for (id, outline) in outlines.iter().chain(&holes) {
+        assert_no_spike(&format!("{what} {id}"), outline);
+    }
     // No cut crosses another one or itself: no piece, flap, slot or hole overlaps anything.
     assert_no_cross(what, &cuts, &cuts);
     for (id, hole) in &holes {

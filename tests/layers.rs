@@ -60,12 +60,13 @@ const ROOMS: &[Room] = &[
             "panel", "sheet", "lint", "bloom", "io", "picture",
         ],
     ),
+    room(4, "gallery", &["progress", "measure", "check", "io", "picture", "recipe"]),
     room(
         5,
         "cli",
         &[
             "geom", "units", "progress", "mesh", "net", "measure", "shape", "seam", "select", "check", "op", "unfold",
-            "panel", "sheet", "lint", "bloom", "io", "picture", "recipe",
+            "panel", "sheet", "lint", "bloom", "io", "picture", "recipe", "gallery",
         ],
     ),
 ];

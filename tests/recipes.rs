@@ -8,13 +8,13 @@ use kerfold::unfold::prove;
 
 /// Recipe, pieces, and the genus of the model. Figures are those of the thesis.
 const RECIPES: &[(&str, usize, usize)] = &[
-    ("fig-17-leaning-cuts.toml", 2, 0),
-    ("fig-17-one-sided-cuts.toml", 2, 0),
-    ("fig-18-three-piece-dodecahedron.toml", 3, 0),
-    ("fig-19-two-piece-dodecahedron.toml", 2, 0),
-    ("fig-20-two-y-pieces-octahedron.toml", 2, 0),
-    ("fig-21-five-piece-truncated-tetrahedron.toml", 5, 0),
-    ("fig-21-four-piece-dodecahedron.toml", 4, 0),
+    ("gonen-fig-17-leaning-cuts.toml", 2, 0),
+    ("gonen-fig-17-one-sided-cuts.toml", 2, 0),
+    ("gonen-fig-18-three-piece-dodecahedron.toml", 3, 0),
+    ("gonen-fig-19-two-piece-dodecahedron.toml", 2, 0),
+    ("gonen-fig-20-two-y-pieces-octahedron.toml", 2, 0),
+    ("gonen-fig-21-five-piece-truncated-tetrahedron.toml", 5, 0),
+    ("gonen-fig-21-four-piece-dodecahedron.toml", 4, 0),
     ("one-piece-d-form-torus.toml", 1, 1),
     ("one-piece-torus.toml", 1, 1),
     ("two-piece-d-form.toml", 2, 0),
@@ -82,7 +82,7 @@ fn the_one_piece_d_form_is_a_ring_along_one_seam() {
 
 #[test]
 fn the_long_piece_of_figure_18_meets_itself() {
-    let job = run("fig-18-three-piece-dodecahedron.toml");
+    let job = run("gonen-fig-18-three-piece-dodecahedron.toml");
     let (fabrication, _) = job.fabrication.as_ref().expect("pieces");
     let seams = &fabrication.net.seams;
     let own = |piece: usize| {
@@ -96,7 +96,7 @@ fn the_long_piece_of_figure_18_meets_itself() {
 
 #[test]
 fn the_pieces_of_figure_20_have_three_arms() {
-    let job = run("fig-20-two-y-pieces-octahedron.toml");
+    let job = run("gonen-fig-20-two-y-pieces-octahedron.toml");
     let net = &job.fabrication.as_ref().expect("pieces").0.net;
     for piece in &net.pieces {
         let arms = |face: usize| net.folds.iter().filter(|fold| fold.faces.contains(&face)).count();

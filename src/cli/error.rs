@@ -4,6 +4,7 @@ use std::io;
 use std::path::PathBuf;
 
 use crate::check::CheckError;
+use crate::gallery::GalleryError;
 use crate::io::IoError;
 use crate::io::artwork::ArtError;
 use crate::io::pieces_json::PiecesJsonError;
@@ -39,6 +40,12 @@ pub(super) enum CliError {
     Step(#[from] StepFailure),
     #[error("{}: {error}", path.display())]
     Recipe { path: PathBuf, error: Box<RecipeError> },
+    #[error("{}: there are no recipes in this folder; put files that end in .toml into it", path.display())]
+    NoRecipes { path: PathBuf },
+    #[error("no recipe is named {name}; known are {known}")]
+    UnknownRecipe { name: String, known: String },
+    #[error("{count} of {total} recipes failed, the others are in the gallery; the first: {first}")]
+    Gallery { count: usize, total: usize, first: Box<GalleryError> },
     #[error("{}: {error}", path.display())]
     RecipeStep { path: PathBuf, error: StepError },
     #[error("{}: cannot be read: {error}", path.display())]
@@ -61,6 +68,8 @@ pub(super) enum CliError {
         "pictures of the steps cannot go to standard output; name a file with -o, and -after-20.png is put to its name"
     )]
     PicturesToStdout,
+    #[error("stopped; the recipes that were done by then are in their folders")]
+    Stopped,
     #[error("writing to standard output: {0}")]
     Stdout(io::Error),
 }

@@ -7,6 +7,7 @@ mod check;
 mod cut;
 mod dform;
 mod error;
+mod gallery;
 mod hull;
 mod info;
 mod input;
@@ -81,6 +82,7 @@ enum Verb {
     Lint(lint::LintArgs),
     KerfTest(kerf_test::KerfTestArgs),
     Run(run::RunArgs),
+    Gallery(gallery::GalleryArgs),
     Render(render::RenderArgs),
     Completions(manual::CompletionsArgs),
     Man(manual::ManArgs),
@@ -129,6 +131,7 @@ pub fn run() -> ExitCode {
         Verb::Lint(args) => lint::run(&args, &console),
         Verb::KerfTest(args) => kerf_test::run(&args, &console),
         Verb::Run(args) => run::run(&args, &console),
+        Verb::Gallery(args) => gallery::run(&args, &console),
         Verb::Render(args) => render::run(&args, &console),
         Verb::Completions(args) => manual::completions(&args),
         Verb::Man(args) => manual::man(&args, &console),

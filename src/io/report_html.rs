@@ -12,7 +12,8 @@ use std::fmt::Write as _;
 
 use chart::Bar;
 use clap::ValueEnum;
-use words::{DEFINITIONS, count, escaped, figure, optional};
+pub(crate) use words::escaped;
+use words::{DEFINITIONS, count, figure, optional};
 
 use super::base64::base64;
 use crate::check::{Details, EdgeDetail, FaceReport, Finding, Report, Unit, Verdict, VertexDetail, short};

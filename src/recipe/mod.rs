@@ -35,7 +35,7 @@ pub use fabricate::{FabricateParams, Fabrication, fabricate};
 pub use job::Job;
 pub use materials::{MaterialError, material, with_material};
 pub use nest::{NestError, NestStep, nest_files};
-pub use outputs::{fabrication_outputs, job_outputs, sheet_picture};
+pub use outputs::{Output, fabrication_outputs, job_outputs, sheet_picture};
 pub use panels::{PanelFiles, PanelOptionError, Panelled, SolidFile, panel_model, panel_outputs};
 pub use planes::{PlanesStep, solid_of_planes};
 pub use report_pictures::report_pictures;

@@ -118,6 +118,12 @@ fn grow(contours: &[Vec<DVec2>], centre: DVec2, by: f64) -> Vec<Vec<Vec<DVec2>>>
         sharpened(straightened(points, by), SHORT_BEVEL * by)
     };
     let shapes = shape.outline_as::<i64>(&style);
+    // A notch just as wide as the kerf ends in a line that is cut on both its sides: the open cut of the notch is enough.
+    let to_points = |c| {
+        let points = to_points(c);
+        let (rest, _) = take_spikes(&points);
+        if rest.is_empty() { points } else { rest }
+    };
     shapes.into_iter().map(|s| s.into_iter().map(to_points).collect()).collect()
 }
 

@@ -11,8 +11,8 @@ use super::verify::edges;
 use crate::geom::polygon::{bounds, segments_cross};
 use crate::geom::predicate::orient2d;
 
-/// Files hold four decimals of a millimetre: what is narrower is one line there.
-const FILE_STEP: f64 = 1e-4;
+/// Files hold four decimals of a millimetre: what is narrower, along both axes, may be one line there.
+const FILE_STEP: f64 = 1.5e-4;
 
 /// The same for small pieces, relative to their size.
 const RELATIVE_STEP: f64 = 1e-6;

@@ -66,7 +66,7 @@ pub(super) fn count(n: usize, one: &str, many: &str) -> String {
 }
 
 /// Text for XML: its five signs replaced, and characters that XML does not know.
-pub(super) fn escaped(text: &str) -> String {
+pub(crate) fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

@@ -80,26 +80,32 @@ impl Explore<'_, '_, '_, '_> {
         while best.bins > 0 && self.field.work < self.work && !self.progress.is_cancelled() {
             let done = 100 * (self.field.work - start) / total;
             self.progress.report("nesting: per cent of the effort", done as usize, 100);
+            // A round costs something even where no two pieces come near each other.
+            self.field.work += self.field.pieces as u64;
             restore(self.field, &best.spots);
             self.field.forget();
             let Some(shorter) = self.shorter(&best, step) else { break };
             if fails > 0 {
                 self.disturb(shorter.0);
             }
-            match self.separate(shorter.0) {
-                End::Apart => {
-                    best = self.layout();
+            let end = self.separate(shorter.0);
+            // A piece that fits at few angles only may stick out of the shortened sheet, apart from all others.
+            let is_better = end == End::Apart && self.is_inside();
+            let better = is_better.then(|| self.layout()).filter(|l| (l.bins, l.used) < (best.bins, best.used));
+            match (end, better) {
+                (_, Some(better)) => {
+                    best = better;
                     fails = 0;
                     step = (step * 1.2).min(most);
                 }
-                End::Stuck => {
+                (End::OutOfWork, None) => break,
+                (End::Apart | End::Stuck, None) => {
                     fails += 1;
                     if fails >= MOST_FAILS && self.field.pieces < 20 {
                         break;
                     }
                     step = (step * 0.5).max(LAST_STEP);
                 }
-                End::OutOfWork => break,
             }
         }
         restore(self.field, &best.spots);
@@ -108,6 +114,17 @@ impl Explore<'_, '_, '_, '_> {
         }
         self.full(best.bins);
         best
+    }
+
+    /// Whether every piece lies inside its sheet, as far as that is open.
+    fn is_inside(&self) -> bool {
+        (0..self.field.pieces).all(|i| {
+            let spot = self.field.spots[i];
+            let room = &self.field.rooms[spot.bin];
+            let slack = 1e-9 * (room.high - room.low).length();
+            let (low, high) = self.field.range(&self.field.posed[i], spot.bin);
+            (low - spot.at).max_element() <= slack && (spot.at - high).max_element() <= slack
+        })
     }
 
     /// Lays pieces straight where there is room for it, and moves them together; no sheet gets longer by that.

@@ -198,6 +198,21 @@ fn who_stops_the_search_gets_the_best_so_far() {
     assert!(set.report.is_stopped && !set.layout.sheets.is_empty());
 }
 
+/// A lone piece that fits its sheet at few angles only: the search must see that it cannot be laid shorter, and end.
+#[test]
+fn a_piece_that_hardly_fits_ends_the_search() {
+    // The room inside the margin is 120 x 100.
+    let corners = [[0.0, 0.0], [116.0, 0.0], [118.0, 40.0], [59.0, 98.0], [0.0, 40.0]];
+    let long: Vec<DVec2> = corners.map(DVec2::from).to_vec();
+    let mut params = params(130.0, 110.0);
+    params.nest.nest_effort = 5;
+    for seed in 0..6 {
+        params.nest.nest_seed = seed;
+        let set = laid(&net_of(vec![long.clone()]), &params);
+        assert_eq!(set.layout.sheets.len(), 1);
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(12))]
     /// Any pieces, any rotations, any spacing: the re-measuring, which lay_out does itself, finds nothing; nor does a measure

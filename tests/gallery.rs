@@ -1,0 +1,112 @@
+//! The bundled recipes: each gives what its figure predicts, and the page of the gallery in the documentation tells just that.
+
+use std::collections::BTreeSet;
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::{Path, PathBuf};
+
+use kerfold::gallery::{Exhibit, GalleryRecipe, bundled, exhibit, gallery_markdown, side_by_side};
+use kerfold::progress::Silent;
+
+const PAGE: &str = "docs/gallery.md";
+const PICTURES: &str = "docs/images/gallery";
+/// Of a picture in the documentation, in pixels and bytes.
+const WIDTH: u32 = 480;
+const MOST_BYTES: u64 = 150_000;
+const HEAD: &str = "\
+# Gallery
+
+Every figure of the three papers that shows a result, each from one bundled recipe. `kerfold gallery -o DIR` makes them all, with this page as
+HTML; `kerfold run RECIPE -o DIR` makes one. The recipes lie in `fixtures/recipes` and `fixtures/recipes/gallery`. What a caption predicts
+stands above the figures that were measured; each recipe's check holds to it.
+
+This page is written by `cargo test --release --test gallery -- --ignored`; a test compares it with what the recipes make.
+
+";
+
+fn recipes() -> Vec<GalleryRecipe> {
+    let mut recipes: Vec<GalleryRecipe> = bundled()
+        .filter_map(|file| {
+            let (folder, name) = file.path.rsplit_once('/')?;
+            let name = name.strip_suffix(".toml")?;
+            let folder: PathBuf = Path::new("fixtures").join(folder);
+            Some(GalleryRecipe { name: name.to_owned(), text: file.text.to_owned(), folder })
+        })
+        .collect();
+    recipes.sort_by(|a, b| a.name.cmp(&b.name));
+    recipes
+}
+
+/// An exhibit, a hash of all its files, and the picture of the model.
+fn built(recipe: &GalleryRecipe) -> (Exhibit, u64, Vec<u8>) {
+    let (exhibit, outputs) = exhibit(recipe, Some(WIDTH), &Silent).unwrap_or_else(|e| panic!("{e}"));
+    let mut hasher = DefaultHasher::new();
+    outputs.hash(&mut hasher);
+    let picture = outputs.into_iter().find(|(name, _)| name == "model.png").map(|(_, bytes)| bytes);
+    (exhibit, hasher.finish(), picture.unwrap_or_default())
+}
+
+fn page(exhibits: &[Exhibit]) -> String {
+    HEAD.to_owned() + &gallery_markdown(exhibits, "images/gallery")
+}
+
+#[test]
+fn recipes_are_all_bundled_under_one_name_each() {
+    let recipes = recipes();
+    let names: BTreeSet<&str> = recipes.iter().map(|r| r.name.as_str()).collect();
+    assert_eq!(names.len(), recipes.len(), "two recipes of one name");
+    let on_disk = ["fixtures/recipes", "fixtures/recipes/gallery"]
+        .iter()
+        .flat_map(|folder| std::fs::read_dir(folder).expect("recipes").map(|entry| entry.expect("an entry").path()));
+    let on_disk: Vec<PathBuf> = on_disk.filter(|path| path.extension().is_some_and(|e| e == "toml")).collect();
+    assert_eq!(on_disk.len(), recipes.len());
+    for recipe in &recipes {
+        assert!(recipe.text.starts_with('#'), "{} does not say what it shows", recipe.name);
+    }
+}
+
+/// Built twice: the findings that the text predicts (none), the same bytes, and the figures of the page.
+#[test]
+fn every_recipe_gives_what_it_predicts_and_the_page_says_so() {
+    let recipes = recipes();
+    let first = side_by_side(&recipes, &Silent, &|recipe, _| {
+        let (exhibit, hash, _) = built(recipe);
+        assert_eq!(exhibit.findings, Vec::<String>::new(), "{}", recipe.name);
+        assert_eq!(built(recipe).1, hash, "{}: two runs differ", recipe.name);
+        exhibit
+    });
+    let told = std::fs::read_to_string(PAGE).expect("the page of the gallery");
+    let made = page(&first);
+    for (told, made) in told.lines().zip(made.lines()) {
+        assert_eq!(told, made, "write the page anew: cargo test --release --test gallery -- --ignored");
+    }
+    assert_eq!(told.lines().count(), made.lines().count());
+}
+
+#[test]
+fn every_recipe_has_its_picture_and_pictures_are_small() {
+    let recipes = recipes();
+    let wanted: BTreeSet<String> = recipes.iter().map(|r| format!("{}.png", r.name)).collect();
+    let mut there = BTreeSet::new();
+    for entry in std::fs::read_dir(PICTURES).expect("pictures") {
+        let entry = entry.expect("an entry");
+        let bytes = entry.metadata().expect("metadata").len();
+        let name = entry.file_name().to_string_lossy().into_owned();
+        assert!(bytes <= MOST_BYTES, "{name} has {bytes} bytes");
+        there.insert(name);
+    }
+    assert_eq!(there, wanted);
+}
+
+#[test]
+#[ignore = "writes docs/gallery.md and its pictures anew"]
+fn write_the_page() {
+    let recipes = recipes();
+    std::fs::remove_dir_all(PICTURES).ok();
+    std::fs::create_dir_all(PICTURES).expect("a folder");
+    let exhibits = side_by_side(&recipes, &Silent, &|recipe, _| {
+        let (exhibit, _, picture) = built(recipe);
+        std::fs::write(Path::new(PICTURES).join(format!("{}.png", recipe.name)), picture).expect("a picture");
+        exhibit
+    });
+    std::fs::write(PAGE, page(&exhibits)).expect("the page");
+}

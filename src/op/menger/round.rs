@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use super::super::OpError;
 use super::Thickness;
-use crate::geom::{Plane, meet_planes_near};
+use crate::geom::{Plane, RoundingBound, meet_planes_near};
 use crate::measure::dihedral_angle;
 use crate::mesh::{EdgeMap, FaceId, FaceMap, HalfEdgeId, HalfEdgeMap, Mesh, VertexId, VertexMap, WalkBuilder};
 
@@ -53,6 +53,7 @@ pub(super) fn round(mesh: &Mesh, thickness: Thickness, collapse: f64) -> Result<
         places: &places,
         joins: &joins,
         angles: &angles,
+        same_place: mesh.bounds().map_or(0.0, |(low, high)| RoundingBound::of_box(low, high).length()),
         walks: WalkBuilder::with_capacity(
             mesh.vertex_count() + 6 * mesh.edge_count(),
             15 * mesh.edge_count(),
@@ -225,6 +226,8 @@ struct Digger<'a> {
     places: &'a Places,
     joins: &'a Joins,
     angles: &'a EdgeMap<f64>,
+    /// Constructed points that are no farther apart are one.
+    same_place: f64,
     walks: WalkBuilder,
 }
 
@@ -333,19 +336,64 @@ impl Digger<'_> {
                     links[b] = Link::Straight(edge.twin());
                 }
                 _ => {
-                    for h in open {
+                    let (bent, straight): (Vec<HalfEdgeId>, Vec<HalfEdgeId>) = open.into_iter().partition(is_bent);
+                    for &h in &straight {
                         let (from, to) = (sides.depths[h], sides.depths[mesh.next(h.twin())]);
-                        links[h] = if is_bent(&h) {
-                            let bend = self.walks.vertex(self.bend(h));
+                        links[h] = Link::Straight(self.walks.edge(from, to));
+                    }
+                    if straight.is_empty() && self.is_one_place(&bent) {
+                        self.star(&bent, sides, &mut links);
+                        continue;
+                    }
+                    for &h in &bent {
+                        let (from, to) = (sides.depths[h], sides.depths[mesh.next(h.twin())]);
+                        let bend = self.bend(h);
+                        links[h] = self.way_around(&straight, (from, to), (bend, sides), &links).unwrap_or_else(|| {
+                            let bend = self.walks.vertex(bend);
                             Link::Bent(self.walks.edge(from, bend), bend, self.walks.edge(bend, to))
-                        } else {
-                            Link::Straight(self.walks.edge(from, to))
-                        };
+                        });
                     }
                 }
             }
         }
         links
+    }
+
+    fn is_one_place(&self, bent: &[HalfEdgeId]) -> bool {
+        let first = self.bend(bent[0]);
+        bent.iter().all(|&h| self.bend(h).distance(first) <= self.same_place)
+    }
+
+    /// Bent links that all turn at one place share it, and the edges to it, so that no face without area is left between them.
+    fn star(&mut self, bent: &[HalfEdgeId], sides: &Sides, links: &mut HalfEdgeMap<Link>) {
+        let middle = self.walks.vertex(self.bend(bent[0]));
+        let rays: Vec<HalfEdgeId> = bent.iter().map(|&h| self.walks.edge(sides.depths[h], middle)).collect();
+        for (i, &h) in bent.iter().enumerate() {
+            links[h] = Link::Bent(rays[i], middle, rays[(i + 1) % rays.len()].twin());
+        }
+    }
+
+    /// The two straight links that lead the other way around a vertex, when they turn at the very place of a bend: it would leave a slit
+    /// without area between them, so it takes them instead of edges of its own.
+    fn way_around(
+        &self,
+        straight: &[HalfEdgeId],
+        (from, to): (VertexId, VertexId),
+        (bend, sides): (DVec3, &Sides),
+        links: &HalfEdgeMap<Link>,
+    ) -> Option<Link> {
+        let &[a, b] = straight else { return None };
+        // In the order of the walk around the vertex: from the end of the bent link on to its start.
+        for (first, second) in [(a, b), (b, a)] {
+            let (Link::Straight(on), Link::Straight(back)) = (links[first], links[second]) else { continue };
+            let corner = second;
+            let turn = sides.depths[corner];
+            let is_there = self.places.depths[corner].distance(bend) <= self.same_place;
+            if sides.depths[first] == to && sides.depths[self.mesh.next(second.twin())] == from && is_there {
+                return Some(Link::Bent(back.twin(), turn, on.twin()));
+            }
+        }
+        None
     }
 
     /// Below a concave edge, near the origin of `h`, on the planes of both offset faces.
@@ -392,7 +440,9 @@ impl Digger<'_> {
                     Link::Bent(first, _, second) => walk.extend([first, second]),
                 }
             }
-            if walk.len() > 2 {
+            // What goes there and back again has no face between.
+            let is_slit = walk.iter().all(|&h: &HalfEdgeId| walk.contains(&h.twin()));
+            if walk.len() > 2 && !is_slit {
                 self.walks.face(walk);
             }
         }

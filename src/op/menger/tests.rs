@@ -47,6 +47,15 @@ fn the_general_sponge_of_a_cube_is_the_exact_one_at_first() {
 }
 
 #[test]
+fn slits_without_area_are_not_left_behind() {
+    for thickness in [1.0 / 3.0, 0.25, 0.2] {
+        let (sponge, _) = run(&shape::cube(3.0), &share(thickness, 2));
+        let thin = sponge.faces().filter(|&f| crate::measure::face_area(&sponge, f) < 1e-12);
+        assert_eq!((thin.count(), genus(&sponge)), (0, 81), "{thickness}");
+    }
+}
+
+#[test]
 fn the_exact_sponge_has_its_genus_and_volume() {
     let sheared = {
         let mut cube = shape::cube(1.0);

@@ -26,7 +26,7 @@ fn solids() -> [Mesh; 6] {
 fn counts_and_genus_are_the_closed_forms() {
     for mesh in &solids() {
         let (v, e) = (mesh.vertex_count(), mesh.edge_count());
-        for rounds in 1..=4 {
+        for rounds in 1..=5 {
             let (fine, report) = run(mesh, rounds);
             let power = 4_usize.pow(rounds);
             let loops = e * (power - 1) / 3;

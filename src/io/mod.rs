@@ -23,6 +23,8 @@ mod read;
 pub mod report_csv;
 pub mod report_html;
 pub mod report_json;
+pub mod report_page;
+pub mod report_pdf;
 pub mod report_text;
 pub mod sheet_files;
 pub mod svg;

@@ -118,7 +118,7 @@ impl Fabrication {
     /// What the user should know about pieces and sheets.
     pub fn notes(&self) -> Vec<String> {
         let report = &self.sheets.report;
-        let mut notes = vec![self.seams.to_owned()];
+        let mut notes: Vec<String> = Some(self.seams.to_owned()).into_iter().filter(|s| !s.is_empty()).collect();
         let mut note = |count: usize, text: String| {
             if count > 0 {
                 notes.push(text);

@@ -14,7 +14,7 @@ use kerfold::panel::{Hardware, PanelParams, ReferenceSide, panel_net, plates, sc
 use kerfold::progress::Silent;
 use kerfold::recipe::{PanelFiles, SolidFile, panel_model, panel_outputs};
 use kerfold::shape::{hexagonal_facade, random_tangent_polytope};
-use kerfold::sheet::{Labels, SheetParams, lay_out};
+use kerfold::sheet::{Labels, NestParams, SheetParams, lay_out};
 use kerfold::unfold::Source;
 use kerfold::units::Length;
 
@@ -37,6 +37,8 @@ fn facade() {
         sheet: "3210x6000".parse().expect("a size"),
         labels: Labels::Edges,
         thickness: Some(thickness),
+        // Rows of boxes: nesting has a bench of its own.
+        nest: NestParams { nest_effort: 0, ..NestParams::default() },
         ..SheetParams::default()
     };
     let mut clock = Clock::start();

@@ -94,6 +94,7 @@ const READERS: &[(&[&str], &str)] = &[
     (&["check", "IN"], ""),
     (&["check", "IN", "--report", "OUT"], "report.json"),
     (&["check", "IN", "--report", "OUT", "--up", "y", "--view", "iso"], "report.html"),
+    (&["check", "IN", "--report", "OUT", "--rows", "all"], "report.pdf"),
     (&["check", "IN", "--rows", "all", "--report", "OUT"], "report.csv"),
     (&["cut", "vertex", "IN", "--select", "all", "--offset", "0.25", "-o", "OUT"], "out.obj"),
     (&["cut", "edge", "IN", "--select", "0", "--offset", "0.2", "-o", "OUT"], "out.ply"),

@@ -88,7 +88,7 @@ const DOORS: &[(&str, &[&str])] = &[
     ("tobj", &["src/io/obj", "src/io/read/obj"]),
     ("svg", &["src/io/svg"]),
     ("roxmltree", &["src/io/read/artwork/svg.rs"]),
-    ("miniz_oxide", &["src/io/read/artwork/"]),
+    ("miniz_oxide", &["src/io/read/artwork/", "src/io/report_pdf/"]),
     ("tiny_skia", &["src/picture/"]),
     ("serde_json", &["src/io/", "src/cli/"]),
     ("toml", &["src/recipe/"]),

@@ -9,8 +9,10 @@ use super::{Console, Outcome};
 use crate::check::{CheckParams, Report, check, details};
 use crate::io::output::write_file;
 use crate::io::report_csv::check_csv;
-use crate::io::report_html::{ReportPage, ReportRows, check_html};
+use crate::io::report_html::check_html;
 use crate::io::report_json::check_json_with;
+use crate::io::report_page::{ReportPage, ReportRows};
+use crate::io::report_pdf::check_pdf;
 use crate::io::report_text::check_text;
 use crate::mesh::Mesh;
 use crate::picture::{RenderParams, UpAxis, View};
@@ -26,14 +28,14 @@ pub(super) struct CheckArgs {
     input: Input,
     #[command(flatten)]
     check: CheckParams,
-    /// Also write the report to a file: .html (one page with pictures, to hand on or print), .json or .csv
+    /// Also write the report to a file: .html (one page with pictures), .pdf (the same on A4), .json or .csv
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
-    /// Rows of the lists of vertices and edges in JSON, and of all lists in HTML: without it JSON has none of the two, HTML
-    /// the worst
+    /// Rows of the lists of vertices and edges in JSON, and of all lists in HTML and PDF: without it JSON has none of the
+    /// two, the others the worst
     #[arg(long, value_enum, default_value_t)]
     rows: ReportRows,
-    /// Where to look from in the pictures of the HTML page, as in `render`
+    /// Where to look from in the pictures of the report, as in `render`
     #[arg(long, default_value_t, allow_hyphen_values = true)]
     view: View,
     /// The axis of the model that points up in the pictures
@@ -47,12 +49,13 @@ pub(super) fn run(args: &CheckArgs, console: &Console) -> Result<Outcome, CliErr
     let report = check(&read.mesh, &args.check)?;
     let command = command_line();
     if let Some((path, format)) = args.report.as_ref().zip(format) {
-        let text = match format {
-            ReportFormat::Html => page(args, &read.mesh, &report, &command)?,
-            ReportFormat::Json => json(args, &read.mesh, &report, &command),
-            ReportFormat::Csv => check_csv(&report, &command),
+        let bytes = match format {
+            ReportFormat::Html => page(args, &read.mesh, &report, |page| check_html(page).into_bytes(), &command)?,
+            ReportFormat::Pdf => page(args, &read.mesh, &report, check_pdf, &command)?,
+            ReportFormat::Json => json(args, &read.mesh, &report, &command).into_bytes(),
+            ReportFormat::Csv => check_csv(&report, &command).into_bytes(),
         };
-        write_file(path, text.as_bytes())?;
+        write_file(path, &bytes)?;
     }
     console.notes(&read.notes);
     let text = if console.json { json(args, &read.mesh, &report, &command) } else { check_text(&report, &command) };
@@ -65,19 +68,27 @@ fn json(args: &CheckArgs, mesh: &Mesh, report: &Report, command: &str) -> String
     check_json_with(report, details.as_ref(), command)
 }
 
-fn page(args: &CheckArgs, mesh: &Mesh, report: &Report, command: &str) -> Result<String, CliError> {
+/// The report for people, by the writer of its format.
+fn page(
+    args: &CheckArgs,
+    mesh: &Mesh,
+    report: &Report,
+    write: impl Fn(&ReportPage<'_>) -> Vec<u8>,
+    command: &str,
+) -> Result<Vec<u8>, CliError> {
     let render = RenderParams { view: args.view, up: args.up, ..RenderParams::default() };
     let pictures = report_pictures(mesh, report, &render)?;
     let title = args.input.input.file_name().map_or("model".into(), |name| name.to_string_lossy());
     let title = if title == "-" { "model".into() } else { title };
     let details = details(mesh);
     let page = ReportPage { title: &title, report, details: &details, pictures: &pictures, rows: args.rows, command };
-    Ok(check_html(&page))
+    Ok(write(&page))
 }
 
 #[derive(Clone, Copy)]
 enum ReportFormat {
     Html,
+    Pdf,
     Json,
     Csv,
 }
@@ -86,6 +97,7 @@ enum ReportFormat {
 fn report_format(path: &Path) -> Result<ReportFormat, CliError> {
     match path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase).as_deref() {
         Some("html" | "htm") => Ok(ReportFormat::Html),
+        Some("pdf") => Ok(ReportFormat::Pdf),
         Some("json") => Ok(ReportFormat::Json),
         Some("csv") => Ok(ReportFormat::Csv),
         _ => Err(CliError::UnknownReport { path: path.to_owned() }),

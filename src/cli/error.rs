@@ -58,7 +58,7 @@ pub(super) enum CliError {
     NotText { path: PathBuf, at: usize },
     #[error("{}: pictures are written as PNG; name the file something.png", path.display())]
     NotPng { path: PathBuf },
-    #[error("{}: reports are written as HTML, JSON or CSV; name the file something.html, .json or .csv (a browser prints the page as PDF)", path.display())]
+    #[error("{}: reports are written as HTML, PDF, JSON or CSV; name the file something.html, .pdf, .json or .csv", path.display())]
     UnknownReport { path: PathBuf },
     #[error(
         "two meshes cannot go to standard output; name a file with -o, and -reverse and -normal are put to its name"

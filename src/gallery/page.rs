@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::{Exhibit, ModelFacts};
-use crate::io::report_html::escaped;
+use crate::io::escaped;
 
 const STYLE: &str = "\
 body{font:15px/1.45 system-ui,sans-serif;margin:2rem auto;max-width:1400px;padding:0 1rem;color:#222;background:#fcfbf9}

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use glam::DVec2;
 
+use super::number::decimal;
 use crate::panel::{AssemblyMap, MapPanel};
 use crate::sheet::lettering;
 
@@ -141,11 +142,4 @@ fn pdf_text(text: &str) -> String {
 fn escaped(text: &str) -> String {
     let shown = text.replace(|c: char| c.is_control(), " ");
     shown.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
-}
-
-/// At most four decimals, never −0.
-fn decimal(value: f64) -> String {
-    let text = format!("{value:.4}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }

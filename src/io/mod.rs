@@ -23,6 +23,8 @@ mod read;
 pub mod report_csv;
 pub mod report_html;
 pub mod report_json;
+pub mod report_page;
+pub mod report_pdf;
 pub mod report_text;
 pub mod sheet_files;
 pub mod svg;
@@ -30,6 +32,7 @@ mod write;
 
 pub use error::{ContentFault, IoError, Place};
 pub use format::MeshFormat;
+pub(crate) use number::xml as escaped;
 pub use read::artwork;
 pub use read::{MeshUnit, ReadMesh, ReadNote, ReadOptions, read_mesh, read_mesh_bytes, read_points, read_seams};
 pub use write::glb;

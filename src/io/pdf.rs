@@ -97,7 +97,7 @@ fn document(pages: &[Page], title: &str, command: &str, extra: Option<&str>) -> 
 }
 
 /// A string object: ASCII in brackets, anything else in UTF-16.
-fn text(text: &str) -> String {
+pub(super) fn text(text: &str) -> String {
     if text.chars().all(|c| (' '..='~').contains(&c)) {
         let escaped = text.replace('\\', r"\\").replace('(', r"\(").replace(')', r"\)");
         return format!("({escaped})");
@@ -107,31 +107,52 @@ fn text(text: &str) -> String {
 }
 
 /// Numbered objects and where they begin.
-struct Objects {
-    bytes: String,
+pub(super) struct Objects {
+    bytes: Vec<u8>,
     offsets: Vec<usize>,
 }
 
 impl Default for Objects {
     fn default() -> Self {
-        Self { bytes: String::from("%PDF-1.5\n"), offsets: Vec::new() }
+        Self { bytes: b"%PDF-1.5\n".to_vec(), offsets: Vec::new() }
     }
 }
 
 impl Objects {
-    fn add(&mut self, object: &str) {
-        self.offsets.push(self.bytes.len());
-        let _ = writeln!(self.bytes, "{} 0 obj\n{object}\nendobj", self.offsets.len());
+    /// For streams that are no text: says so in its second line, as the standard wants.
+    pub(super) fn packed() -> Self {
+        Self { bytes: b"%PDF-1.5\n%\xe2\xe3\xcf\xd3\n".to_vec(), offsets: Vec::new() }
     }
 
-    fn finish(mut self) -> Vec<u8> {
+    pub(super) fn add(&mut self, object: &str) {
+        self.begin();
+        self.bytes.extend(object.bytes());
+        self.bytes.extend(b"\nendobj\n");
+    }
+
+    /// A stream; its dictionary without brackets and length.
+    pub(super) fn add_stream(&mut self, dictionary: &str, bytes: &[u8]) {
+        self.begin();
+        self.bytes.extend(format!("<< {dictionary} /Length {} >>\nstream\n", bytes.len()).bytes());
+        self.bytes.extend(bytes);
+        self.bytes.extend(b"\nendstream\nendobj\n");
+    }
+
+    fn begin(&mut self) {
+        self.offsets.push(self.bytes.len());
+        self.bytes.extend(format!("{} 0 obj\n", self.offsets.len()).bytes());
+    }
+
+    /// The file; object 1 is its root, object 3 its information.
+    pub(super) fn finish(mut self) -> Vec<u8> {
         let start = self.bytes.len();
         let count = self.offsets.len() + 1;
-        let _ = write!(self.bytes, "xref\n0 {count}\n0000000000 65535 f \n");
+        let mut end = format!("xref\n0 {count}\n0000000000 65535 f \n");
         for offset in &self.offsets {
-            let _ = writeln!(self.bytes, "{offset:010} 00000 n ");
+            let _ = writeln!(end, "{offset:010} 00000 n ");
         }
-        let _ = write!(self.bytes, "trailer\n<< /Size {count} /Root 1 0 R /Info 3 0 R >>\nstartxref\n{start}\n%%EOF\n");
-        self.bytes.into_bytes()
+        let _ = write!(end, "trailer\n<< /Size {count} /Root 1 0 R /Info 3 0 R >>\nstartxref\n{start}\n%%EOF\n");
+        self.bytes.extend(end.bytes());
+        self.bytes
     }
 }

@@ -8,6 +8,7 @@ use glam::DVec2;
 use super::cut::Cutter;
 use super::error::Collision;
 use super::outline::FlatFace;
+use crate::geom::RoundingBound;
 use crate::geom::polygon::{segments_cross, signed_area};
 use crate::mesh::HalfEdgeId;
 
@@ -19,10 +20,14 @@ pub(super) fn collisions(face: &FlatFace, cutter: &Cutter<'_>) -> Vec<Collision>
     let thickness = cutter.thickness[face.face];
     let mut found = Vec::new();
     let full = lengths(face, cutter, 1.0);
-    if full.iter().any(|&[front, back]| front <= 0.0 || back <= 0.0) {
+    // A side within rounding of nothing is nothing: no other program would take such a plate.
+    let corners = cutter.mesh.face_positions(face.face);
+    let (low, high) = corners.iter().fold((corners[0], corners[0]), |(low, high), &p| (low.min(p), high.max(p)));
+    let least = RoundingBound::of_box(low, high).length();
+    if full.iter().any(|&[front, back]| front <= least || back <= least) {
         let thin = lengths(face, cutter, 0.0);
         for (i, (full, thin)) in full.iter().zip(&thin).enumerate() {
-            let share = (0..2).filter(|&s| full[s] <= 0.0).map(|s| (thin[s] / (thin[s] - full[s])).max(0.0));
+            let share = (0..2).filter(|&s| full[s] <= least).map(|s| (thin[s] / (thin[s] - full[s])).max(0.0));
             if let Some(share) = share.reduce(f64::min) {
                 let edge = Some(face.half_edges[i].edge());
                 found.push(Collision { face: face.face, edge, thickness, largest: share * thickness });

@@ -116,11 +116,14 @@ impl fmt::Display for Collision {
     }
 }
 
-/// Four significant digits, never more than the value: what is advised must work.
+/// Share of a solved thickness that may be rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// Four significant digits, always less than the value, at which a side is nothing: what is advised must work.
 fn floor(value: f64) -> String {
     let digits = (3 - value.abs().log10().floor() as i32).clamp(0, 12);
     let scale = 10f64.powi(digits);
-    format!("{}", (value * scale).floor() / scale)
+    format!("{}", ((value * (1.0 - ROUNDING) * scale).ceil() - 1.0) / scale)
 }
 
 fn groups(known: &[String]) -> String {

@@ -46,10 +46,10 @@ pub struct PanelParams {
     #[arg(long, value_name = "LENGTH", default_value = "0mm")]
     #[serde(default)]
     pub corner_relief: Length,
-    /// Density of the material in kg per cubic metre, above 0; glass 2500, plywood 680, aluminium 2700
-    #[arg(long, value_name = "KG/M3", default_value_t = GLASS, value_parser = crate::units::parse_number)]
-    #[serde(default = "glass")]
-    pub density: f64,
+    /// Density of the material in kg per cubic metre, above 0; unless given that of `material`, without one 2500, which is glass
+    #[arg(long, value_name = "KG/M3", value_parser = crate::units::parse_number)]
+    #[serde(default)]
+    pub density: Option<f64>,
     /// Panels whose corners differ by no more than this count as congruent; 0 or more
     #[arg(long, value_name = "LENGTH", default_value = "0.1mm")]
     #[serde(default = "default_tolerance")]
@@ -63,10 +63,6 @@ pub struct PanelParams {
 
 /// Density of float glass in kg/m³ (EN 572-1 gives 2500).
 const GLASS: f64 = 2500.0;
-
-fn glass() -> f64 {
-    GLASS
-}
 
 fn default_tolerance() -> Length {
     Length::from_mm(0.1)
@@ -83,7 +79,7 @@ impl Default for PanelParams {
             edges: EdgeRules::default(),
             shallow: Shallow::default(),
             corner_relief: Length::default(),
-            density: GLASS,
+            density: None,
             tolerance: default_tolerance(),
             require: Vec::new(),
         }
@@ -193,6 +189,11 @@ impl<'de> Deserialize<'de> for GroupThickness {
 }
 
 impl PanelParams {
+    /// The density that counts, in kg/m³.
+    pub fn density_kg_m3(&self) -> f64 {
+        self.density.unwrap_or(GLASS)
+    }
+
     /// Checks all numbers.
     ///
     /// # Errors
@@ -203,7 +204,7 @@ impl PanelParams {
             _ => Err(PanelError::OutOfRange { name: name.to_owned(), value, wanted: "above 0" }),
         };
         positive("thickness", thickness.mm())?;
-        positive("density", self.density)?;
+        positive("density", self.density_kg_m3())?;
         for own in &self.thickness_of {
             positive(&format!("the thickness of group {}", own.group), own.thickness.mm())?;
         }

@@ -234,7 +234,7 @@ fn panel(mesh: &Mesh, i: usize, plate: &Plate, params: &PanelParams) -> PanelRow
         blank_area: signed_area(&plate.blank),
         volume,
         // kg/m³ times mm³.
-        mass: params.density * volume * 1e-9,
+        mass: params.density_kg_m3() * volume * 1e-9,
         size: smallest_box(&plate.blank),
         angles: (0..n).map(angle).collect(),
         edges: plate.half_edges.iter().map(|h| h.edge()).collect(),

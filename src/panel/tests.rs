@@ -176,6 +176,11 @@ fn collisions_are_named_with_the_largest_thickness_that_works() {
     assert!(error.to_string().contains("3.414 mm"), "{error}");
     assert!(made(&mesh, expected * 0.999, &PanelParams::default()).is_ok());
     assert!(made(&mesh, expected * 1.001, &PanelParams::default()).is_err());
+    // Where all sides of a cube's plates would vanish, a little less is advised, and that works.
+    let cube = named("box-20x20x20");
+    let error = made(&cube, 10.0, &PanelParams::default()).expect_err("nothing is left of the backs");
+    assert!(error.to_string().contains("works everywhere is 9.99 mm"), "{error}");
+    assert!(made(&cube, 9.99, &PanelParams::default()).is_ok());
     // Outwards there is room for anything.
     let outwards = PanelParams { side: ReferenceSide::In, ..PanelParams::default() };
     assert!(made(&mesh, 50.0, &outwards).is_ok());

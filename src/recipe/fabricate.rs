@@ -58,7 +58,7 @@ pub struct Fabrication {
     pub net: Net,
     /// Layout and drawings; empty without sheets.
     pub sheets: SheetSet,
-    /// How the seams were chosen, in words for the user.
+    /// How the seams were chosen, in words for the user; empty where there was nothing to choose.
     pub seams: &'static str,
     /// How many folds were opened because a piece was too large for the sheet.
     pub divided: usize,

@@ -5,8 +5,9 @@ use super::{Fabrication, Job, StepFailure, panel_outputs, report_pictures, show_
 use crate::check::details;
 use crate::io::layout_json::write_order_layout_json;
 use crate::io::pieces_json::write_pieces_json;
-use crate::io::report_html::{ReportPage, ReportRows, check_html};
+use crate::io::report_html::check_html;
 use crate::io::report_json::check_json;
+use crate::io::report_page::{ReportPage, ReportRows};
 use crate::io::sheet_files::sheet_files;
 use crate::io::{MeshFormat, WriteOptions, mesh_bytes};
 use crate::net::EdgeLabel;
@@ -117,7 +118,7 @@ impl Fabrication {
     /// What the user should know about pieces and sheets.
     pub fn notes(&self) -> Vec<String> {
         let report = &self.sheets.report;
-        let mut notes = vec![self.seams.to_owned()];
+        let mut notes: Vec<String> = Some(self.seams.to_owned()).into_iter().filter(|s| !s.is_empty()).collect();
         let mut note = |count: usize, text: String| {
             if count > 0 {
                 notes.push(text);

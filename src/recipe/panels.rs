@@ -16,7 +16,7 @@ use crate::panel::{
     schedule,
 };
 use crate::progress::Progress;
-use crate::sheet::{Joint, Labels, SheetParams, lay_out};
+use crate::sheet::{Joint, Labels, SheetParams, lay_out_watched};
 use crate::unfold::Source;
 use crate::units::Length;
 
@@ -103,13 +103,15 @@ pub fn panel_model(
     progress: &dyn Progress,
 ) -> Result<Panelled, StepFailure> {
     let (thickness, hardware) = hardware(params, sheet)?;
+    let density = params.density.or_else(|| sheet.made_of.as_ref()?.density);
+    let params = &PanelParams { density, ..params.clone() };
     let plates = plates(mesh, thickness, (params, &hardware), progress)?;
     let schedule = schedule(mesh, &plates, params);
     let findings = panel_findings(&plates, params);
     let net = panel_net(mesh, &plates, source.scale, source.split_vertices);
     progress.report("sheets", 0, 0);
-    let sheets = lay_out(&net, &bare(sheet))?;
-    let fabrication = Fabrication { net, sheets, seams: "every face is a panel", divided: 0, sources: Vec::new() };
+    let sheets = lay_out_watched(&net, &bare(sheet), progress)?;
+    let fabrication = Fabrication { net, sheets, seams: "", divided: 0, sources: Vec::new() };
     Ok(Panelled { plates, schedule, findings, fabrication, files: files.clone() })
 }
 

@@ -1,7 +1,7 @@
 //! The pictures of a report page: the model against its limits, and the worst panels.
 
 use crate::check::Report;
-use crate::io::report_html::{PanelPictures, ReportPicture, ReportPictures};
+use crate::io::report_page::{PanelPictures, ReportPicture, ReportPictures};
 use crate::mesh::{FaceId, FaceMap, Mesh};
 use crate::picture::{
     Colour, Picture, PictureError, Projection, RenderParams, View, render_marked, render_model, render_shares,

@@ -18,6 +18,9 @@ pub struct Material {
     pub title: String,
     /// How thick it is.
     pub thickness: Length,
+    /// Kilograms in a cubic metre, where it is known.
+    #[serde(default)]
+    pub density: Option<f64>,
     /// Full width of the cut.
     pub kerf: Length,
     /// Least width of material that survives between two cuts.
@@ -103,6 +106,9 @@ impl Material {
             if !(value >= least && value.is_finite()) {
                 return Err(SheetError::OutOfRange { name, value, least });
             }
+        }
+        if let Some(value) = self.density.filter(|&d| !(d > 0.0 && d.is_finite())) {
+            return Err(SheetError::OutOfRange { name: "density", value, least: 0.0 });
         }
         let Speeds { cut, score, engrave, travel } = self.speed;
         for (name, value) in [("cut", cut), ("score", score), ("engrave", engrave), ("travel", travel)] {

@@ -21,7 +21,7 @@ const MIN_SPACING: f64 = 0.01;
 /// How pieces are placed on sheets and drawn.
 #[derive(Debug, Clone, PartialEq, clap::Args, Deserialize)]
 pub struct SheetParams {
-    /// Size of a sheet, width x height: 600x400, 24inx12in, A0 to A5, letter; none for no sheets
+    /// Size of a sheet, width x height: 600x400, 24inx12in, A0 to A5, letter, jumbo (glass, 6000x3210); none for no sheets
     #[arg(long, value_name = "SIZE", default_value = "600x400")]
     #[serde(default = "default_sheet")]
     pub sheet: SheetSize,
@@ -272,7 +272,7 @@ pub enum ScoreStyle {
 }
 
 /// Sizes with a name, width and height in mm.
-const NAMED_SIZES: [(&str, f64, f64); 7] = [
+const NAMED_SIZES: [(&str, f64, f64); 8] = [
     ("a0", 841.0, 1189.0),
     ("a1", 594.0, 841.0),
     ("a2", 420.0, 594.0),
@@ -280,6 +280,8 @@ const NAMED_SIZES: [(&str, f64, f64); 7] = [
     ("a4", 210.0, 297.0),
     ("a5", 148.0, 210.0),
     ("letter", 215.9, 279.4),
+    // The largest pane of float glass that is usually traded.
+    ("jumbo", 6000.0, 3210.0),
 ];
 
 impl SheetSize {

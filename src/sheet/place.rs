@@ -75,6 +75,36 @@ pub(crate) fn pack(items: &[Item], room: DVec2) -> Vec<Spot> {
     best.map(|(_, spots)| spots).unwrap_or_default()
 }
 
+/// Places every item in rows, the highest first, without looking back: next-fit shelves by falling height (Coffman, Garey, Johnson
+/// and Tarjan 1980). For tens of thousands of items, where [`pack`] would take minutes. At least one way of every item must fit.
+pub(crate) fn pack_rows(items: &[Item], room: DVec2) -> Vec<Spot> {
+    // Lying, so that rows are low; upright where only that fits.
+    let way = |item: &Item| match (item.upright, item.turned) {
+        (Some(a), Some(b)) if b.y < a.y => (b, true),
+        (Some(a), _) => (a, false),
+        (None, b) => (b.unwrap_or_default(), true),
+    };
+    let ways: Vec<(DVec2, bool)> = items.iter().map(way).collect();
+    let mut order: Vec<usize> = (0..items.len()).collect();
+    order.sort_by(|&a, &b| ways[b].0.y.total_cmp(&ways[a].0.y).then(a.cmp(&b)));
+    let mut spots = vec![Spot { bin: 0, low: DVec2::ZERO, turned: false }; items.len()];
+    let (mut bin, mut at, mut above) = (0, DVec2::ZERO, 0.0);
+    for i in order {
+        let (size, turned) = ways[i];
+        if at.x > 0.0 && at.x + size.x > room.x {
+            at = DVec2::new(0.0, above);
+        }
+        if at.y > 0.0 && at.y + size.y > room.y {
+            (bin, at) = (bin + 1, DVec2::ZERO);
+        }
+        spots[i] = Spot { bin, low: at, turned };
+        // Rows become lower: the first item of a row is its highest.
+        above = if at.x == 0.0 { at.y + size.y } else { above };
+        at.x += size.x;
+    }
+    spots
+}
+
 /// Number of sheets, then the area on the last one.
 fn cost(spots: &[Spot], sizes: &[DVec2]) -> (usize, f64) {
     let bins = spots.iter().map(|s| s.bin + 1).max().unwrap_or(0);
@@ -179,7 +209,7 @@ mod tests {
         fn boxes_stay_inside_and_apart(sizes in prop::collection::vec((0.5..60.0_f64, 0.5..40.0_f64), 0..60)) {
             let room = DVec2::new(100.0, 45.0);
             let sizes: Vec<DVec2> = sizes.into_iter().map(DVec2::from).collect();
-            let spots = pack(&items(&sizes, room), room);
+            for spots in [pack(&items(&sizes, room), room), pack_rows(&items(&sizes, room), room)] {
             let rects: Vec<(usize, Rect)> = spots.iter().zip(&sizes).map(|(spot, &size)| {
                 let size = if spot.turned { DVec2::new(size.y, size.x) } else { size };
                 (spot.bin, Rect { low: spot.low, high: spot.low + size })
@@ -190,6 +220,7 @@ mod tests {
                     let nearly = Rect { low: rect.low + DVec2::splat(1e-9), high: rect.high - DVec2::splat(1e-9) };
                     prop_assert!(bin != other_bin || !nearly.overlaps(other));
                 }
+            }
             }
         }
     }

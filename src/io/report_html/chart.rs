@@ -2,24 +2,17 @@
 
 use std::fmt::Write as _;
 
+use crate::io::report_page::Chart;
+
 /// Width and height of a chart, and of the room below the bars, in user units.
-const SIZE: [f64; 2] = [720.0, 220.0];
+const SIZE: [f64; 2] = [720.0, 236.0];
 const FOOT: f64 = 46.0;
-const HEAD: f64 = 22.0;
+/// The words of a limit stand above the counts.
+const HEAD: f64 = 38.0;
 
-/// One bar.
-pub(super) struct Bar {
-    /// What stands below it; may be empty.
-    pub label: String,
-    /// How high it is.
-    pub count: usize,
-    /// Red, green, blue.
-    pub colour: [u8; 3],
-}
-
-/// A chart with a count above every bar that is not empty. `name` is read out by screen readers, `axis` stands below.
-/// With `limit`, a dashed line stands before the bar of that number, or between two if it has a fraction.
-pub(super) fn bars(name: &str, axis: &str, bars: &[Bar], limit: Option<(f64, &str)>) -> String {
+/// A chart with a count above every bar that is not empty. Its name is read out by screen readers.
+pub(super) fn bars(chart: &Chart) -> String {
+    let Chart { name, axis, bars, limit } = chart;
     let [width, height] = SIZE;
     let (base, room) = (height - FOOT, height - FOOT - HEAD);
     let most = bars.iter().map(|b| b.count).max().unwrap_or(0).max(1) as f64;
@@ -33,7 +26,7 @@ pub(super) fn bars(name: &str, axis: &str, bars: &[Bar], limit: Option<(f64, &st
         let middle = (i as f64 + 0.5) * step;
         // What is there is seen, be it one of a million.
         let tall = if bar.count == 0 { 0.0 } else { (bar.count as f64 / most * room).max(1.5) };
-        let [r, g, b] = bar.colour;
+        let [r, g, b] = bar.colour();
         let _ = write!(
             svg,
             "<rect x=\"{:.2}\" y=\"{:.2}\" width=\"{:.2}\" height=\"{tall:.2}\" fill=\"#{r:02x}{g:02x}{b:02x}\"/>",
@@ -48,7 +41,7 @@ pub(super) fn bars(name: &str, axis: &str, bars: &[Bar], limit: Option<(f64, &st
         let _ = writeln!(svg, "<text class=\"tick\" x=\"{middle:.2}\" y=\"{:.2}\">{}</text>", base + 15.0, bar.label);
     }
     let _ = writeln!(svg, "<line x1=\"0\" y1=\"{base}\" x2=\"{width}\" y2=\"{base}\"/>");
-    if let Some((at, words)) = limit {
+    if let Some((at, words)) = *limit {
         let x = at * step;
         let (anchor, shift) = if x > width / 2.0 { ("end", -6.0) } else { ("start", 6.0) };
         let _ = writeln!(

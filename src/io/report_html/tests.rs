@@ -6,7 +6,10 @@ use serde_json::Value;
 
 use super::*;
 use crate::check::{CheckParams, Requirement, check, details};
+use crate::check::{Details, Report};
 use crate::io::report_json::check_json_with;
+use crate::io::report_page::ReportRows;
+use crate::io::report_page::words::{figure, optional};
 use crate::measure::fixtures::{cube, octahedron, open_box};
 use crate::mesh::{Mesh, VertexId};
 use crate::picture::RenderParams;
@@ -158,7 +161,8 @@ fn long_lists_are_cut_and_say_so() {
 
 #[test]
 fn small_figures_are_told_as_small_and_kept_in_full() {
+    let figure = |x| words(&figure(x));
     assert_eq!(figure(1.5e-9), "<data value=\"1.5e-9\">&lt; 0.0001</data>");
     assert_eq!(figure(-12.34567), "<data value=\"-12.34567\">−12.35</data>");
-    assert_eq!(optional(None), "–");
+    assert_eq!(words(&optional(None)), "–");
 }

@@ -149,8 +149,20 @@ pub fn plates_glb(plates: &[NamedPlate<'_>], command: &str) -> Result<Vec<u8>, I
 const NAME_SHARE: f64 = 0.5;
 const FLOAT: f64 = 0.02;
 
+/// What is up for somebody who reads a plate from outside, as in the views of the assembly map: the sky, and for plates that
+/// rather lie than stand what is away from the front.
+fn upwards(normal: DVec3) -> DVec3 {
+    let lies = normal.z.abs() >= normal.x.abs().max(normal.y.abs());
+    if lies { DVec3::Y * normal.z.signum() } else { DVec3::Z }
+}
+
 fn letter(surface: &mut GlbSurface, named: &NamedPlate<'_>, origin: DVec3) {
-    let (at, room) = label_room(&named.plate.inner);
+    let frame = &named.plate.frame;
+    let up = upwards(frame.normal);
+    let up = DVec2::new(up.dot(frame.x), up.dot(frame.y)).normalize_or(DVec2::Y);
+    let right = -up.perp();
+    let turned: Vec<DVec2> = named.plate.inner.iter().map(|p| DVec2::new(p.dot(right), p.dot(up))).collect();
+    let (at, room) = label_room(&turned);
     let Ok(unit) = lettering(&named.name, 1.0) else { return };
     let size = unit.high - unit.low;
     let height = NAME_SHARE * (room.x / size.x).min(room.y / size.y);
@@ -158,10 +170,12 @@ fn letter(surface: &mut GlbSurface, named: &NamedPlate<'_>, origin: DVec3) {
         return;
     }
     let middle = unit.low.midpoint(unit.high);
-    let normal = named.plate.frame.normal;
     for stroke in &unit.strokes {
         let first = surface.points.len() as u32;
-        let lifted = |&p: &DVec2| named.plate.on_front(at + (p - middle) * height) + normal * (FLOAT * height) - origin;
+        let lifted = |&p: &DVec2| {
+            let p = at + (p - middle) * height;
+            named.plate.on_front(right * p.x + up * p.y) + frame.normal * (FLOAT * height) - origin
+        };
         surface.points.extend(stroke.iter().map(lifted));
         surface.lines.extend((first..first + stroke.len() as u32 - 1).map(|i| [i, i + 1]));
     }

@@ -6,12 +6,12 @@ use super::super::bounding_box::{MinBox, box_at, convex_hull, fitting_box, round
 use super::super::kerf::CutShape;
 use super::super::layout::Turn;
 use super::super::params::SheetParams;
-use super::super::place::{Item, pack};
+use super::super::place::{Item, pack, pack_rows};
 use super::guillotine::{Boxed, guillotine};
 use super::search::Turns;
 use super::shape::Shape;
 use super::stock::StockSheet;
-use super::{Axis, Effort, Guillotine, Lying, NoPlace, Piece, Problem, Rotation, nest};
+use super::{Axis, CommonLine, Effort, Guillotine, Lying, NoPlace, Piece, Problem, Rotation, nest};
 use crate::geom::polygon::bounds;
 use crate::net::PieceId;
 use crate::progress::Progress;
@@ -85,6 +85,10 @@ pub(crate) fn lay(
     if params.nest.guillotine == Guillotine::On {
         return by_guillotine(candidates, sheets, effort, progress);
     }
+    let is_plain = sheets.len() == 1 && sheets[0].bin().obstacles.is_empty() && params.nest.together.0.is_empty();
+    if is_plain && params.nest.nest_effort == 0 && params.nest.common_line == CommonLine::Off {
+        return Ok(Laid { lying: boxes(candidates, &sheets[0], pack_rows), cuts: Vec::new() });
+    }
     let group = |piece: PieceId| params.nest.together.0.iter().position(|g| g.len() > 1 && g.contains(&piece));
     let pieces = candidates.iter().map(|c| Piece {
         shape: Shape::new(&c.shape.outline, &c.shape.holes),
@@ -101,13 +105,16 @@ pub(crate) fn lay(
         spacing: sheets[0].stock.spacing,
         common_line: params.nest.common_line,
     };
-    let is_plain = sheets.len() == 1 && problem.stock[0].obstacles.is_empty() && params.nest.together.0.is_empty();
-    let start = (is_plain && candidates.len() <= MOST_BOXES).then(|| boxes(candidates, &sheets[0]));
+    let start = (is_plain && candidates.len() <= MOST_BOXES).then(|| boxes(candidates, &sheets[0], pack));
     Ok(Laid { lying: nest(&problem, start, effort, progress)?, cuts: Vec::new() })
 }
 
-/// A first layout of bounding boxes.
-fn boxes(candidates: &[Candidate<'_>], sheet: &StockSheet) -> Vec<Lying> {
+/// A layout of bounding boxes.
+fn boxes(
+    candidates: &[Candidate<'_>],
+    sheet: &StockSheet,
+    pack: impl Fn(&[Item], DVec2) -> Vec<super::super::place::Spot>,
+) -> Vec<Lying> {
     let stock = &sheet.stock;
     let poses: Vec<MinBox> = candidates.iter().filter_map(|c| c.poses[0]).collect();
     // A box with the spacing on two sides, in a room with the spacing on two sides: neighbours keep their distance.

@@ -51,7 +51,8 @@ pub struct NestParams {
     #[arg(long, value_enum, default_value = "off", num_args = 0..=1, default_missing_value = "on", require_equals = true)]
     #[serde(default)]
     pub common_line: CommonLine,
-    /// How long to search for a better layout: about tenths of a second for a hundred pieces or more, less for few
+    /// How long to search for a better layout: about tenths of a second for a hundred pieces or more, less for few. 0 does not nest:
+    /// boxes in rows, for tens of thousands of pieces
     #[arg(long, value_name = "N", default_value_t = DEFAULT_EFFORT)]
     #[serde(default = "default_effort")]
     pub nest_effort: u32,

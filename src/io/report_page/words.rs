@@ -1,5 +1,6 @@
-//! Figures and words of the page.
+//! Figures and words of a report.
 
+use super::{Word, Words};
 use crate::check::short;
 
 /// Every figure of the page with its definition.
@@ -41,45 +42,42 @@ pub(super) const DEFINITIONS: [(&str, &str); 10] = [
     ),
 ];
 
-/// A figure: four digits for people, all digits for programs.
-pub(super) fn figure(x: f64) -> String {
-    format!("<data value=\"{x:?}\">{}</data>", shown(x))
+/// Nothing but text.
+pub(super) fn text(text: impl Into<String>) -> Words {
+    vec![Word::Text(text.into())]
+}
+
+/// Nothing but a figure.
+pub(in crate::io) fn figure(x: f64) -> Words {
+    vec![Word::Figure(x)]
 }
 
 /// A figure, or a dash where there is none.
-pub(super) fn optional(x: Option<f64>) -> String {
-    x.map_or_else(|| "–".to_owned(), figure)
+pub(in crate::io) fn optional(x: Option<f64>) -> Words {
+    x.map_or_else(|| text("–"), figure)
 }
 
-/// Four digits; what is smaller than anybody can measure is said so.
-pub(super) fn shown(x: f64) -> String {
+impl From<&str> for Word {
+    fn from(text: &str) -> Self {
+        Self::Text(text.to_owned())
+    }
+}
+
+/// A figure for people: four digits; what is smaller than anybody can measure is said so.
+pub(in crate::io) fn shown(x: f64) -> String {
     if x != 0.0 && x.abs() < 1e-4 {
-        (if x > 0.0 { "&lt; 0.0001" } else { "&gt; −0.0001" }).to_owned()
+        (if x > 0.0 { "< 0.0001" } else { "> −0.0001" }).to_owned()
     } else {
         short(x).replace('-', "−")
     }
 }
 
+/// `pass` or `fail`.
+pub(in crate::io) const fn verdict(is_kept: bool) -> &'static str {
+    if is_kept { "pass" } else { "fail" }
+}
+
 /// `1 panel`, `2 panels`.
 pub(super) fn count(n: usize, one: &str, many: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { many })
-}
-
-/// Text for XML: its five signs replaced, and characters that XML does not know.
-pub(crate) fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out += "&amp;",
-            '<' => out += "&lt;",
-            '>' => out += "&gt;",
-            '"' => out += "&quot;",
-            '\'' => out += "&#39;",
-            '\n' | '\t' => out.push(c),
-            '\u{fffe}' | '\u{ffff}' => out.push('\u{fffd}'),
-            c if c.is_control() => out.push('\u{fffd}'),
-            c => out.push(c),
-        }
-    }
-    out
 }

@@ -7,6 +7,7 @@ mod check;
 mod cut;
 mod dform;
 mod error;
+mod explain;
 mod hull;
 mod info;
 mod input;
@@ -82,6 +83,7 @@ enum Verb {
     KerfTest(kerf_test::KerfTestArgs),
     Run(run::RunArgs),
     Render(render::RenderArgs),
+    Explain(explain::ExplainArgs),
     Completions(manual::CompletionsArgs),
     Man(manual::ManArgs),
 }
@@ -104,8 +106,11 @@ fn command() -> clap::Command {
 
 /// Reads the arguments of the process, does what they say, and returns the exit code.
 pub fn run() -> ExitCode {
-    let matches = command().get_matches();
-    let cli = Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
+    let parsed = command().try_get_matches().and_then(|matches| Cli::from_arg_matches(&matches));
+    let cli = match parsed {
+        Ok(cli) => cli,
+        Err(refusal) => return explain::refuse(&refusal),
+    };
     let console = cli.console;
     terminal::watch_for_ctrl_c();
     let result = match cli.verb {
@@ -130,6 +135,7 @@ pub fn run() -> ExitCode {
         Verb::KerfTest(args) => kerf_test::run(&args, &console),
         Verb::Run(args) => run::run(&args, &console),
         Verb::Render(args) => render::run(&args, &console),
+        Verb::Explain(args) => explain::run(&args, &console),
         Verb::Completions(args) => manual::completions(&args),
         Verb::Man(args) => manual::man(&args, &console),
     };

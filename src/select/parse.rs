@@ -14,6 +14,7 @@ use glam::DVec3;
 
 use super::expr::{Atom, Compare, Direction, Expr};
 use super::seams::Folds;
+use crate::code::codes;
 use crate::units::{Angle, Length, nearest_word, parse_number};
 
 /// Why a text is no selection. Columns are counted in characters, from 1.
@@ -64,6 +65,14 @@ pub enum ParseError {
         column: usize,
     },
 }
+
+codes!(error ParseError {
+    Empty = 291,
+    UnknownWord = 292,
+    Unexpected = 293,
+    Value = 294,
+    TooDeep = 295,
+});
 
 fn hint(nearest: Option<&str>) -> String {
     match nearest {

@@ -14,6 +14,7 @@ use super::polytope::{Polygons, Polytope};
 use super::split::split;
 use super::start::{Flat, enclose_centre, far_apart};
 use super::surface::{NONE, Slot, Surface, room};
+use crate::code::codes;
 
 /// A half-space: all x with normal · x ≤ offset.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -116,6 +117,15 @@ pub enum HalfSpaceError {
         direction: DVec3,
     },
 }
+
+codes!(error HalfSpaceError {
+    TooMany = 221,
+    NotFinite = 222,
+    NoDirection = 223,
+    Infeasible = 224,
+    NoVolume = 225,
+    Unbounded = 226,
+});
 
 impl HalfSpaceError {
     /// The half-spaces concerned, where there are some to name.

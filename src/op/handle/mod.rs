@@ -28,7 +28,8 @@ use std::str::FromStr;
 use glam::DVec3;
 use serde::{Deserialize, Deserializer, de};
 
-use super::{OpContext, OpError};
+use super::{OpContext, OpError, OpFinding};
+use crate::code::Coded;
 use crate::mesh::{FaceId, HalfEdgeId, Mesh, VertexId};
 use crate::select::Made;
 use crate::units::{Angle, Length, UnitError};
@@ -165,8 +166,9 @@ impl HandleReport {
             let shown: Vec<String> = self.crossing.iter().take(8).map(usize::to_string).collect();
             let more = if self.crossing.len() > 8 { ", …" } else { "" };
             notes.push(format!(
-                "the handle crosses itself in segment {}{more}: it bends more sharply there than it is wide; take other weights or fewer segments",
-                shown.join(", ")
+                "the handle crosses itself in segment {}{more}: it bends more sharply there than it is wide; take other weights or fewer segments ({})",
+                shown.join(", "),
+                OpFinding::HandleCrosses.code()
             ));
         }
         notes

@@ -693,11 +693,37 @@ fn nest_refuses_what_is_no_order_of_pieces() {
     refuse(PARTS, &["--rotate", "P77=fixed"], "P77");
     refuse(PARTS, &["--guillotine", "--defects", "0,0:5,5"], "guillotine");
     refuse(PARTS, &["--sheet-outline", "0,0:700,0:0,300"], "sheet-outline");
+    refuse(PARTS, &["--common-line", "--kerf", "0.2"], "0.1 mm of both parts");
+    refuse(PARTS, &["--common-line", "--material", "ply3"], "needs a kerf of 0");
+    refuse(PARTS, &["--common-line", "--guillotine"], "guillotine does not go with common-line");
     let missing = run(&["nest", &folder.path("none.json"), "-o", &out]);
     assert!(missing.code == Some(2) && missing.err.contains("none.json"), "{}", missing.err);
     fs::write(&file, PARTS).expect("a file");
     fs::write(&out, "a file").expect("a file in the way");
     assert_eq!(run(&["nest", &file, "-o", &out]).code, Some(2));
+}
+
+#[test]
+fn shared_lines_are_cut_once_from_flags_and_recipes_alike() {
+    let folder = Folder::new("nest-common-line");
+    let square = "{\"pieces\": [{\"outline\": [[0,0],[50,0],[50,50],[0,50]], \"quantity\": 4}]}";
+    fs::write(folder.path("parts.json"), square).expect("a file");
+    let (recipe, out, again) = (folder.path("recipe.toml"), folder.path("out"), folder.path("again"));
+    let sheet = ["--sheet", "110x110", "--margin", "5", "--part-files", "on"];
+    let ran = run(&[&["nest", &folder.path("parts.json"), "--common-line", "-o", &out][..], &sheet].concat());
+    // Two by two: twelve lines instead of sixteen.
+    assert!(ran.code == Some(0) && ran.out.contains("600 mm to cut"), "{} {}", ran.out, ran.err);
+    assert!(ran.err.contains("200 mm of cuts are shared"), "{}", ran.err);
+    let text = "[[step]]\nnest = \"parts.json\"\ncommon_line = \"on\"\nsheet = \"110x110\"\nmargin = \"5mm\"\npart_files = \"on\"\n";
+    fs::write(&recipe, text).expect("a recipe");
+    assert_eq!(run(&["run", &recipe, "-o", &again]).code, Some(0));
+    let cuts = |folder: &str, name: &str| {
+        let text = fs::read_to_string(format!("{folder}/{name}.svg")).expect("a sheet");
+        text.lines().filter(|l| l.contains("<path")).map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(cuts(&out, "sheet-01"), cuts(&again, "sheet-01"));
+    let lint = run(&["lint", &format!("{out}/sheet-01.svg")]);
+    assert_eq!(lint.code, Some(0), "{}", lint.out);
 }
 
 #[test]

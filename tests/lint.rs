@@ -4,11 +4,15 @@ use std::path::Path;
 
 use glam::DVec2;
 use kerfold::io::artwork::read_artwork;
+use kerfold::io::pdf::tiles::write_tiles;
 use kerfold::io::sheet_files::sheet_bytes;
 use kerfold::lint::{Check, Finding, LintParams, lint};
+use kerfold::net::{MeshCounts, Net, Piece, PieceId, Proof};
 use kerfold::progress::Silent;
 use kerfold::recipe::{Job, Recipe, material, with_material};
-use kerfold::sheet::{Preset, ScoreStyle, SheetFormat, SheetParams, SheetSize, kerf_coupon};
+use kerfold::sheet::{
+    CommonLine, NestParams, Paper, Preset, ScoreStyle, SheetFormat, SheetParams, SheetSize, kerf_coupon, lay_out,
+};
 use kerfold::units::Length;
 
 fn found(name: &str, params: &LintParams) -> Vec<Finding> {
@@ -104,6 +108,38 @@ fn assert_clean(name: &str, drawings: &[kerfold::sheet::Drawing], params: &Sheet
             assert_eq!(lint(&pages[0], &limits).findings, [], "{place}");
         }
     }
+    for drawing in drawings {
+        let bytes = write_tiles(drawing, Paper::A4, params.style(), "kerfold").expect("known letters");
+        let (_, pages) = read_artwork(Path::new("x"), &bytes).expect("a PDF");
+        assert!(pages.len() > 1);
+        for (i, page) in pages.iter().enumerate() {
+            assert_eq!(lint(page, &LintParams::default()).findings, [], "{name} on A4, page {}", i + 1);
+        }
+    }
+}
+
+#[test]
+fn sheets_with_shared_lines_pass() {
+    let ring = |i: usize| -> Vec<DVec2> {
+        let corners = [3, 4, 6][i % 3];
+        let corner = |k: usize| DVec2::from_angle(i as f64 + k as f64 * std::f64::consts::TAU / corners as f64) * 25.0;
+        (0..corners).map(corner).collect()
+    };
+    let piece = |i: usize| Piece { id: PieceId(i), outline: ring(i), holes: Vec::new(), faces: Vec::new() };
+    let net = Net {
+        scale: 1.0,
+        counts: MeshCounts::default(),
+        pieces: (0..24).map(piece).collect(),
+        folds: Vec::new(),
+        seams: Vec::new(),
+        rims: Vec::new(),
+        proof: Proof::default(),
+    };
+    let nest = NestParams { common_line: CommonLine::On, ..NestParams::default() };
+    let params = SheetParams { nest, sheet: SheetSize::of_mm(240.0, 160.0), ..SheetParams::default() };
+    let set = lay_out(&net, &params).expect("all fit");
+    assert!(set.report.shared_length > 300.0, "{}", set.report.shared_length);
+    assert_clean("shared lines", &set.drawings, &params);
 }
 
 #[test]

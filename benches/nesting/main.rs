@@ -139,7 +139,7 @@ try:
 except ImportError:
     print('not installed (pip install spyrrow); no comparison is made'); sys.exit()
 q = json.load(sys.stdin)
-items = [spyrrow.Item(str(i), p, 1, None) for i, p in enumerate(q['pieces'])]
+items = [spyrrow.Item(str(i), [tuple(c) for c in p], 1, None) for i, p in enumerate(q['pieces'])]
 c = spyrrow.StripPackingConfig(early_termination=False, total_computation_time=q['seconds'], num_workers=1, seed=0, min_items_separation=q['spacing'])
 s = spyrrow.StripPackingInstance('x', q['across'], items).solve(c)
 print('eff %.3f, %.1f CPU s' % (s.width / q['along'], resource.getrusage(resource.RUSAGE_SELF).ru_utime))

@@ -8,7 +8,7 @@ pub mod tiles;
 use std::fmt::Write as _;
 
 use super::number::{decimal, shown_points};
-use crate::sheet::{Drawing, LayerKind, Stroke, Style};
+use crate::sheet::{Drawing, LayerKind, Pen, Stroke, Style};
 
 /// Points in a millimetre.
 const POINTS: f64 = 72.0 / 25.4;
@@ -26,18 +26,23 @@ pub fn write_pdf(drawing: &Drawing, style: impl Into<Style>, command: &str) -> V
     let mut content = String::new();
     draw_layers(&mut content, drawing, &style);
     let page = Page { width: drawing.width, height: drawing.height, content };
-    document(&[page], &drawing.file_stem(), command)
+    document(&[page], &drawing.file_stem(), command, None)
 }
 
 /// All strokes of a drawing, layer by layer, in millimetres.
 fn draw_layers(content: &mut String, drawing: &Drawing, style: &Style) {
     for (i, layer) in drawing.layers.iter().enumerate() {
-        let pen = style.pen(layer.kind);
-        let [r, g, b] = pen.colour.map(|c| decimal(f64::from(c) / 255.0));
-        let _ = writeln!(content, "/OC /L{i} BDC\n{r} {g} {b} RG {} w", decimal(pen.width));
+        let _ = writeln!(content, "/OC /L{i} BDC");
+        colour(content, style.pen(layer.kind));
         layer.marks.iter().flat_map(|m| &m.strokes).for_each(|stroke| path(content, stroke));
         *content += "EMC\n";
     }
+}
+
+/// Colour and width of what follows.
+fn colour(content: &mut String, pen: Pen) {
+    let [r, g, b] = pen.colour.map(|c| decimal(f64::from(c) / 255.0));
+    let _ = writeln!(content, "{r} {g} {b} RG {} w", decimal(pen.width));
 }
 
 /// One path, stroked.
@@ -50,15 +55,16 @@ fn path(content: &mut String, stroke: &Stroke) {
 }
 
 /// The file: catalogue, pages, layers, information.
-fn document(pages: &[Page], title: &str, command: &str) -> Vec<u8> {
+/// `extra` is one more layer, `/L5`, which is printed.
+fn document(pages: &[Page], title: &str, command: &str, extra: Option<&str>) -> Vec<u8> {
     let mut file = Objects::default();
-    let layers = LayerKind::ALL.len();
+    let layers = LayerKind::ALL.len() + usize::from(extra.is_some());
     // 1 the catalogue, 2 the pages, 3 the information, then the layers, then two objects a page.
     let layer = |i: usize| 4 + i;
     let page_at = |i: usize| 4 + layers + 2 * i;
     let list = |numbers: Vec<usize>| numbers.iter().map(|n| format!("{n} 0 R")).collect::<Vec<_>>().join(" ");
     let all_layers = list((0..layers).map(layer).collect());
-    let info = layer(layers - 1);
+    let info = layer(LayerKind::ALL.len() - 1);
     file.add(&format!(
         "<< /Type /Catalog /Pages 2 0 R /OCProperties << /OCGs [{all_layers}] /D << /Order [{all_layers}] /ON [{all_layers}] \
          /AS [<< /Event /Print /Category [/Print] /OCGs [{info} 0 R] >>] >> >> >>"
@@ -70,6 +76,9 @@ fn document(pages: &[Page], title: &str, command: &str) -> Vec<u8> {
         let state = if kind == LayerKind::Info { "OFF" } else { "ON" };
         let name = kind.name();
         file.add(&format!("<< /Type /OCG /Name ({name}) /Usage << /Print << /PrintState /{state} >> >> >>"));
+    }
+    if let Some(name) = extra {
+        file.add(&format!("<< /Type /OCG /Name ({name}) >>"));
     }
     let properties: Vec<String> = (0..layers).map(|i| format!("/L{i} {} 0 R", layer(i))).collect();
     let properties = properties.join(" ");

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::artwork::{Artwork, Operation, UnitState};
 use super::contours::Contours;
-use super::lines::{Line, label};
+use super::lines::{Line, On, label};
 use super::pairs::{Pairs, distance};
 use super::params::LintParams;
 use super::report::{Check, LintReport};
@@ -86,12 +86,17 @@ pub(super) fn stray_points(artwork: &Artwork, lines: &[Line], report: &mut LintR
 }
 
 pub(super) fn open_contours(lines: &[Line], contours: &Contours, params: &LintParams, report: &mut LintReport) {
+    let on = On::of(lines, params.gap.mm());
     for (i, line) in lines.iter().enumerate().filter(|(_, l)| !l.closed && l.operation.is_cut()) {
         // A slit in a part: on the layer of inner cuts, inside an outline.
         if line.operation == Operation::CutInner && contours.parent[i].is_some() {
             continue;
         }
         let (Some(&a), Some(&b)) = (line.points.first(), line.points.last()) else { continue };
+        // A cut from one cut to another closes what these leave open: lines that two parts share.
+        if [a, b].iter().all(|&p| on.is_cut(p, Some(i))) {
+            continue;
+        }
         let words = format!("its ends are {} mm apart", short(a.distance(b)));
         report.measured(Check::OpenContour, Some(b), &line.label, words, Some((a.distance(b), params.gap.mm())));
     }

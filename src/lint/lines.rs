@@ -3,7 +3,8 @@
 use glam::DVec2;
 
 use super::artwork::{ArtPath, Artwork, Operation};
-use super::pairs::Cells;
+use super::pairs::{Cells, distance};
+use crate::geom::polygon::bounds;
 
 /// A line of one or more paths.
 #[derive(Debug, Clone)]
@@ -26,6 +27,30 @@ impl Line {
 
     pub fn length(&self) -> f64 {
         self.segments().map(|[a, b]| a.distance(b)).sum()
+    }
+}
+
+/// Finds cuts that run through a point.
+pub(super) struct On<'a> {
+    lines: &'a [Line],
+    bounds: Vec<Option<(DVec2, DVec2)>>,
+    gap: f64,
+}
+
+impl<'a> On<'a> {
+    /// `gap` is how near a line must come to count.
+    pub fn of(lines: &'a [Line], gap: f64) -> Self {
+        let bounds = lines.iter().map(|l| bounds(&l.points).filter(|_| l.operation.is_cut()));
+        Self { lines, bounds: bounds.collect(), gap }
+    }
+
+    /// Whether a cut other than `but` runs through a point.
+    pub fn is_cut(&self, p: DVec2, but: Option<usize>) -> bool {
+        let grown = DVec2::splat(self.gap);
+        self.bounds.iter().enumerate().filter(|(i, _)| Some(*i) != but).any(|(i, b)| {
+            b.is_some_and(|(low, high)| p.cmpge(low - grown).all() && p.cmple(high + grown).all())
+                && self.lines[i].segments().any(|s| distance(p, s).0 <= self.gap)
+        })
     }
 }
 
@@ -59,15 +84,16 @@ pub(super) fn join(artwork: &Artwork, gap: f64, reach: f64) -> Vec<Line> {
         let line = Line { points, closed, operation: path.operation, label: label(path, i), first: i };
         if closed || !path.operation.is_cut() { lines.push(line) } else { open.push(line) }
     }
-    lines.extend(chains(open, artwork, gap, reach));
+    let chains = chains(open, &lines, artwork, (gap, reach));
+    lines.extend(chains);
     lines.sort_by_key(|l| l.first);
     lines
 }
 
 /// Joins open cuts of the same layer end to end.
-fn chains(open: Vec<Line>, artwork: &Artwork, gap: f64, reach: f64) -> Vec<Line> {
+fn chains(open: Vec<Line>, rings: &[Line], artwork: &Artwork, (gap, reach): (f64, f64)) -> Vec<Line> {
     let ends: Vec<[DVec2; 2]> = open.iter().map(|l| [l.points[0], l.points[l.points.len() - 1]]).collect();
-    let partner = partners(&open, &ends, artwork, reach);
+    let partner = partners((&open, rings), &ends, artwork, (gap, reach));
     let mut used = vec![false; open.len()];
     let mut joined = Vec::new();
     // First those with a free end, then the rings that are left.
@@ -109,20 +135,30 @@ fn chains(open: Vec<Line>, artwork: &Artwork, gap: f64, reach: f64) -> Vec<Line>
 }
 
 /// For every end of every line (two a line) the one other end that meets it.
-fn partners(open: &[Line], ends: &[[DVec2; 2]], artwork: &Artwork, gap: f64) -> Vec<Option<usize>> {
+fn partners(
+    (open, rings): (&[Line], &[Line]),
+    ends: &[[DVec2; 2]],
+    artwork: &Artwork,
+    (gap, reach): (f64, f64),
+) -> Vec<Option<usize>> {
     let flat: Vec<DVec2> = ends.iter().flatten().copied().collect();
-    let boxes = flat.iter().map(|&p| (p - DVec2::splat(gap), p + DVec2::splat(gap)));
+    let boxes = flat.iter().map(|&p| (p - DVec2::splat(reach), p + DVec2::splat(reach)));
     let mut meeting: Vec<Vec<usize>> = vec![Vec::new(); flat.len()];
     Cells::of(boxes.collect()).pairs(|a, b| {
         let layer = |end: usize| &artwork.paths[open[end / 2].first].layer;
-        if flat[a].distance(flat[b]) <= gap && layer(a) == layer(b) {
+        if flat[a].distance(flat[b]) <= reach && layer(a) == layer(b) {
             meeting[a].push(b);
             meeting[b].push(a);
         }
     });
+    // Where a third line passes, the two end on it and not on one another.
+    let third = On::of(rings, gap);
+    let is_free = |end: usize| !third.is_cut(flat[end], None);
     let one = |end: usize| match meeting[end].as_slice() {
         // Where three or more ends meet nobody can tell which belong together.
-        [other] if meeting[*other].len() == 1 && other / 2 != end / 2 => Some(*other),
+        [other] if meeting[*other].len() == 1 && other / 2 != end / 2 && is_free(end) && is_free(*other) => {
+            Some(*other)
+        }
         _ => None,
     };
     (0..flat.len()).map(one).collect()

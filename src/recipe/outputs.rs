@@ -134,6 +134,17 @@ impl Fabrication {
         let closed = report.closed_notches;
         note(closed, format!("{closed} notches are narrower than the kerf: flaps hang together there"));
         note(usize::from(report.is_stopped), "the search was stopped; this is the best layout so far".to_owned());
+        if let Some([left, web]) = report.narrow_spacing {
+            let left = (left * 1000.0).round() / 1000.0;
+            note(
+                1,
+                format!(
+                    "only {left} mm are left between parts, less than the {web} mm that the material wants: raise the spacing"
+                ),
+            );
+        }
+        let shared = (report.shared_length * 10.0).round() / 10.0;
+        note(usize::from(shared > 0.0), format!("{shared} mm of cuts are shared by two parts and cut once"));
         note(report.unmarked_angles, format!("no room for the angles of {} folds", report.unmarked_angles));
         notes.extend(joint_notes(&report.joints));
         notes

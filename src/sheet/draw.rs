@@ -15,7 +15,7 @@ use super::params::{Angles, Labels, SheetParams, Stock};
 use super::score::{Hinges, ScorePlan, hold};
 use super::stretch::Stretch;
 use crate::geom::polygon::{Location, bounds, locate};
-use crate::net::{Fold, FoldKind, Net, Piece, PieceId, Seam};
+use crate::net::{FlatFace, Fold, FoldKind, Net, Piece, PieceId, Seam};
 
 /// Sides of the reference square that are tried, in mm.
 const REFERENCE_SIDES: [f64; 3] = [100.0, 10.0, 1.0];
@@ -78,7 +78,8 @@ pub(crate) fn draw(
             let flaps = jointed.iter().flat_map(|j| &j.flap_folds).filter(|f| f.piece == piece.id);
             draw_flap_folds(&mut drawing, flaps, placed, &score);
             // The cut of a panel is not the border of its face: there are gaps, fingers and holes.
-            let is_panel = piece.faces.len() == 1 && piece.outline != piece.faces[0].polygon;
+            let is_face = |f: &FlatFace| piece.outline == f.polygon && piece.holes.is_empty();
+            let is_panel = piece.faces.len() == 1 && !is_face(&piece.faces[0]);
             let mut obstacles: Vec<Vec<DVec2>> =
                 if jointed.is_some() || is_panel { shape.contours().cloned().collect() } else { Vec::new() };
             obstacles.extend(hinges.rows.iter().flat_map(|r| &r.slits).map(|slit| slit.to_vec()));

@@ -18,6 +18,8 @@ pub struct Drawing {
     pub height: f64,
     /// All five layers in working order.
     pub layers: Vec<Layer>,
+    /// Whole contours of the parts that share lines with others, which the layers hold without what others draw.
+    pub whole: Vec<Mark>,
 }
 
 /// What is done in one go.
@@ -163,7 +165,7 @@ impl Stroke {
 impl Drawing {
     pub(crate) fn new(sheet: &Sheet) -> Self {
         let layers = LayerKind::ALL.map(|kind| Layer { kind, marks: Vec::new() }).to_vec();
-        Self { sheet: sheet.id, part: None, width: sheet.width, height: sheet.height, layers }
+        Self { sheet: sheet.id, part: None, width: sheet.width, height: sheet.height, layers, whole: Vec::new() }
     }
 
     /// The name of its file without the ending: `sheet-01`; of a part `P01`.

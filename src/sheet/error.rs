@@ -107,6 +107,21 @@ pub enum SheetError {
         "guillotine cuts need whole rectangular sheets and no groups; leave out sheet-outline, defects and together"
     )]
     GuillotineOption,
+    /// Lines shared by parts, and a cut that has a width.
+    #[error(
+        "common-line needs a kerf of 0, and it is {kerf} mm, given or the material's: a shared line would take {} mm of both \
+         parts; leave out common-line, or name no material and no kerf", kerf / 2.0
+    )]
+    CommonLineKerf {
+        /// The width of the cut.
+        kerf: f64,
+    },
+    /// Lines shared by parts, and what cannot be done with them.
+    #[error("{option} does not go with common-line: give one of the two")]
+    CommonLineOption {
+        /// The option, as a flag without its dashes.
+        option: &'static str,
+    },
     /// A parameter names a piece that is not there.
     #[error("{name} names piece {piece}, but there are only {pieces} pieces, P01 to {}", PieceId(pieces.saturating_sub(1)))]
     NoSuchPiece {

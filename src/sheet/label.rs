@@ -64,7 +64,10 @@ pub(crate) fn name_label(
     let mut best: Option<(usize, Label)> = None;
     for &(_, i) in order.iter().take(FACES_TRIED) {
         let polygon = &piece.faces[i].polygon;
-        let centres = [centroid(polygon), inner_point(polygon)];
+        let mut centres = vec![centroid(polygon), inner_point(polygon, &[])];
+        if !obstacles.is_empty() {
+            centres.push(inner_point(polygon, obstacles));
+        }
         for direction in [upright, along_longest_edge(polygon, upright)] {
             let beaten = best.as_ref().map_or(0.0, |(_, b)| b.height);
             let free =
@@ -186,12 +189,18 @@ fn along_longest_edge(polygon: &[DVec2], upright: DVec2) -> DVec2 {
     if direction.dot(upright) < 0.0 { -direction } else { direction }
 }
 
-/// A point far inside a polygon: the best of a grid, the centroid and the ears, then improved step by step.
-fn inner_point(polygon: &[DVec2]) -> DVec2 {
+/// A point far inside a polygon and from obstacles: the best of a grid, the centroid and the ears, then improved step by step.
+fn inner_point(polygon: &[DVec2], obstacles: Obstacles<'_>) -> DVec2 {
     const GRID: usize = 12;
     let Some((low, high)) = bounds(polygon) else { return DVec2::ZERO };
     let n = polygon.len();
-    let depth = |p: DVec2| if locate(polygon, p) == Location::Inside { distance_to_contour(p, polygon) } else { -1.0 };
+    let depth = |p: DVec2| {
+        if locate(polygon, p) != Location::Inside || !obstacles.iter().all(|o| is_on_material(o, p)) {
+            return -1.0;
+        }
+        let all = obstacles.iter().map(|o| distance_to_contour(p, o));
+        all.fold(distance_to_contour(p, polygon), f64::min)
+    };
     let cell = (high - low) / GRID as f64;
     let on_grid = |i: usize| low + cell * (DVec2::new((i % GRID) as f64, (i / GRID) as f64) + 0.5);
     let ears = (0..n).map(|i| (polygon[i] + polygon[(i + 1) % n] + polygon[(i + 2) % n]) / 3.0);
@@ -215,13 +224,15 @@ fn is_free(polygon: &[DVec2], label: &Label, taken: &[[DVec2; 4]]) -> bool {
 
 /// Whether a label neither crosses an obstacle nor has one inside, nor lies in a notch or hole that is cut away.
 pub(crate) fn is_clear(label: &Label, obstacles: Obstacles<'_>) -> bool {
-    // Outlines run counter-clockwise, holes clockwise, and slits have no inside.
-    let is_on_material =
-        |o: &Vec<DVec2>| (locate(o, label.frame[0]) == Location::Inside) == (o.len() > 2 && signed_area(o) > 0.0);
-    obstacles.iter().all(is_on_material)
+    obstacles.iter().all(|o| is_on_material(o, label.frame[0]))
         && obstacles.iter().all(|o| {
             !borders_meet(o, &label.frame) && o.first().is_none_or(|&p| locate(&label.frame, p) == Location::Outside)
         })
+}
+
+/// Whether a point lies on the material side of an obstacle: outlines run counter-clockwise, holes clockwise, slits have no inside.
+fn is_on_material(obstacle: &[DVec2], p: DVec2) -> bool {
+    (locate(obstacle, p) == Location::Inside) == (obstacle.len() > 2 && signed_area(obstacle) > 0.0)
 }
 
 /// Whether a convex frame lies in the interior of a polygon, exactly.
@@ -277,6 +288,17 @@ mod tests {
         }
         let tiny = piece(PieceId(0), square(4.0));
         assert!(name_label(&tiny, DVec2::X, &Taken::new(), &[]).expect("known letters").is_none());
+    }
+
+    #[test]
+    fn the_name_of_a_frame_lies_beside_its_hole() {
+        let hole: Vec<DVec2> = square(80.0).into_iter().rev().map(|p| p + DVec2::splat(20.0)).collect();
+        let mut frame = piece(PieceId(0), square(120.0));
+        frame.holes = vec![hole.clone()];
+        let contours = [square(120.0), hole];
+        let (_, label) = name_label(&frame, DVec2::X, &Taken::new(), &contours).expect("letters").expect("room");
+        assert_clear(&frame, &label);
+        assert_eq!(label.height, NAME_HEIGHT);
     }
 
     #[test]

@@ -11,7 +11,7 @@ use super::drawing::{Drawing, MarkKind, Stroke};
 use super::error::{SheetError, TooLarge};
 use super::joint::{Boundaries, JointReport, join};
 use super::kerf::CutShape;
-use super::nest::{Laid, StockSheet, candidates, lay, offcut};
+use super::nest::{CommonLine, Laid, StockSheet, candidates, lay, offcut};
 use super::params::{SheetParams, Stock};
 use super::stretch::stretches;
 use super::verify::verify;
@@ -120,6 +120,10 @@ pub struct SheetReport {
     pub closed_notches: usize,
     /// Folds without room for their angle, where angles were asked for.
     pub unmarked_angles: usize,
+    /// Length of the lines that two parts share and that are cut once, in mm.
+    pub shared_length: f64,
+    /// What is left between two parts and the least that the material wants, in mm, when that is more.
+    pub narrow_spacing: Option<[f64; 2]>,
     /// Whether the search was stopped before its effort was used up.
     pub is_stopped: bool,
     /// What became of the joints.
@@ -182,10 +186,18 @@ pub fn lay_out_watched(net: &Net, params: &SheetParams, progress: &dyn Progress)
     let usual = &sheets[sheets.len() - 1].stock;
     let (mut drawings, mut report) = draw(net, &shapes, &layout, usual, (params, &stretches, jointed.as_ref()))?;
     for (drawing, sheet) in drawings.iter_mut().zip(&layout.sheets) {
+        if params.nest.common_line == CommonLine::On {
+            report.shared_length += drawing.cut_once(6.0 * sheets[sheet.stock].stock.rounding());
+            drawing.arrange();
+        }
         draw_sheet(drawing, sheet, &sheets[sheet.stock]);
     }
     report.lost_holes = shapes.iter().map(|s| s.lost_holes).sum();
     report.closed_notches = shapes.iter().map(|s| s.closed_notches).sum();
+    report.narrow_spacing = params.made_of.as_ref().and_then(|material| {
+        let [left, web] = [params.spacing.mm() - params.kerf.mm(), material.web.mm()];
+        (left < web).then_some([left, web])
+    });
     report.is_stopped = progress.is_cancelled();
     layout.cut_length = drawings.iter().map(Drawing::cut_length).sum();
     layout.score_length = drawings.iter().map(Drawing::score_length).sum();
@@ -289,7 +301,7 @@ fn draw_sheet(drawing: &mut Drawing, sheet: &Sheet, stock: &StockSheet) {
 mod tests {
     use super::super::testing::{ell, net_of, random_convex, ring, square};
     use super::super::verify::contour_distance;
-    use super::super::{Labels, SheetSize};
+    use super::super::{Labels, NestParams, SheetSize};
     use super::*;
     use crate::units::Length;
     use proptest::prelude::*;
@@ -366,6 +378,31 @@ mod tests {
         assert_eq!(set.layout.sheets.iter().map(|s| s.placed.len()).sum::<usize>(), 43);
         assert!(set.layout.density > 0.3, "{}", set.layout.density);
         assert_eq!(lay_out(&net, &params), Ok(set));
+    }
+
+    #[test]
+    fn groups_share_a_sheet_and_names_lie_beside_holes() {
+        let bar = [(0.0, 0.0), (150.0, 0.0), (150.0, 20.0), (0.0, 20.0)].map(DVec2::from).to_vec();
+        let triangle = [(0.0, 0.0), (60.0, 0.0), (0.0, 40.0)].map(DVec2::from).to_vec();
+        let mut contours = vec![square(120.0); 3];
+        contours.extend(vec![ell(); 6]);
+        contours.extend(vec![triangle; 10]);
+        contours.extend(vec![bar; 5]);
+        let mut net = net_of(contours);
+        let hole: Vec<DVec2> = square(80.0).into_iter().rev().map(|p| p + DVec2::splat(20.0)).collect();
+        net.pieces[..3].iter_mut().for_each(|p| p.holes = vec![hole.clone()]);
+        for seed in 0..4 {
+            let nest = NestParams {
+                together: "P10-P19".parse().expect("a group"),
+                stock: "300x200,200x200*2".parse().expect("stock"),
+                nest_effort: 4,
+                nest_seed: seed,
+                ..NestParams::default()
+            };
+            let params = SheetParams { sheet: SheetSize::of_mm(300.0, 250.0), nest, ..SheetParams::default() };
+            let set = lay_out(&net, &params).expect("all fit");
+            assert_eq!(set.report.unnamed_pieces, []);
+        }
     }
 
     #[test]

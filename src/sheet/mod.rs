@@ -9,6 +9,8 @@
 
 mod assembly;
 mod bounding_box;
+mod common_line;
+mod contact;
 mod draw;
 mod drawing;
 mod error;
@@ -41,7 +43,7 @@ pub use kerf::CutShape;
 pub use kerf_test::kerf_coupon;
 pub use layout::{Layout, Placed, Sheet, SheetId, SheetReport, SheetSet, fits, lay_out, lay_out_watched};
 pub use material::{Hex, Material, MaterialColours, Speeds};
-pub use nest::{Corners, DefectList, GroupList, Guillotine, NestParams, Rotation, RotationList, StockList};
+pub use nest::{CommonLine, Corners, DefectList, GroupList, Guillotine, NestParams, Rotation, RotationList, StockList};
 pub use params::{Angles, Labels, Preset, ScoreStyle, SheetParams, SheetSize};
 pub use stretch::Stretch;
 pub use verify::{clearance, verify};

@@ -12,15 +12,14 @@ const BORDER: f64 = 5.0;
 impl Drawing {
     /// The parts of a sheet, each alone on a page just large enough, turned as on the sheet; ascending by name.
     pub fn parts(&self) -> Vec<Self> {
-        let mut ids: Vec<PieceId> = self.marks().filter_map(|m| m.piece).collect();
+        let mut ids: Vec<PieceId> = self.marks().chain(&self.whole).filter_map(|m| m.piece).collect();
         ids.sort();
         ids.dedup();
         ids.into_iter().filter_map(|id| self.part(id)).collect()
     }
 
     fn part(&self, id: PieceId) -> Option<Self> {
-        let own = |m: &&Mark| m.piece == Some(id);
-        let points = self.marks().filter(own).flat_map(|m| &m.strokes).flat_map(|s| &s.points);
+        let points = self.layers.iter().flat_map(|l| self.own(l, id)).flat_map(|m| &m.strokes).flat_map(|s| &s.points);
         let (low, high) = bounds(points)?;
         let shift = DVec2::splat(BORDER) - low;
         let moved = |m: &Mark| {
@@ -29,10 +28,17 @@ impl Drawing {
             Mark { strokes: m.strokes.iter().map(stroke).collect(), ..m.clone() }
         };
         let layers = self.layers.iter();
-        let layers = layers.map(|l| Layer { kind: l.kind, marks: l.marks.iter().filter(own).map(moved).collect() });
+        let layers = layers.map(|l| Layer { kind: l.kind, marks: self.own(l, id).map(moved).collect() });
         let size = high - low + DVec2::splat(2.0 * BORDER);
         let (width, height) = (round_up(size.x), round_up(size.y));
-        Some(Self { sheet: self.sheet, part: Some(id), width, height, layers: layers.collect() })
+        Some(Self { sheet: self.sheet, part: Some(id), width, height, layers: layers.collect(), whole: Vec::new() })
+    }
+
+    /// The marks of a part on a layer. Alone, a part has its whole contour, whoever draws it on the sheet.
+    fn own<'a>(&'a self, layer: &'a Layer, id: PieceId) -> impl Iterator<Item = &'a Mark> {
+        let drawn = layer.marks.iter().filter(|m| !self.whole.iter().any(|w| w.id == m.id));
+        let whole = self.whole.iter().filter(|w| w.kind.layer() == layer.kind);
+        drawn.chain(whole).filter(move |m| m.piece == Some(id))
     }
 
     /// Whether a layer holds nothing.

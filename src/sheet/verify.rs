@@ -6,10 +6,11 @@ use std::collections::BTreeMap;
 
 use glam::DVec2;
 
+use super::contact::overlap;
 use super::error::SheetError;
 use super::kerf::CutShape;
 use super::layout::{Layout, Placed, Sheet, SheetId};
-use super::nest::StockSheet;
+use super::nest::{CommonLine, StockSheet};
 use super::params::{SheetParams, Stock};
 use crate::geom::polygon::{Location, bounds, locate, segments_cross};
 use crate::net::PieceId;
@@ -31,7 +32,7 @@ pub fn verify(shapes: &[CutShape], layout: &Layout, params: &SheetParams) -> Res
     let by_id: BTreeMap<PieceId, &CutShape> = shapes.iter().map(|s| (s.piece, s)).collect();
     for sheet in &layout.sheets {
         let stock = &sheets[sheet.stock.min(sheets.len() - 1)];
-        let laid = verify_sheet(&by_id, sheet, &stock.stock)?;
+        let laid = verify_sheet(&by_id, sheet, &stock.stock, params.nest.common_line)?;
         verify_stock(&laid, sheet, stock)?;
     }
     Ok(())
@@ -117,7 +118,12 @@ impl Laid {
     }
 }
 
-fn verify_sheet(shapes: &BTreeMap<PieceId, &CutShape>, sheet: &Sheet, stock: &Stock) -> Result<Vec<Laid>, SheetError> {
+fn verify_sheet(
+    shapes: &BTreeMap<PieceId, &CutShape>,
+    sheet: &Sheet,
+    stock: &Stock,
+    common_line: CommonLine,
+) -> Result<Vec<Laid>, SheetError> {
     let mut laid: Vec<Laid> = Vec::new();
     for placed in &sheet.placed {
         let shape = shapes.get(&placed.piece).ok_or(SheetError::NotPlacedOnce { piece: placed.piece, times: 0 })?;
@@ -130,7 +136,11 @@ fn verify_sheet(shapes: &BTreeMap<PieceId, &CutShape>, sheet: &Sheet, stock: &St
         }
         laid.push(here);
     }
-    let least = stock.spacing - 6.0 * stock.rounding();
+    let rounding = 6.0 * stock.rounding();
+    let least = stock.spacing - rounding;
+    let may_touch = |distance: f64, a: &Laid, b: &Laid| {
+        common_line == CommonLine::On && distance <= rounding && !overlap(&a.contours, &b.contours, rounding)
+    };
     // From left to right, so that only neighbours in x are compared.
     laid.sort_by(|a, b| a.low.x.total_cmp(&b.low.x));
     for (i, a) in laid.iter().enumerate() {
@@ -140,7 +150,7 @@ fn verify_sheet(shapes: &BTreeMap<PieceId, &CutShape>, sheet: &Sheet, stock: &St
                 continue;
             }
             let distance = distance(a, b);
-            if distance < least || distance.is_nan() {
+            if (distance < least || distance.is_nan()) && !may_touch(distance, a, b) {
                 let (first, second) = (a.piece.min(b.piece), a.piece.max(b.piece));
                 return Err(SheetError::TooClose { first, second, sheet: sheet.id, distance, spacing: stock.spacing });
             }

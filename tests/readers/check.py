@@ -1,6 +1,8 @@
 """Judges the sheets of every recipe by the eyes of other programs. Usage: check.py KERFOLD OUT"""
 
 import itertools
+import json
+import math
 import os
 import re
 import shutil
@@ -13,7 +15,9 @@ import ezdxf
 import vpype
 import vpype_cli
 from ezdxf.audit import Auditor
-from shapely.geometry import Polygon
+from shapely import set_precision
+from shapely.geometry import LineString, Polygon
+from shapely.ops import polygonize, unary_union
 from svgpathtools import parse_path
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -190,6 +194,36 @@ def check_pdf(path, size):
     check(same(page_size(path), [side * PT for side in size], 0.01), "pdfinfo", path, f"{page_size(path)}")
 
 
+def check_shared(kerfold, out):
+    """Lines that two parts share are there once, and what they bound are the parts."""
+    corners = [[(30 * math.cos(a), 30 * math.sin(a)) for a in (i * 2 * math.pi / n for i in range(n))] for n in (3, 4, 6)]
+    parts = out / "shared.json"
+    parts.write_text(json.dumps({"pieces": [{"outline": ring, "quantity": 8} for ring in corners]}))
+    folder = out / "shared"
+    code, said = run([kerfold, "nest", str(parts), "--common-line", "--format", "svg,dxf", "--tile", "a4", "-o", str(folder)])
+    check(code == 0, "kerfold", folder, said)
+    areas = []
+    for sheet in sorted(folder.glob("sheet-??.svg")):
+        size, layers = read_svg(sheet)
+        check_vpype(sheet, layers)
+        check_dxf(sheet.with_suffix(".dxf"), layers)
+        tiles = page_size(sheet.with_name(f"{sheet.stem}-a4.pdf"))
+        a4 = (210 * PT, 297 * PT)
+        check(same(tiles, a4, 0.01) or same(tiles, a4[::-1], 0.01), "pdfinfo", sheet, f"tiles of {tiles}")
+        lines = []
+        for _, _, drawn in layers["cut-outer"]:
+            lines += [LineString([(s.start.real, s.start.imag), (s.end.real, s.end.imag)]) for s in drawn]
+        # Ends that lie on other lines are rounded to four decimals.
+        united = unary_union([set_precision(line, ROUNDING) for line in lines])
+        drawn = sum(line.length for line in lines)
+        check(abs(united.length - drawn) < ROUNDING * len(lines), "shapely", sheet, f"{drawn} mm drawn, {united.length} apart")
+        areas += [cell.area for cell in polygonize(united)]
+    whole = [Polygon(ring).area for ring in corners]
+    for area in whole:
+        found = sum(abs(cell - area) < 0.2 for cell in areas)
+        check(found >= 8, "shapely", folder, f"{found} parts of {area} mm² instead of 8")
+
+
 def main():
     kerfold, out = sys.argv[1], Path(sys.argv[2])
     shutil.rmtree(out, ignore_errors=True)
@@ -208,6 +242,7 @@ def main():
             check_pdf(sheet.with_suffix(".pdf"), size)
             code, said = run(["xmllint", "--noout", str(sheet.with_suffix(".lbrn2"))])
             check(code == 0, "xmllint", sheet.with_suffix(".lbrn2"), said)
+    check_shared(kerfold, out)
     print(", ".join(f"{reader} {count}" for reader, count in sorted(counts.items())))
     for fault in faults:
         print(fault)

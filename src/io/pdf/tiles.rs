@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 
 use glam::DVec2;
 
-use super::{Page, decimal, document, draw_layers, path};
+use super::{Page, colour, decimal, document, draw_layers, path};
 use crate::sheet::{Drawing, LayerKind, Paper, SheetError, Stroke, Style, lettering};
 
 /// Free border left, right and above the window, in mm: printers need about 5.
@@ -25,6 +25,10 @@ const CROP: [f64; 2] = [5.0, 1.0];
 
 /// Length of the scale bar, in mm.
 const BAR: f64 = 100.0;
+
+/// The layer of what belongs to the page and not to the sheet: printed, never cut.
+const PAGE_LAYER: &str = "page info";
+const BEGIN_PAGE: &str = "/OC /L5 BDC\n";
 
 /// How the windows of the pages lie on a sheet.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -80,7 +84,7 @@ pub fn write_tiles(
     for (k, &i) in shown.iter().enumerate() {
         pages.push(tile_page(drawing, &tiling, (i, k + 1, shown.len()), &style)?);
     }
-    Ok(document(&pages, &format!("{} on {}", drawing.file_stem(), paper.name()), command))
+    Ok(document(&pages, &format!("{} on {}", drawing.file_stem(), paper.name()), command, Some(PAGE_LAYER)))
 }
 
 /// Whether something that is machined shows in a window.
@@ -127,12 +131,15 @@ fn tile_page(
     let [x, y, w, h, dx, dy] = [clip.x, clip.y, size.x, size.y, shift.x, shift.y].map(decimal);
     let _ = writeln!(content, "q {x} {y} {w} {h} re W n 1 0 0 1 {dx} {dy} cm");
     draw_layers(&mut content, drawing, style);
-    content += "Q\n0 0 0 RG 0.1 w\n";
+    content += "Q\n";
+    content += BEGIN_PAGE;
+    content += "0 0 0 RG 0.1 w\n";
     crop_marks(&mut content, corner, corner + tiling.window);
     scale_bar(&mut content)?;
     let (column, row) = (i % tiling.counts[0] + 1, i / tiling.counts[0] + 1);
     let words = format!("{}  PAGE {number} OF {of}  COLUMN {column} ROW {row}", drawing.file_stem().to_uppercase());
     write_words(&mut content, &words, DVec2::new(BORDER, 4.0), 2.5)?;
+    content += "EMC\n";
     Ok(Page { width: tiling.paper.x, height: tiling.paper.y, content })
 }
 
@@ -147,8 +154,13 @@ fn map_page(drawing: &Drawing, tiling: &Tiling, shown: &[usize], style: &Style) 
     let at = |p: DVec2| shift + p * scale;
     let mut content = String::new();
     let [x, y] = [shift.x, shift.y].map(decimal);
+    // A picture of the sheet: nothing in it is to be cut at this size.
+    content += BEGIN_PAGE;
     let _ = writeln!(content, "q {scale:.9} 0 0 {scale:.9} {x} {y} cm");
-    draw_layers(&mut content, drawing, style);
+    for layer in &drawing.layers {
+        colour(&mut content, style.pen(layer.kind));
+        layer.marks.iter().flat_map(|m| &m.strokes).for_each(|stroke| path(&mut content, stroke));
+    }
     content += "Q\n0.6 0.6 0.6 RG 0.2 w\n";
     let rectangle = |content: &mut String, low: DVec2, size: DVec2| {
         let corners = [(0.0, 0.0), (size.x, 0.0), (size.x, size.y), (0.0, size.y)];
@@ -168,6 +180,7 @@ fn map_page(drawing: &Drawing, tiling: &Tiling, shown: &[usize], style: &Style) 
     scale_bar(&mut content)?;
     let words = format!("{}  MAP OF {} PAGES", drawing.file_stem().to_uppercase(), shown.len());
     write_words(&mut content, &words, DVec2::new(BORDER, 4.0), 2.5)?;
+    content += "EMC\n";
     Ok(Page { width: tiling.paper.x, height: tiling.paper.y, content })
 }
 

@@ -168,7 +168,8 @@ fn flap(params: &SheetParams, width: f64) -> Result<Flap, SheetError> {
 
 fn holes(params: &SheetParams, [spacing, diameter]: [f64; 2]) -> Result<Holes, SheetError> {
     let kerf = params.kerf.mm();
-    let web = WEB + kerf;
+    // What the material wants, where it is known.
+    let web = params.made_of.as_ref().map_or(WEB, |m| m.web.mm().max(WEB)) + kerf;
     let diameter = length("hole-diameter", params.hole_diameter, diameter, kerf + 0.1)?;
     let spacing = length("hole-spacing", params.hole_spacing, spacing, diameter + web)?;
     let inset =

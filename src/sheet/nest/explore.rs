@@ -188,7 +188,11 @@ impl Explore<'_, '_, '_, '_> {
                 let spot = self.field.spots[i];
                 let (low, high) = self.field.range(&self.field.posed[i], last);
                 if (low - high).max_element() > 0.0 {
-                    self.relocate(i, best.bins);
+                    // What belongs to a group stays with it.
+                    match self.groups[i] {
+                        Some(_) => self.relocate_to(i, &[last]),
+                        None => self.relocate(i, best.bins),
+                    }
                 } else if spot.at.cmpgt(high).any() {
                     self.field.put(i, Spot { at: spot.at.min(high).max(low), ..spot });
                 }

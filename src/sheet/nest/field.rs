@@ -273,6 +273,24 @@ impl<'a> Field<'a> {
         sum
     }
 
+    /// The pieces that a piece at a place touches, up to a tolerance; nothing where it overlaps one, or is too near to one that
+    /// it does not touch, or to an obstacle.
+    pub fn touched(&mut self, i: usize, posed: &Posed, spot: Spot, tolerance: f64) -> Option<Vec<usize>> {
+        let mut most: Vec<(usize, f64)> = Vec::new();
+        let work = self.shortages(i, posed, spot.bin, spot.at, |other, shortage| {
+            match most.iter_mut().find(|m| m.0 == other) {
+                Some((_, worst)) => *worst = worst.max(shortage),
+                None => most.push((other, shortage)),
+            }
+            let may_touch = other < self.pieces;
+            shortage <= tolerance + if may_touch { self.spacing } else { 0.0 }
+        });
+        self.work += work;
+        most.retain(|m| m.1 > tolerance);
+        let touches = |m: &(usize, f64)| m.0 < self.pieces && (m.1 - self.spacing).abs() <= tolerance;
+        most.iter().all(touches).then(|| most.into_iter().map(|m| m.0).collect())
+    }
+
     /// The weighted shortages of a piece where it lies.
     pub fn loss_here(&mut self, i: usize) -> f64 {
         let Spot { bin, at, .. } = self.spots[i];

@@ -99,6 +99,7 @@ pub(crate) fn lay(
         pieces: pieces.collect(),
         stock: sheets.iter().map(StockSheet::bin).collect(),
         spacing: sheets[0].stock.spacing,
+        common_line: params.nest.common_line,
     };
     let is_plain = sheets.len() == 1 && problem.stock[0].obstacles.is_empty() && params.nest.together.0.is_empty();
     let start = (is_plain && candidates.len() <= MOST_BOXES).then(|| boxes(candidates, &sheets[0]));

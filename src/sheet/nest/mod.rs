@@ -5,6 +5,7 @@
 //! pieces of all sheets apart each time. Distances are those of convex parts ([`shape`]), found through a grid ([`field`]).
 //! All is in f64 and deterministic: the budget is work counted in parts measured, not time.
 
+mod abut;
 mod chance;
 mod explore;
 mod field;
@@ -22,7 +23,9 @@ mod stock;
 use glam::DVec2;
 
 pub(crate) use self::lay::{Laid, candidates, lay, offcut};
-pub use self::params::{Corners, DefectList, GroupList, Guillotine, NestParams, Rotation, RotationList, StockList};
+pub use self::params::{
+    CommonLine, Corners, DefectList, GroupList, Guillotine, NestParams, Rotation, RotationList, StockList,
+};
 pub(crate) use self::stock::StockSheet;
 
 use self::chance::Chance;
@@ -96,6 +99,7 @@ pub(crate) struct Problem {
     /// The sheets in the order in which they are used; the last one as often as needed.
     stock: Vec<Bin>,
     spacing: f64,
+    common_line: CommonLine,
 }
 
 /// Pieces, of one group, for which no place was found on an empty sheet.
@@ -135,11 +139,14 @@ pub(crate) fn nest(
     let shapes: Vec<Shape> = problem.pieces.iter().map(|p| p.shape.clone()).collect();
     let turns: Vec<Turns> = problem.pieces.iter().map(|p| p.turns.clone()).collect();
     let groups: Vec<Option<usize>> = problem.pieces.iter().map(|p| p.group).collect();
+    if problem.common_line == CommonLine::On {
+        return Ok(lying(&abut::lay_abutting((problem, &shapes), effort, progress)?, &shapes));
+    }
     let mut field = Field::new(&shapes, problem.spacing);
     let mut chance = Chance::new(effort.seed);
     let mut bins = Bins::new(problem);
     let trials = if problem.pieces.len() > FEW_TRIALS { 60 } else { 200 };
-    Start { field: &mut field, chance: &mut chance, bins: &mut bins, trials, progress }.lay_all()?;
+    Start { field: &mut field, chance: &mut chance, bins: &mut bins, trials, shake: 0.0, progress }.lay_all()?;
     let mut explore = Explore {
         field: &mut field,
         chance: &mut chance,
@@ -158,12 +165,17 @@ pub(crate) fn nest(
         }
     }
     let layout = explore.run(first);
-    let lying = layout.spots.iter().zip(&shapes).map(|(spot, shape)| {
+    Ok(lying(&layout.spots, &shapes))
+}
+
+/// Where the frames of the pieces lie.
+fn lying(spots: &[field::Spot], shapes: &[Shape]) -> Vec<Lying> {
+    let lying = spots.iter().zip(shapes).map(|(spot, shape)| {
         // The angle as the file shows it: far from the origin of its frame a piece would feel the difference.
         let angle = rounded(rounded(spot.angle).rem_euclid(360.0));
         Lying { bin: spot.bin, angle, at: spot.at - Turn::degrees(angle).apply(shape.origin) }
     });
-    Ok(lying.collect())
+    lying.collect()
 }
 
 #[cfg(test)]

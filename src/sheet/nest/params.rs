@@ -46,6 +46,11 @@ pub struct NestParams {
     #[arg(long, value_enum, default_value = "off", num_args = 0..=1, default_missing_value = "on", require_equals = true)]
     #[serde(default)]
     pub guillotine: Guillotine,
+    /// Whether parts may lie side to side and share straight lines, which are cut once; only without kerf. Where they do not
+    /// touch they keep the spacing
+    #[arg(long, value_enum, default_value = "off", num_args = 0..=1, default_missing_value = "on", require_equals = true)]
+    #[serde(default)]
+    pub common_line: CommonLine,
     /// How long to search for a better layout: about tenths of a second for a hundred pieces or more, less for few
     #[arg(long, value_name = "N", default_value_t = DEFAULT_EFFORT)]
     #[serde(default = "default_effort")]
@@ -73,6 +78,7 @@ impl Default for NestParams {
             sheet_outline: Corners::default(),
             defects: DefectList::default(),
             guillotine: Guillotine::default(),
+            common_line: CommonLine::default(),
             nest_effort: DEFAULT_EFFORT,
             nest_seed: 0,
         }
@@ -87,6 +93,17 @@ pub enum Guillotine {
     #[default]
     Off,
     /// Straight cuts from edge to edge free the bounding box of every piece.
+    On,
+}
+
+/// Whether parts may share lines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CommonLine {
+    /// Every part has lines of its own.
+    #[default]
+    Off,
+    /// Parts lie side to side where they can; a line that two share is cut once.
     On,
 }
 

@@ -24,6 +24,8 @@ pub(super) struct Shape {
     pub area: f64,
     /// Boxes of the holes, in this frame: places for smaller shapes.
     pub holes: Vec<(DVec2, DVec2)>,
+    /// The true sides of the outline that are long enough to lie against another, the longest first.
+    pub sides: Vec<[DVec2; 2]>,
     parts: Vec<Vec<DVec2>>,
     /// The true hull: parts may be larger by a little, and a shape that fills a sheet must fit.
     hull: Vec<DVec2>,
@@ -33,6 +35,7 @@ impl Shape {
     /// Of an outline and its holes; in a slightly larger form when it has very many corners.
     pub fn new(outline: &[DVec2], holes: &[Vec<DVec2>]) -> Self {
         let mut hull = convex_hull(outline);
+        let truly = outline;
         let (outline, holes) = simplified(outline, holes);
         let origin = centroid(&outline);
         let mut parts = convex_parts(&outline, &holes);
@@ -41,13 +44,26 @@ impl Shape {
         let radius = parts.iter().flatten().map(|p| p.length()).fold(0.0, f64::max);
         let area = parts.iter().map(|p| signed_area(p)).sum();
         let boxes = holes.iter().filter_map(bounds).map(|(low, high)| (low - origin, high - origin));
-        Self { origin, diameter: 2.0 * radius, area, holes: boxes.collect(), parts, hull }
+        let sides = sides(truly, origin, 2.0 * radius);
+        Self { origin, diameter: 2.0 * radius, area, sides, holes: boxes.collect(), parts, hull }
     }
 
     /// The greatest extents of the parts.
     pub fn extents(&self) -> impl Iterator<Item = f64> {
         self.parts.iter().filter_map(bounds).map(|(low, high)| (high - low).max_element())
     }
+}
+
+/// The sides longer than a part of the diameter, the longest first, and not very many.
+fn sides(outline: &[DVec2], origin: DVec2, diameter: f64) -> Vec<[DVec2; 2]> {
+    const LEAST: f64 = 0.05;
+    const MOST: usize = 24;
+    let n = outline.len();
+    let all = (0..n).map(|i| [outline[i] - origin, outline[(i + 1) % n] - origin]);
+    let mut sides: Vec<[DVec2; 2]> = all.filter(|[a, b]| a.distance(*b) >= LEAST * diameter).collect();
+    sides.sort_by(|a, b| b[0].distance(b[1]).total_cmp(&a[0].distance(a[1])));
+    sides.truncate(MOST);
+    sides
 }
 
 /// A convex part after a turn.

@@ -1,10 +1,11 @@
 //! The first layout: one piece after the other, the largest first, each as far back on the first sheet as a few hundred
 //! trials find room for it. Pieces of a group go onto one sheet.
 
+use super::abut::abutting;
 use super::chance::Chance;
 use super::field::{Field, Obstacle, Room, Spot};
 use super::search::{Search, Trials, Turns};
-use super::{Bin, NoPlace, Problem};
+use super::{Bin, CommonLine, NoPlace, Problem};
 use crate::progress::Progress;
 
 /// The bins that have been opened, and which pieces fit in them.
@@ -50,6 +51,8 @@ pub(super) struct Start<'s, 'f, 'a, 'p> {
     pub bins: &'s mut Bins<'p>,
     /// Trials for one piece on one sheet.
     pub trials: usize,
+    /// By how much, at most, the area of a piece counts for more than it is when the order is settled.
+    pub shake: f64,
     pub progress: &'s dyn Progress,
 }
 
@@ -89,10 +92,14 @@ impl Start<'_, '_, '_, '_> {
     }
 
     /// Groups and single pieces, the one with the largest piece first.
-    fn units(&self) -> Vec<Vec<usize>> {
+    fn units(&mut self) -> Vec<Vec<usize>> {
         let mut order: Vec<usize> = (0..self.field.pieces).collect();
         let shapes = self.field.shapes;
-        order.sort_by(|&a, &b| shapes[b].area.total_cmp(&shapes[a].area).then(a.cmp(&b)));
+        let (shake, chance) = (self.shake, &mut *self.chance);
+        let mut area =
+            |s: &super::shape::Shape| if shake > 0.0 { s.area * (1.0 + shake * chance.unit()) } else { s.area };
+        let areas: Vec<f64> = shapes.iter().map(&mut area).collect();
+        order.sort_by(|&a, &b| areas[b].total_cmp(&areas[a]).then(a.cmp(&b)));
         let pieces = &self.bins.problem.pieces;
         let mut units: Vec<Vec<usize>> = Vec::new();
         let mut place: std::collections::BTreeMap<usize, usize> = std::collections::BTreeMap::new();
@@ -127,6 +134,11 @@ impl Start<'_, '_, '_, '_> {
         let problem = self.bins.problem;
         let turns = &problem.pieces[i].turns;
         let axis = self.bins.get(bin).axis();
+        if problem.common_line == CommonLine::On
+            && let Some(spot) = abutting(self.field, turns, axis, (i, bin))
+        {
+            return Some(spot);
+        }
         let only = [bin];
         let trials = self.trials;
         let mut search = Search::new(self.field, self.chance, turns, &only, i);

@@ -7,7 +7,7 @@ use super::super::params::{SheetParams, Stock};
 use super::field::Obstacle;
 use super::parts::convex_parts;
 use super::shape::Shape;
-use super::{Bin, Guillotine};
+use super::{Bin, CommonLine, Guillotine};
 use crate::geom::polygon::{bounds, segments_cross, signed_area};
 
 /// One sheet.
@@ -56,11 +56,28 @@ impl SheetParams {
                 }
             }
         }
+        self.check_common_line()?;
         let is_odd = sheets.iter().any(|s| !s.outline.is_empty() || !s.defects.is_empty());
         if nest.guillotine == Guillotine::On && (is_odd || !nest.together.0.is_empty()) {
             return Err(SheetError::GuillotineOption);
         }
         Ok(Some(sheets))
+    }
+}
+
+impl SheetParams {
+    fn check_common_line(&self) -> Result<(), SheetError> {
+        if self.nest.common_line == CommonLine::Off {
+            return Ok(());
+        }
+        if self.kerf.mm() > 0.0 {
+            return Err(SheetError::CommonLineKerf { kerf: self.kerf.mm() });
+        }
+        let with = [("guillotine", self.nest.guillotine == Guillotine::On), ("hold", self.hold > 0)];
+        match with.into_iter().find(|w| w.1) {
+            Some((option, _)) => Err(SheetError::CommonLineOption { option }),
+            None => Ok(()),
+        }
     }
 }
 

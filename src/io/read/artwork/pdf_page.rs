@@ -7,6 +7,7 @@ use super::pdf::Objects;
 use super::pdf_object::{Dict, Lexer, Object, unpack};
 use super::svg_path::Subpaths;
 use super::{ArtError, Collector, DEEPEST, Place};
+use crate::geom::polygon::bounds;
 use crate::lint::{Artwork, Operation, UnitState};
 
 /// Millimetres in a point.
@@ -18,6 +19,8 @@ struct State {
     transform: DAffine2,
     stroke: [u8; 3],
     fill: [u8; 3],
+    /// The box, on the page, outside of which nothing shows.
+    clip: Option<(DVec2, DVec2)>,
 }
 
 struct Painter<'a> {
@@ -25,6 +28,8 @@ struct Painter<'a> {
     out: Collector,
     /// Names of the layers that are open, innermost last; content that belongs to none is marked, too.
     layers: Vec<Option<String>>,
+    /// Whether lines go on beyond what a clipping path shows: the page is a window on something larger.
+    is_window: bool,
 }
 
 pub(super) fn page(objects: &Objects, dict: &Dict) -> Result<Artwork, ArtError> {
@@ -50,13 +55,14 @@ pub(super) fn page(objects: &Objects, dict: &Dict) -> Result<Artwork, ArtError> 
     if quarter % 2 == 1 {
         size = DVec2::new(size.y, size.x);
     }
-    let state = State { transform: turned * upright, stroke: [0; 3], fill: [0; 3] };
-    let mut painter = Painter { objects, out: Collector::default(), layers: Vec::new() };
+    let state = State { transform: turned * upright, stroke: [0; 3], fill: [0; 3], clip: None };
+    let mut painter = Painter { objects, out: Collector::default(), layers: Vec::new(), is_window: false };
     let content = contents(objects, dict)?;
     let empty = Dict::new();
     let resources = objects.entry(dict, "Resources").and_then(Object::dict).unwrap_or(&empty);
     painter.paint(&content, resources, state, 0)?;
-    Ok(painter.out.finish(Some(size), UnitState::Known))
+    let size = Some(size).filter(|_| !painter.is_window);
+    Ok(painter.out.finish(size, UnitState::Known))
 }
 
 fn contents(objects: &Objects, dict: &Dict) -> Result<Vec<u8>, ArtError> {
@@ -133,6 +139,7 @@ impl Painter<'_> {
                 "EMC" => drop(self.layers.pop()),
                 _ if colour(&operator, &numbers, &mut state) => {}
                 _ if text.operate(&operator, &numbers, &stack, &state, &mut self.out) => {}
+                "W" | "W*" => state.clip = clipped(&path, &state),
                 _ => self.draw(&operator, &numbers, &mut path, &state),
             }
             stack.clear();
@@ -186,7 +193,15 @@ impl Painter<'_> {
             if points.len() < 2 {
                 continue;
             }
-            let points = points.into_iter().map(|p| state.transform.transform_point2(p)).collect();
+            let points: Vec<DVec2> = points.into_iter().map(|p| state.transform.transform_point2(p)).collect();
+            if let Some((low, high)) = state.clip
+                && let Some((from, to)) = bounds(&points)
+            {
+                if from.cmpgt(high).any() || to.cmplt(low).any() {
+                    continue;
+                }
+                self.is_window |= from.cmplt(low).any() || to.cmpgt(high).any();
+            }
             self.out.path((points, closed), &Place { layer: &told, name: None, operation, colour });
         }
     }
@@ -228,6 +243,14 @@ impl Painter<'_> {
             _ => None,
         }
     }
+}
+
+/// What shows after clipping by a path, too: what its box and the box before have in common.
+fn clipped(path: &Building, state: &State) -> Option<(DVec2, DVec2)> {
+    let points = path.done.iter().flat_map(|(points, _)| points).chain(&path.points);
+    let points: Vec<DVec2> = points.map(|&p| state.transform.transform_point2(p)).collect();
+    let (low, high) = bounds(&points)?;
+    Some(state.clip.map_or((low, high), |(l, h)| (low.max(l), high.min(h))))
 }
 
 /// Closes the path that is being built; what is drawn on without a move begins where it began.

@@ -278,6 +278,8 @@ codes!(error SheetError {
     NotPlacedOnce = 523,
     OverMargin = 524,
     TooClose = 525,
+    CommonLineKerf = 526,
+    CommonLineOption = 527,
 });
 
 /// A piece that fits on no sheet.

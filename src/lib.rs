@@ -26,6 +26,7 @@
 //!
 //! The modules are layers; each uses only those below it (`docs/architecture.md`).
 
+pub mod code;
 pub mod geom;
 pub mod progress;
 pub mod units;

@@ -7,6 +7,7 @@ use clap::ValueEnum;
 use serde::{Deserialize, Deserializer};
 
 use super::{Limits, Profile};
+use crate::code::codes;
 use crate::units::{Angle, Length};
 
 /// What to check, and how strictly.
@@ -88,6 +89,11 @@ pub enum CheckError {
         value: f64,
     },
 }
+
+codes!(error CheckError {
+    UnknownName = 801,
+    BadLimit = 802,
+});
 
 impl CheckParams {
     /// The profile's limits with the user's in their place.

@@ -6,6 +6,7 @@ use std::fmt;
 use glam::DVec3;
 
 use super::{Breach, CheckError, CheckParams, Limits, Profile, Requirement, Unit, findings};
+use crate::code::codes;
 use crate::measure::{self, Convexity, Planarity, planarity, plane_deviation};
 use crate::mesh::{EdgeId, FaceId, FaceMap, Mesh, VertexId};
 
@@ -115,6 +116,18 @@ pub enum CheckKind {
     /// More than one connected part.
     OneComponent,
 }
+
+codes!(finding CheckKind {
+    DegenerateFace = 101,
+    ZeroLengthEdge = 102,
+    SelfIntersection = 103,
+    Planarity = 104,
+    Valence = 105,
+    Closed = 106,
+    Convex = 107,
+    Manifold = 108,
+    OneComponent = 109,
+});
 
 /// What a finding is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

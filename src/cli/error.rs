@@ -4,6 +4,7 @@ use std::io;
 use std::path::PathBuf;
 
 use crate::check::CheckError;
+use crate::code::codes;
 use crate::gallery::GalleryError;
 use crate::io::IoError;
 use crate::io::artwork::ArtError;
@@ -72,7 +73,39 @@ pub(super) enum CliError {
     Stopped,
     #[error("writing to standard output: {0}")]
     Stdout(io::Error),
+    #[error("`{word}` is no code and no finding; {}`kerfold explain` lists all", did_you_mean(nearest.as_deref()))]
+    NoSuchCode { word: String, nearest: Option<String> },
 }
+
+codes!(error CliError {
+    UnknownSheetFormat = 1,
+    Unreadable = 2,
+    Scale = 3,
+    NotText = 4,
+    NotPng = 5,
+    UnknownReport = 6,
+    TwoToStdout = 7,
+    PicturesToStdout = 8,
+    Stdout = 9,
+    NoSuchCode = 10,
+    NoRecipes = 11,
+    UnknownRecipe = 12,
+    Gallery = 13,
+    Stopped = 14,
+} through {
+    Io.0,
+    Shape.0,
+    Op.0,
+    Check.0,
+    Picture.0,
+    Seam.0,
+    Limit.0,
+    Artwork.error,
+    Step.0,
+    Recipe.error,
+    RecipeStep.error,
+    Pieces.error,
+});
 
 impl CliError {
     /// Whether the reader of our output has gone: then all is well.
@@ -83,4 +116,8 @@ impl CliError {
             _ => false,
         }
     }
+}
+
+fn did_you_mean(nearest: Option<&str>) -> String {
+    nearest.map(|word| format!("did you mean `{word}`? ")).unwrap_or_default()
 }

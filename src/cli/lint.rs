@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 use super::error::CliError;
 use super::output::{command_line, short};
 use super::{Console, Outcome};
+use crate::code::Coded;
 use crate::io::artwork::read_artwork;
 use crate::lint::{Artwork, Finding, LintParams, LintReport, lint};
 use crate::recipe::{StepFailure, material};
@@ -82,7 +83,7 @@ fn as_text(judged: &[Judged]) -> String {
             head += &format!(" page {}", page.page);
         }
         for finding in &page.report.findings {
-            text += &format!("{head}: {}", finding.check.name());
+            text += &format!("{head}: {} {}", finding.check.code(), finding.check.name());
             if let Some(at) = finding.at {
                 text += &format!(" at {:.2}, {:.2}", at.x, at.y);
             }
@@ -119,7 +120,7 @@ fn as_json(judged: &[Judged], is_clean: bool) -> String {
 
 fn finding(finding: &Finding) -> Value {
     json!({
-        "check": finding.check.name(), "element": finding.element, "at": finding.at.map(|p| [p.x, p.y]),
+        "check": finding.check.name(), "code": finding.check.code().to_string(), "element": finding.element, "at": finding.at.map(|p| [p.x, p.y]),
         "measured": finding.measured, "limit": finding.limit, "unit": finding.measured.map(|_| "mm"),
         "message": finding.words, "advice": finding.check.advice(),
     })

@@ -7,6 +7,7 @@ mod check;
 mod cut;
 mod dform;
 mod error;
+mod explain;
 mod gallery;
 mod hull;
 mod info;
@@ -18,6 +19,7 @@ mod nest;
 mod operator;
 mod output;
 mod panels;
+mod reference;
 mod render;
 mod run;
 mod seams;
@@ -31,6 +33,7 @@ use std::process::ExitCode;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use output::Console;
+pub use reference::reference;
 
 use crate::op::{HandleParams, MengerParams, PlanarizeParams, RindParams, SierpinskiParams, SubdivideParams};
 
@@ -84,6 +87,7 @@ enum Verb {
     Run(run::RunArgs),
     Gallery(gallery::GalleryArgs),
     Render(render::RenderArgs),
+    Explain(explain::ExplainArgs),
     Completions(manual::CompletionsArgs),
     Man(manual::ManArgs),
 }
@@ -106,8 +110,11 @@ fn command() -> clap::Command {
 
 /// Reads the arguments of the process, does what they say, and returns the exit code.
 pub fn run() -> ExitCode {
-    let matches = command().get_matches();
-    let cli = Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
+    let parsed = command().try_get_matches().and_then(|matches| Cli::from_arg_matches(&matches));
+    let cli = match parsed {
+        Ok(cli) => cli,
+        Err(refusal) => return explain::refuse(&refusal),
+    };
     let console = cli.console;
     terminal::watch_for_ctrl_c();
     let result = match cli.verb {
@@ -133,6 +140,7 @@ pub fn run() -> ExitCode {
         Verb::Run(args) => run::run(&args, &console),
         Verb::Gallery(args) => gallery::run(&args, &console),
         Verb::Render(args) => render::run(&args, &console),
+        Verb::Explain(args) => explain::run(&args, &console),
         Verb::Completions(args) => manual::completions(&args),
         Verb::Man(args) => manual::man(&args, &console),
     };

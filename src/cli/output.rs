@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 
 use super::error::CliError;
+use crate::code::Coded;
 use crate::io::output::OutputFolder;
 use crate::io::{WriteOptions, write_mesh};
 use crate::measure::size;
@@ -137,7 +138,7 @@ pub(super) fn say(line: &str) {
     let _ = writeln!(std::io::stderr(), "{line}");
 }
 
-/// Prints an error.
+/// Prints an error with its code.
 pub(super) fn complain(error: &CliError) {
-    say(&format!("kerfold: {error}"));
+    say(&format!("kerfold: {error} ({})", error.code()));
 }

@@ -10,6 +10,7 @@ use super::output::{command_line, model_json, model_text, short};
 use super::terminal::Terminal;
 use super::unfold::summary_json;
 use super::{Console, Outcome};
+use crate::code::Coded;
 use crate::io::panels_json::finding;
 use crate::panel::{PanelFinding, PanelParams, PanelRequirement};
 use crate::recipe::{PanelFiles, Panelled, StepFailure, panel_model, panel_outputs, with_material};
@@ -110,12 +111,13 @@ pub(super) fn panels_text(panelled: &Panelled) -> String {
 }
 
 fn finding_text(finding: &PanelFinding) -> String {
+    let code = finding.requirement.code();
     match finding.requirement {
         PanelRequirement::Valence3 => {
-            format!("finding: vertex {} has {} edges instead of 3\n", finding.vertex, finding.measured)
+            format!("finding {code}: vertex {} has {} edges instead of 3\n", finding.vertex, finding.measured)
         }
         PanelRequirement::Conical => format!(
-            "finding: the plates of vertex {} miss each other by {:.3e} mm per mm of offset (at most {:e})\n",
+            "finding {code}: the plates of vertex {} miss each other by {:.3e} mm per mm of offset (at most {:e})\n",
             finding.vertex, finding.measured, finding.limit
         ),
     }

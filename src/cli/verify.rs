@@ -7,6 +7,7 @@ use serde_json::json;
 use super::error::CliError;
 use super::output::command_line;
 use super::{Console, Outcome};
+use crate::code::Coded;
 use crate::io::pieces_json::read_pieces_json;
 use crate::io::{ReadOptions, read_mesh};
 use crate::mesh::Mesh;
@@ -86,7 +87,7 @@ fn proof_text(args: &VerifyArgs, net: &Net, proof: &Result<Proof, ProofError>) -
             proof.overlaps,
             args.model.display()
         ),
-        Err(fault) => format!("FAIL: {fault}"),
+        Err(fault) => format!("FAIL: {fault} ({})", fault.code()),
     };
     format!("{pieces}\n{verdict}\n{}\n", limits())
 }
@@ -96,8 +97,9 @@ fn proof_json(net: &Net, proof: &Result<Proof, ProofError>) -> String {
         json!({ "congruence_mm": proof.congruence_mm, "refold_mm": proof.refold_mm, "overlaps": proof.overlaps })
     });
     let findings: Vec<String> = proof.as_ref().err().map(ToString::to_string).into_iter().collect();
+    let codes: Vec<String> = proof.as_ref().err().map(|fault| fault.code().to_string()).into_iter().collect();
     let told = json!({
-        "command": command_line(), "pieces": net.pieces.len(), "proof": measured, "findings": findings,
+        "command": command_line(), "pieces": net.pieces.len(), "proof": measured, "findings": findings, "codes": codes,
         "verdict": if proof.is_ok() { "pass" } else { "fail" },
         "limits": { "length_of_edge": LENGTH_LIMIT, "refold_of_size": REFOLD_LIMIT },
     });

@@ -4,6 +4,7 @@ use std::fmt;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+use crate::code::codes;
 use crate::mesh::BuildError;
 
 /// Where in a file something is. Shown as `spot.obj:17`, or as `spot.stl` when the file has no lines.
@@ -201,6 +202,30 @@ pub enum IoError {
     },
 }
 
+codes!(error IoError {
+    Missing = 101,
+    IsFolder = 102,
+    Unreadable = 103,
+    UnknownFormat = 104,
+    Empty = 105,
+    SeamOffEdges = 106,
+    NoSuchEdge = 107,
+    NoSeams = 108,
+    Torn = 109,
+    WeldedAway = 110,
+    BadWeld = 111,
+    BadSize = 112,
+    NoFolder = 113,
+    NotAFolder = 114,
+    WriteProtected = 115,
+    Unwritable = 116,
+    TooFarForStl = 117,
+    TooFarForGlb = 118,
+} through {
+    Content.fault,
+    Mesh.fault,
+});
+
 impl IoError {
     /// Whether the reader at the other end of a pipe has gone, which is no failure of ours.
     pub fn is_broken_pipe(&self) -> bool {
@@ -391,6 +416,23 @@ pub enum ContentFault {
         text: String,
     },
 }
+
+codes!(error ContentFault {
+    NotText = 131,
+    NotAVertex = 132,
+    NotAFace = 133,
+    NoSuchVertex = 134,
+    NotASeam = 135,
+    NotAnEdge = 136,
+    BadHeader = 137,
+    CountTooLarge = 138,
+    NoProperty = 139,
+    CutShort = 140,
+    BadValue = 141,
+    BadTriangle = 142,
+    TriangleNotFinite = 143,
+    NotThisFormat = 144,
+});
 
 /// A fault with its line; the path is added by the caller.
 #[derive(Debug, Clone, PartialEq)]

@@ -10,6 +10,7 @@ use glam::DVec2;
 use serde::Deserialize;
 
 use super::pieces_json::{PiecesJsonError, read_pieces_json};
+use crate::code::codes;
 use crate::geom::polygon::{Location, locate, segments_cross, signed_area};
 use crate::net::{EdgeLabel, FlatFace, MeshCounts, Net, Piece, PieceId, Proof, Rim, Seam};
 use crate::sheet::{NestParams, Rotation};
@@ -66,6 +67,16 @@ pub enum OrderError {
         most: usize,
     },
 }
+
+codes!(error OrderError {
+    Syntax = 161,
+    Units = 162,
+    Contour = 163,
+    Count = 164,
+} through {
+    Pieces.0,
+    Rotation.error,
+});
 
 /// More pieces than this are refused.
 const MOST_PIECES: usize = 100_000;

@@ -8,6 +8,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::panels_csv::{edge_name, group_name, node_name, sheet_of};
+use crate::code::Coded;
 use crate::net::PieceId;
 use crate::panel::{EdgeRow, GroupRow, NodeRow, PanelFinding, PanelRequirement, PanelRow, Plate, Plates, Schedule};
 use crate::sheet::Layout;
@@ -97,7 +98,7 @@ pub fn finding(finding: &PanelFinding) -> Value {
         PanelRequirement::Conical => ("conical", "mm/mm"),
     };
     json!({
-        "check": check, "element": "node", "id": finding.vertex.index(), "measured": finding.measured, "limit": finding.limit,
+        "check": check, "code": finding.requirement.code().to_string(), "element": "node", "id": finding.vertex.index(), "measured": finding.measured, "limit": finding.limit,
         "unit": unit,
     })
 }

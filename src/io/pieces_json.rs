@@ -8,6 +8,7 @@ use std::fmt::{self, Write as _};
 use glam::DVec2;
 use serde_json::Value;
 
+use crate::code::codes;
 use crate::net::{
     EdgeLabel, FlatFace, Fold, FoldKind, MeshCounts, Net, Piece, PieceId, Proof, Rim, Seam, SeamSide, Segment,
 };
@@ -43,6 +44,12 @@ pub enum PiecesJsonError {
         found: String,
     },
 }
+
+codes!(error PiecesJsonError {
+    Syntax = 181,
+    Missing = 182,
+    Wrong = 183,
+});
 
 /// The text of `pieces.json`. `command` is the command line that made the net.
 ///

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 
+use crate::code::codes;
 use crate::geom::hull::{HalfSpace, HalfSpaceError};
 use crate::units::parse_number;
 
@@ -87,6 +88,16 @@ pub enum PlanesError {
         line: usize,
     },
 }
+
+codes!(error PlanesError {
+    Read = 171,
+    Empty = 172,
+    Fields = 173,
+    NotANumber = 174,
+    NoDirection = 175,
+} through {
+    NoSolid.reason,
+});
 
 fn on_lines(lines: &[usize]) -> String {
     let lines: Vec<String> = lines.iter().map(usize::to_string).collect();

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::check::{Details, EdgeDetail, FaceReport, Finding, Limits, Report, VertexDetail};
+use crate::code::Coded;
 use crate::measure::Summary;
 use crate::mesh::VertexId;
 
@@ -163,6 +164,7 @@ struct Valence<'a> {
 #[derive(Serialize)]
 struct FindingRow<'a> {
     check: &'a str,
+    code: String,
     element: &'a str,
     id: usize,
     measured: f64,
@@ -274,6 +276,7 @@ fn edge(e: &EdgeDetail) -> Edge {
 fn finding(f: &Finding) -> FindingRow<'_> {
     FindingRow {
         check: f.check.name(),
+        code: f.check.code().to_string(),
         element: f.element.name(),
         id: f.id,
         measured: f.measured,

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use crate::check::{CheckKind, FaceReport, Limits, Report, short};
+use crate::code::Coded;
 use crate::measure::{Planarity, Summary};
 
 /// Faces in the table of the worst.
@@ -192,7 +193,7 @@ fn findings(page: &mut Page, report: &Report) {
     page.blank();
     let width = report.findings.iter().map(|f| f.check.name().len()).max().unwrap_or(0);
     for f in report.findings.iter().take(SHOWN) {
-        page.line(&format!("{:width$}  {}", f.check.name(), f.message));
+        page.line(&format!("{} {:width$}  {}", f.check.code(), f.check.name(), f.message));
     }
     if report.findings.len() > SHOWN {
         page.line(&format!("... and {} more; --report FILE.json lists all", report.findings.len() - SHOWN));

@@ -2,6 +2,7 @@
 
 use serde::Deserialize;
 
+use crate::code::codes;
 use crate::units::Length;
 
 /// What a drawing is measured against.
@@ -66,6 +67,8 @@ pub struct LimitError {
     /// What it may be.
     pub wanted: &'static str,
 }
+
+codes!(error struct LimitError = 811);
 
 impl LintParams {
     /// The width of the cut in mm.

@@ -1,5 +1,6 @@
 //! What was found, as data.
 
+use crate::code::codes;
 use glam::DVec2;
 
 /// What is looked for.
@@ -31,6 +32,21 @@ pub enum Check {
     /// Two lines that cross.
     Crossing,
 }
+
+codes!(finding Check {
+    OpenContour = 201,
+    Duplicate = 202,
+    Overlap = 203,
+    Text = 204,
+    Units = 205,
+    OffSheet = 206,
+    SmallHole = 207,
+    ThinWeb = 208,
+    Order = 209,
+    StrayPoint = 210,
+    SelfCrossing = 211,
+    Crossing = 212,
+});
 
 impl Check {
     /// Its name in reports.

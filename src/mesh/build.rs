@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::store::FaceList;
 use super::{EdgeId, FaceKind, HalfEdgeId, Mesh, VertexId};
+use crate::code::codes;
 
 /// Collects vertices and faces and builds a mesh of them.
 ///
@@ -113,6 +114,19 @@ pub enum BuildError {
         count: usize,
     },
 }
+
+codes!(error BuildError {
+    NoFaces = 231,
+    NotFinite = 232,
+    MissingVertex = 233,
+    TooFewCorners = 234,
+    RepeatedCorner = 235,
+    ZeroLengthEdge = 236,
+    DegenerateFace = 237,
+    ThreeFacesAtEdge = 238,
+    FlippedFace = 239,
+    TooMany = 240,
+});
 
 /// A vertex at which several fans met: each further fan got a vertex of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,6 +3,7 @@
 use std::fmt::Debug;
 
 use super::{FaceId, HalfEdgeId, Mesh, VertexId, VertexMap};
+use crate::code::codes;
 
 /// A broken invariant. A sound mesh has none; operators never make one, so a fault is a bug of ours.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -53,6 +54,19 @@ pub enum Fault {
     #[error("vertex {0} has a coordinate that is not finite")]
     NotFinite(VertexId),
 }
+
+codes!(error Fault {
+    DanglingHalfEdge = 261,
+    BrokenWalk = 262,
+    Jump = 263,
+    FaceChange = 264,
+    VertexStart = 265,
+    FaceStart = 266,
+    SplitFan = 267,
+    SplitFace = 268,
+    PointSphere = 269,
+    NotFinite = 270,
+});
 
 impl Mesh {
     /// Every fault of the mesh, with ids; empty for a sound mesh. Takes time proportional to the mesh.

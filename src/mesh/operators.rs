@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::{Corner, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
+use crate::code::codes;
 
 /// Why a high-level operator refused; the mesh is unchanged then.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -18,6 +19,12 @@ pub enum OperatorError {
     #[error("edge {0} is a self-loop; delete it instead of collapsing it")]
     SelfLoop(EdgeId),
 }
+
+codes!(error OperatorError {
+    SameFace = 245,
+    TooFewCorners = 246,
+    SelfLoop = 247,
+});
 
 impl Mesh {
     /// Deletes an edge and the point spheres that it leaves (Srinivasan 2004, III.1).

@@ -1,5 +1,6 @@
 //! What a caller of an operator can mend.
 
+use crate::code::codes;
 use crate::geom::hull::{HalfSpaceError, HullError};
 use crate::mesh::{BuildError, EdgeId, FaceId, VertexId};
 use crate::select::SelectError;
@@ -245,6 +246,43 @@ pub enum OpError {
     #[error("stopped before the end; nothing was written")]
     Cancelled,
 }
+
+codes!(error OpError {
+    OffsetOutOfRange = 301,
+    BendOutOfRange = 302,
+    RepeatOutOfRange = 303,
+    NoDirection = 304,
+    BadPoint = 305,
+    NoPlaneAtVertex = 306,
+    NoPlaneAtEdge = 307,
+    NoPlaneAtFace = 308,
+    TwoParts = 309,
+    NothingLeft = 310,
+    NotDisjoint = 311,
+    DepthTooSmall = 312,
+    CountOutOfRange = 313,
+    ConcavityOutOfRange = 314,
+    Exclude = 315,
+    Requires = 316,
+    WeightOutOfRange = 317,
+    ShareOutOfRange = 318,
+    TooManyFaces = 319,
+    AllCornersFixed = 320,
+    NoSuchGroup = 321,
+    NoArea = 322,
+    AllOpened = 323,
+    AngleOutOfRange = 324,
+    NotClosed = 325,
+    NotABox = 326,
+    NoSuchElement = 327,
+    NoHandle = 328,
+    Cancelled = 329,
+} through {
+    Select.0,
+    NoHull.reason,
+    HalfSpaces.reason,
+    Build.0,
+});
 
 fn first_few(elements: &[usize]) -> String {
     let shown: Vec<String> = elements.iter().take(8).map(usize::to_string).collect();

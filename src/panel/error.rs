@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::code::codes;
 use crate::mesh::{EdgeId, FaceId, VertexId};
 
 /// Why a mesh cannot be made of plates.
@@ -61,6 +62,16 @@ pub enum PanelError {
     #[error("stopped before all plates were made; nothing was written")]
     Cancelled,
 }
+
+codes!(error PanelError {
+    OutOfRange = 601,
+    UnknownGroup = 602,
+    NoPlane = 603,
+    KnifeEdge = 604,
+    Spike = 605,
+    Collision = 606,
+    Cancelled = 607,
+});
 
 /// A place where the sides of one plate run past each other.
 #[derive(Debug, Clone, PartialEq)]

@@ -8,6 +8,7 @@ use serde::{Deserialize, Deserializer};
 
 use super::error::PanelError;
 use super::rule::EdgeRules;
+use crate::code::codes;
 use crate::units::{Length, UnitError};
 
 /// How the faces of a model become plates. The thickness itself comes beside it, since sheets need it too.
@@ -156,6 +157,11 @@ pub enum PanelRequirement {
     /// The plates of every node meet in a point.
     Conical,
 }
+
+codes!(finding PanelRequirement {
+    Valence3 = 301,
+    Conical = 302,
+});
 
 /// A group of the file with a thickness of its own.
 #[derive(Debug, Clone, PartialEq)]

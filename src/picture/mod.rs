@@ -23,6 +23,7 @@ pub use strip::{Cell, render_strip};
 
 use tiny_skia::Pixmap;
 
+use crate::code::codes;
 use crate::mesh::VertexId;
 
 /// The smallest width and height of a picture, in pixels.
@@ -96,6 +97,15 @@ pub enum PictureError {
         y: f64,
     },
 }
+
+codes!(error PictureError {
+    SizeOutOfRange = 821,
+    NoDirection = 822,
+    NoFaces = 823,
+    VertexTooFar = 824,
+    SheetWithoutSize = 825,
+    StrokeNotFinite = 826,
+});
 
 impl Picture {
     /// Width in pixels.

@@ -8,6 +8,7 @@ use glam::DVec3;
 use serde::{Deserialize, Deserializer};
 
 use super::PictureError;
+use crate::code::codes;
 use crate::units::parse_number;
 
 /// How to draw a model. One definition for the library, the command line and the recipe.
@@ -154,6 +155,8 @@ pub struct ViewError {
     /// What was typed.
     pub text: String,
 }
+
+codes!(error struct ViewError = 831);
 
 impl FromStr for View {
     type Err = ViewError;

@@ -6,6 +6,7 @@
 use std::fmt;
 use std::str::FromStr;
 
+use crate::code::codes;
 use serde::{Deserialize, Deserializer};
 
 /// Which of the solid's edges become folds, one at every vertex.
@@ -35,6 +36,8 @@ pub struct MatchingChoiceError {
     /// What was typed.
     pub text: String,
 }
+
+codes!(error struct MatchingChoiceError = 751);
 
 impl FromStr for MatchingChoice {
     type Err = MatchingChoiceError;

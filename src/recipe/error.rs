@@ -5,6 +5,7 @@ use std::fmt;
 use super::materials::MaterialError;
 use super::panels::PanelOptionError;
 use crate::check::CheckError;
+use crate::code::{Code, Coded, codes};
 use crate::io::IoError;
 use crate::io::planes_csv::PlanesError;
 use crate::mesh::BuildError;
@@ -87,6 +88,15 @@ pub enum RecipeError {
     NoSteps,
 }
 
+codes!(error RecipeError {
+    Syntax = 701,
+    UnknownKey = 702,
+    NoVerb = 703,
+    TwoVerbs = 704,
+    BadValue = 705,
+    NoSteps = 706,
+});
+
 /// Why a recipe could not be carried out. The step is counted from 1.
 #[derive(Debug, thiserror::Error)]
 #[error("step {step} ({verb}): {cause}")]
@@ -97,6 +107,12 @@ pub struct StepError {
     pub verb: &'static str,
     /// Why it failed.
     pub cause: Box<StepFailure>,
+}
+
+impl Coded for StepError {
+    fn code(&self) -> Code {
+        self.cause.code()
+    }
 }
 
 /// What stopped a step.
@@ -155,3 +171,24 @@ pub enum StepFailure {
     #[error(transparent)]
     Picture(#[from] PictureError),
 }
+
+codes!(error StepFailure {
+    NoMesh = 711,
+    SecondMesh = 712,
+    State = 713,
+} through {
+    Io.0,
+    Planes.0,
+    Shape.0,
+    Op.0,
+    Select.0,
+    Seam.0,
+    Check.0,
+    Unfold.0,
+    Nest.0,
+    Sheet.0,
+    Material.0,
+    Panel.0,
+    PanelOption.0,
+    Picture.0,
+});

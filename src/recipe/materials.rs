@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use crate::code::codes;
 use crate::sheet::{Material, SheetError, SheetParams};
 use crate::units::nearest_word;
 
@@ -52,6 +53,15 @@ pub enum MaterialError {
         fault: SheetError,
     },
 }
+
+codes!(error MaterialError {
+    Unknown = 731,
+    NoName = 732,
+    Unreadable = 733,
+    Table = 734,
+} through {
+    Range.fault,
+});
 
 /// The material of a name: of the user's file first, where one is given, else of the bundled table.
 ///

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 
 use super::{Fabrication, StepFailure};
+use crate::code::codes;
 use crate::io::order_json::{Order, OrderError};
 use crate::progress::Progress;
 use crate::sheet::{SheetParams, lay_out_watched};
@@ -67,6 +68,13 @@ pub enum NestError {
         quantity: u32,
     },
 }
+
+codes!(error NestError {
+    Unreadable = 721,
+    Quantity = 722,
+} through {
+    Order.error,
+});
 
 /// Nests the pieces of files, which are looked for from `folder`.
 ///

@@ -5,6 +5,7 @@ use serde::Deserialize;
 
 use super::outputs::Output;
 use super::{Fabrication, StepFailure, fabrication_outputs};
+use crate::code::codes;
 use crate::io::map_files::{map_pdf, map_svg};
 use crate::io::panels_csv::{cutting_list_csv, edges_csv, nodes_csv, panels_csv};
 use crate::io::panels_json::panels_json;
@@ -89,6 +90,12 @@ pub enum PanelOptionError {
         by: &'static str,
     },
 }
+
+codes!(error PanelOptionError {
+    NoThickness = 741,
+    Joint = 742,
+    Unused = 743,
+});
 
 /// Makes the plates of a mesh in millimetres, lists them and lays them out on sheets. The thickness, the width of fingers and
 /// the sizes of holes are those of the sheet's parameters; without a thickness that of the material is taken.

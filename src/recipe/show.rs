@@ -12,6 +12,7 @@ use serde::{Deserialize, Deserializer};
 use super::outputs::Output;
 use super::{Fabrication, StepFailure};
 use crate::bloom::{Bloom, FlatPlace, FoldTree, Leaf, Pose, state_mesh};
+use crate::code::codes;
 use crate::io::bloom_glb::bloom_scene;
 use crate::io::glb::glb_bytes;
 use crate::measure::face_area;
@@ -74,6 +75,8 @@ pub struct AnimationFileError {
     /// What was typed.
     pub text: String,
 }
+
+codes!(error struct AnimationFileError = 752);
 
 impl FromStr for AnimationFile {
     type Err = AnimationFileError;

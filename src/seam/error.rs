@@ -1,6 +1,7 @@
 //! Why there is no such seam set.
 
 use super::NoHamiltonian;
+use crate::code::codes;
 use crate::mesh::{EdgeId, VertexId};
 
 /// Why folds or seams of the wanted kind cannot be given.
@@ -108,6 +109,21 @@ pub enum SeamError {
         conflicts: u64,
     },
 }
+
+codes!(error SeamError {
+    Empty = 401,
+    Open = 402,
+    Valence = 403,
+    NoMatching = 404,
+    TooMany = 405,
+    NoSuchMatching = 406,
+    SeveralComponents = 407,
+    NoHamiltonian = 408,
+    NoHandle = 409,
+    NoOnePiece = 410,
+    Cancelled = 411,
+    SearchStopped = 412,
+});
 
 /// The first ids of a list, for messages.
 pub(super) struct Listed<'a, T>(pub &'a [T]);

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::code::codes;
 use crate::seam::SeamError;
 
 /// What is selected.
@@ -97,6 +98,16 @@ pub enum SelectError {
         found: Option<String>,
     },
 }
+
+codes!(error SelectError {
+    WrongKind = 281,
+    NoSuchId = 282,
+    NoSuchGroup = 283,
+    NothingMade = 284,
+    Empty = 285,
+} through {
+    Seams.source,
+});
 
 fn list(kinds: &[ElementKind]) -> String {
     kinds.iter().map(|kind| kind.plural()).collect::<Vec<_>>().join(" and ")

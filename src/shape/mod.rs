@@ -20,6 +20,7 @@ use std::ops::RangeInclusive;
 
 use glam::DVec3;
 
+use crate::code::codes;
 use crate::mesh::{BuildError, Mesh, VertexId};
 use crate::units::Length;
 
@@ -109,6 +110,17 @@ pub enum ShapeError {
     #[error("the solid cannot be built: {0}")]
     Build(#[from] BuildError),
 }
+
+codes!(error ShapeError {
+    UnknownName = 271,
+    Number = 272,
+    BoxExtents = 273,
+    EdgeAndSize = 274,
+    BoxIsSized = 275,
+    Length = 276,
+} through {
+    Build.0,
+});
 
 fn hint(nearest: Option<&str>) -> String {
     match nearest {

@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::joint::Joint;
 use super::layout::SheetId;
+use crate::code::codes;
 use crate::net::PieceId;
 
 /// Why pieces could not be laid out. The last three variants are the findings of [`super::verify`]: our own bugs, reported
@@ -250,6 +251,36 @@ pub enum SheetError {
         spacing: f64,
     },
 }
+
+codes!(error SheetError {
+    OutOfRange = 501,
+    JointOption = 502,
+    ScoreOption = 503,
+    HoldOption = 504,
+    TooManyTabs = 505,
+    BadSpeed = 506,
+    MaterialNotTaken = 507,
+    FlapAngle = 508,
+    MarginTooLarge = 509,
+    PiecesTooLarge = 510,
+    BadPolygon = 511,
+    GuillotineOption = 512,
+    NoSuchPiece = 513,
+    NoPlace = 514,
+    Turned = 515,
+    Parted = 516,
+    OnDefect = 517,
+    CutThrough = 518,
+    BadContour = 519,
+    KerfSplit = 520,
+    UnknownPiece = 521,
+    NoGlyph = 522,
+    NotPlacedOnce = 523,
+    OverMargin = 524,
+    TooClose = 525,
+    CommonLineKerf = 526,
+    CommonLineOption = 527,
+});
 
 /// A piece that fits on no sheet.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -9,6 +9,7 @@ use serde::{Deserialize, Deserializer};
 
 use super::drawing::LayerKind;
 use super::params::Preset;
+use crate::code::codes;
 
 /// A format of sheet files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, ValueEnum)]
@@ -49,6 +50,8 @@ pub struct FormatsError {
     /// What was typed.
     pub word: String,
 }
+
+codes!(error struct FormatsError = 541);
 
 impl Formats {
     /// The formats.

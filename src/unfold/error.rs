@@ -1,6 +1,7 @@
 //! Why a mesh could not be unfolded.
 
 use super::ProofError;
+use crate::code::codes;
 use crate::seam::{NoHamiltonian, SeamError};
 
 /// Why a mesh could not be unfolded. Faces and edges are named by their numbers in the mesh.
@@ -120,3 +121,21 @@ pub enum UnfoldError {
     #[error("the net failed its proof, which is a fault of kerfold, please report it: {0}")]
     NotProven(#[from] ProofError),
 }
+
+codes!(error UnfoldError {
+    NoFaces = 421,
+    FaceWithoutArea = 422,
+    NotPlanar = 423,
+    FaceNotSimple = 424,
+    FaceMeetsItself = 425,
+    UnknownEdge = 426,
+    MorePieces = 427,
+    NoFlatTwoPieces = 428,
+    NotKept = 429,
+    KeptAndCut = 430,
+    ConePoints = 431,
+    TooManyPieces = 432,
+    NotProven = 433,
+} through {
+    Seam.0,
+});

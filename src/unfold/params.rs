@@ -5,6 +5,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Deserializer};
 
+use crate::code::codes;
 use crate::mesh::{EdgeId, Mesh, SplitVertex};
 
 /// How the model is to be taken apart.
@@ -30,6 +31,8 @@ pub struct PiecesModeError {
     /// What was typed.
     pub text: String,
 }
+
+codes!(error struct PiecesModeError = 441);
 
 impl FromStr for PiecesMode {
     type Err = PiecesModeError;

@@ -7,6 +7,7 @@ pub use nearest::nearest_word;
 use std::fmt;
 use std::str::FromStr;
 
+use crate::code::codes;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// A length in millimetres. Typed as `3`, `3mm`, `0.5cm`, `1m`, `1/8in`, `2ft`, `0.2um`; without a unit it is millimetres.
@@ -32,6 +33,8 @@ pub struct UnitError {
     /// An example to copy.
     pub example: &'static str,
 }
+
+codes!(error struct UnitError = 201);
 
 impl Length {
     /// A length of `mm` millimetres.

@@ -15,6 +15,7 @@ use super::polytope::Polytope;
 use super::split::split;
 use super::start::{Flat, enclose_centre, far_apart};
 use super::surface::{Slot, Surface, room};
+use crate::code::codes;
 
 /// A half-space: all x with normal · x ≤ offset.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -117,6 +118,15 @@ pub enum HalfSpaceError {
         direction: DVec3,
     },
 }
+
+codes!(error HalfSpaceError {
+    TooMany = 221,
+    NotFinite = 222,
+    NoDirection = 223,
+    Infeasible = 224,
+    NoVolume = 225,
+    Unbounded = 226,
+});
 
 impl HalfSpaceError {
     /// The half-spaces concerned, where there are some to name.

@@ -10,6 +10,7 @@ use super::order::{MOST_POINTS, insertion_order};
 use super::polytope::Polygons;
 use super::start::{Flat, far_apart};
 use super::surface::{NONE, Surface, room};
+use crate::code::codes;
 use crate::geom::RoundingBound;
 use crate::geom::predicate::orient3d;
 
@@ -68,6 +69,15 @@ pub enum HullError {
         normal: DVec3,
     },
 }
+
+codes!(error HullError {
+    TooFew = 211,
+    TooMany = 212,
+    NotFinite = 213,
+    Coincident = 214,
+    Collinear = 215,
+    Coplanar = 216,
+});
 
 /// The faces of the convex hull of `points`, as runs of point numbers, counter-clockwise seen from outside.
 ///

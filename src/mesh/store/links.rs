@@ -7,6 +7,7 @@
 use glam::DVec3;
 
 use super::{Corner, Face, FaceKind, HalfEdge, Link, Mesh, NONE, Vertex};
+use crate::code::codes;
 use crate::mesh::{EdgeId, FaceId, HalfEdgeId, MAX_ELEMENTS, VertexId};
 
 mod corner;
@@ -31,6 +32,13 @@ pub enum LinkError {
     #[error("vertex {0} has edges; name one of its corners by a half-edge")]
     NotLone(VertexId),
 }
+
+codes!(error LinkError {
+    NotAPointSphere = 251,
+    NotValenceTwo = 252,
+    SelfLoop = 253,
+    NotLone = 254,
+});
 
 impl Mesh {
     // ---- fundamental operators (Srinivasan 2004, II.5) -------------------------------------------------------------

@@ -29,7 +29,8 @@ mod tests;
 
 use glam::DVec3;
 
-use super::{OpContext, OpError};
+use super::{OpContext, OpError, OpFinding};
+use crate::code::Coded;
 use crate::mesh::{FaceId, HalfEdgeId, Mesh, VertexId};
 use crate::select::Made;
 
@@ -72,8 +73,9 @@ impl HandleReport {
             let shown: Vec<String> = self.crossing.iter().take(8).map(usize::to_string).collect();
             let more = if self.crossing.len() > 8 { ", …" } else { "" };
             notes.push(format!(
-                "the handle crosses itself in segment {}{more}: it bends more sharply there than it is wide; take other weights or fewer segments",
-                shown.join(", ")
+                "the handle crosses itself in segment {}{more}: it bends more sharply there than it is wide; take other weights or fewer segments ({})",
+                shown.join(", "),
+                OpFinding::HandleCrosses.code()
             ));
         }
         notes

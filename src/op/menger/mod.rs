@@ -27,7 +27,8 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Deserializer, de};
 
-use super::{OpContext, OpError};
+use super::{OpContext, OpError, OpFinding};
+use crate::code::Coded;
 use crate::mesh::Mesh;
 use crate::units::{Angle, Length, UnitError, parse_number};
 
@@ -135,9 +136,10 @@ impl MengerReport {
             let shown: Vec<String> = faces.iter().take(8).map(usize::to_string).collect();
             let more = if faces.len() > 8 { ", …" } else { "" };
             format!(
-                "round {round}: the thickness is too large at {} faces ({}{more}), so the sponge crosses itself there; take less",
+                "round {round}: the thickness is too large at {} faces ({}{more}), so the sponge crosses itself there; take less ({})",
                 faces.len(),
-                shown.join(", ")
+                shown.join(", "),
+                OpFinding::SpongeCrosses.code()
             )
         };
         self.crossing.iter().map(note).collect()

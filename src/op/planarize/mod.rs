@@ -19,8 +19,9 @@ use glam::DVec3;
 use serde::Deserialize;
 
 use self::constraints::Constraints;
-use super::{OpContext, OpError};
+use super::{OpContext, OpError, OpFinding};
 use crate::check::{Limits, Profile};
+use crate::code::Coded;
 use crate::geom::{RoundingBound, fit_plane};
 use crate::measure::planarity;
 use crate::mesh::{FaceId, Mesh, VertexId};
@@ -137,7 +138,8 @@ impl PlanarizeReport {
         )];
         if let Some(worst) = self.worst.filter(|_| !self.is_planar) {
             notes.push(format!(
-                "the profile is not reached: face {worst} is the worst; allow more rounds, free its fixed corners, or divide it"
+                "the profile is not reached: face {worst} is the worst; allow more rounds, free its fixed corners, or divide it ({})",
+                OpFinding::NotPlanar.code()
             ));
         }
         notes

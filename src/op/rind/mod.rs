@@ -31,7 +31,8 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Deserializer, de};
 
-use super::{OpContext, OpError};
+use super::{OpContext, OpError, OpFinding};
+use crate::code::Coded;
 use crate::geom::RoundingBound;
 use crate::mesh::{FaceId, FaceMap, Mesh};
 use crate::select::{Made, Selection};
@@ -149,9 +150,10 @@ impl RindReport {
             let shown: Vec<String> = self.crossing.iter().take(8).map(usize::to_string).collect();
             let more = if self.crossing.len() > 8 { ", …" } else { "" };
             notes.push(format!(
-                "the shell crosses itself at {} faces ({}{more}): the thickness is more than the shape allows there; take less",
+                "the shell crosses itself at {} faces ({}{more}): the thickness is more than the shape allows there; take less ({})",
                 self.crossing.len(),
-                shown.join(", ")
+                shown.join(", "),
+                OpFinding::ShellCrosses.code()
             ));
         }
         notes

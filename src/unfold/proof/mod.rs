@@ -12,6 +12,7 @@ mod structure;
 
 pub use renumber::renumbered;
 
+use crate::code::codes;
 use crate::mesh::Mesh;
 use crate::net::{Net, Proof};
 
@@ -152,6 +153,22 @@ pub enum ProofError {
     },
 }
 
+codes!(finding ProofError {
+    Counts = 401,
+    FaceTimes = 402,
+    Corners = 403,
+    Rim = 404,
+    Mirrored = 405,
+    Outline = 406,
+    Distorted = 407,
+    Partners = 408,
+    Overlap = 409,
+    Loose = 410,
+    Refold = 411,
+} through {
+    Edge.fault,
+});
+
 /// What is wrong with an edge of a net.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -184,6 +201,15 @@ pub enum EdgeFault {
         by: f64,
     },
 }
+
+codes!(finding EdgeFault {
+    Unknown = 421,
+    Times = 422,
+    Missing = 423,
+    Neighbours = 424,
+    Piece = 425,
+    Segment = 426,
+});
 
 /// Measures a net against the mesh that it was made of.
 ///

@@ -14,6 +14,7 @@ mod svg_path;
 
 use std::path::Path;
 
+use crate::code::codes;
 use crate::lint::{ArtPath, ArtText, Artwork, Operation, UnitState};
 use glam::DVec2;
 
@@ -62,6 +63,15 @@ pub enum ArtError {
     #[error("groups or blocks are nested deeper than {DEEPEST} levels; they may contain themselves")]
     TooDeep,
 }
+
+codes!(error ArtError {
+    UnknownFormat = 151,
+    Empty = 152,
+    Svg = 153,
+    Dxf = 154,
+    Pdf = 155,
+    TooDeep = 156,
+});
 
 impl ArtFormat {
     /// The format by the beginning of the content, else by the name.

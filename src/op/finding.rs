@@ -1,0 +1,24 @@
+//! What an operator can find wrong with its own result, which it returns all the same.
+
+use crate::code::codes;
+
+/// What is wrong with a mesh that an operator made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum OpFinding {
+    /// [`super::planarize`] did not reach its profile.
+    NotPlanar,
+    /// The second skin of a [`super::rind`] crosses itself.
+    ShellCrosses,
+    /// Frames or tunnels of [`super::menger`] do not fit.
+    SpongeCrosses,
+    /// Sections of a [`super::handle`] pass through each other.
+    HandleCrosses,
+}
+
+codes!(finding OpFinding {
+    NotPlanar = 501,
+    ShellCrosses = 502,
+    SpongeCrosses = 503,
+    HandleCrosses = 504,
+});

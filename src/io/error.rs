@@ -115,12 +115,6 @@ pub enum IoError {
         /// The file.
         path: PathBuf,
     },
-    /// A file of points without one.
-    #[error("{}: there are no points; write one in each line as x,y,z", Shown(path))]
-    NoPoints {
-        /// The file.
-        path: PathBuf,
-    },
     /// The surface would be closed if vertices at one point were one.
     #[error(
         "{}: the surface is torn: each of its {rim_edges} rim edges lies exactly on another one; \
@@ -321,14 +315,6 @@ pub enum ContentFault {
     /// A line of an edge list that cannot be read.
     #[error("`{text}` is not an edge; it needs the numbers of its two vertices, counted from 0, as in `3 17`")]
     NotAnEdge {
-        /// The line.
-        text: String,
-    },
-    /// A line of a polyline that cannot be read.
-    #[error(
-        "`{text}` is no point of a polyline; write three numbers like `0,0,25`, or in an OBJ file an `l` line with points that stand before it"
-    )]
-    NotAPoint {
         /// The line.
         text: String,
     },

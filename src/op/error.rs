@@ -228,20 +228,6 @@ pub enum OpError {
         /// Why not, and what to do.
         reason: &'static str,
     },
-    /// A face of a shell has nothing behind it that it could be joined to.
-    #[error("{face} has no partner: no face with as many sides lies behind it within {} mm; give a larger thickness, or open other faces", 2.0 * thickness)]
-    NoPartner {
-        /// The face.
-        face: FaceId,
-        /// The thickness, in mm.
-        thickness: f64,
-    },
-    /// An operator got the name of a file where it needs what the file holds.
-    #[error("{} has to be read before the operator is called; give its points", path.display())]
-    FileNotRead {
-        /// The file.
-        path: std::path::PathBuf,
-    },
     /// The user asked to stop.
     #[error("stopped before the end; nothing was written")]
     Cancelled,

@@ -28,18 +28,20 @@ pub fn read_points(path: &Path) -> Result<Vec<DVec3>, IoError> {
             (true, Some(b"v")) => points.push(point(&text[1..]).ok_or_else(|| at(fault(text)))?),
             (true, Some(b"l")) => {
                 for word in rest {
-                    order.push(index(word, points.len()).ok_or_else(|| at(fault(text)))?);
+                    let count = points.len();
+                    let missing = |index| ContentFault::NoSuchVertex { text: excerpt(text), index, count };
+                    order.push(index(word, count).map_err(|index| at(missing(index)))?);
                 }
             }
             (true, _) => {}
         }
     }
     let points: Vec<DVec3> = if order.is_empty() { points } else { order.into_iter().map(|i| points[i]).collect() };
-    if points.is_empty() { Err(IoError::NoPoints { path: path.to_owned() }) } else { Ok(points) }
+    if points.is_empty() { Err(IoError::Empty { path: path.to_owned() }) } else { Ok(points) }
 }
 
 fn fault(text: &[u8]) -> ContentFault {
-    ContentFault::NotAPoint { text: excerpt(text) }
+    ContentFault::NotAVertex { text: excerpt(text), example: "0,0,25" }
 }
 
 /// Three finite numbers, and nothing else.
@@ -52,12 +54,12 @@ fn point(text: &[u8]) -> Option<DVec3> {
     }
 }
 
-/// The place of a point that an `l` line names, from 0.
-fn index(word: &[u8], count: usize) -> Option<usize> {
+/// The place of a point that an `l` line names, from 0; or the number that names none, 0 for a word that is no number.
+fn index(word: &[u8], count: usize) -> Result<usize, i64> {
     let word = word.split(|&b| b == b'/').next().unwrap_or(word);
-    let index: i64 = std::str::from_utf8(word).ok()?.parse().ok()?;
+    let index: i64 = std::str::from_utf8(word).ok().and_then(|w| w.parse().ok()).unwrap_or(0);
     let from_0 = if index < 0 { index + count as i64 } else { index - 1 };
-    usize::try_from(from_0).ok().filter(|&i| i < count)
+    usize::try_from(from_0).ok().filter(|&i| i < count).ok_or(index)
 }
 
 #[cfg(test)]
@@ -86,7 +88,7 @@ mod tests {
             let error = read(name, text).expect_err("no point").to_string();
             assert!(error.contains(":2: "), "{error}");
         }
-        assert!(matches!(read("g.txt", "# nothing\n"), Err(IoError::NoPoints { .. })));
+        assert!(matches!(read("g.txt", "# nothing\n"), Err(IoError::Empty { .. })));
         assert!(matches!(read_points(Path::new("there-is-no-such.txt")), Err(IoError::Missing { .. })));
     }
 }

@@ -86,8 +86,7 @@ impl HandleReport {
 ///
 /// # Errors
 /// [`OpError::CountOutOfRange`] for the segments; [`OpError::NoSuchElement`]; [`OpError::NoArea`]; [`OpError::NoHandle`] with the reason;
-/// [`OpError::Exclude`] for an axis with weights or further faces; [`OpError::FileNotRead`] for an axis that is still a file;
-/// [`OpError::Cancelled`].
+/// [`OpError::Exclude`] for an axis with weights or further faces; [`OpError::Cancelled`].
 pub fn handle(
     mesh: &Mesh,
     params: &HandleParams,
@@ -101,7 +100,10 @@ pub fn handle(
         (Some(_), None) if !params.also.is_empty() => {
             return Err(OpError::Exclude { first: "an axis", second: "further faces" });
         }
-        (Some(HandleAxis::File(path)), None) => return Err(OpError::FileNotRead { path: path.clone() }),
+        (Some(HandleAxis::File(_)), None) => {
+            let reason = "the axis is still the name of a file; read the file and give its points";
+            return Err(OpError::NoHandle { from: params.from.face, to: params.to.face, reason });
+        }
         (Some(HandleAxis::Points(points)), None) => Course::Through(points),
         (None, Some(weights)) => Course::Weighed(weights.0.map(crate::units::Length::mm)),
         (None, None) => Course::Free { sign: 1.0 },

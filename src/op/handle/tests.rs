@@ -235,7 +235,7 @@ fn an_axis_is_followed_in_segments_of_one_length() {
     assert!(matches!(refuse(&wanted), OpError::Exclude { .. }));
     wanted.axis = Some(HandleAxis::File("axis.txt".into()));
     wanted.also.clear();
-    assert!(matches!(refuse(&wanted), OpError::FileNotRead { .. }));
+    assert!(matches!(refuse(&wanted), OpError::NoHandle { .. }));
 }
 
 /// All faces of a mesh, as those to be joined.

@@ -68,12 +68,19 @@ fn pairs(mesh: &Mesh, openings: &FaceMap<Opening>, thickness: f64) -> Result<Vec
         }
         let (partner, corners) = partner(mesh, f, thickness)?;
         if is_taken[partner] {
-            return Err(OpError::NoPartner { face: f, thickness });
+            return Err(no_partner(f));
         }
         (is_taken[f], is_taken[partner]) = (true, true);
         pairs.push(Pair { corners });
     }
     Ok(pairs)
+}
+
+fn no_partner(f: FaceId) -> OpError {
+    OpError::NoSuchElement {
+        what: "partner, with as many sides and behind it by at most twice the thickness, of face",
+        id: f.index(),
+    }
 }
 
 fn partner(mesh: &Mesh, f: FaceId, thickness: f64) -> Result<(FaceId, Vec<[HalfEdgeId; 2]>), OpError> {
@@ -99,7 +106,7 @@ fn partner(mesh: &Mesh, f: FaceId, thickness: f64) -> Result<(FaceId, Vec<[HalfE
             back.rotate_left(1);
         }
     }
-    best.map(|(_, g, corners)| (g, corners)).ok_or(OpError::NoPartner { face: f, thickness })
+    best.map(|(_, g, corners)| (g, corners)).ok_or_else(|| no_partner(f))
 }
 
 /// Deletes both edges of each wall between openings of which one is peeled. Returns how many walls went.

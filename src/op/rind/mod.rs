@@ -165,7 +165,7 @@ impl RindReport {
 /// # Errors
 /// [`OpError::Select`] for an empty selection; [`OpError::DepthTooSmall`] when a thickness is within rounding; [`OpError::Exclude`] for
 /// thicknesses of both signs; [`OpError::NoSuchGroup`]; [`OpError::NoArea`] for a face without a normal; [`OpError::AllOpened`] when no
-/// face would be left; with a given shell [`OpError::NoPartner`], and [`OpError::Exclude`] for thicknesses of groups;
+/// face would be left; with a given shell [`OpError::NoSuchElement`] for a partner, and [`OpError::Exclude`] for thicknesses of groups;
 /// [`OpError::Cancelled`].
 pub fn rind(mesh: &Mesh, params: &RindParams, context: &OpContext<'_>) -> Result<(Mesh, Made, RindReport), OpError> {
     let thickness = thicknesses(mesh, params)?;

@@ -1,9 +1,13 @@
 //! Random chains of operators that change the genus, with subdivisions and cuts among them: sound after every one.
 
-use kerfold::mesh::{Mesh, assert_sound};
+use std::path::Path;
+
+use kerfold::io::{ReadOptions, read_mesh};
+use kerfold::measure::genus;
+use kerfold::mesh::{FaceId, Mesh, VertexId, assert_sound};
 use kerfold::op::{
-    HandleParams, MengerParams, OpContext, Operate, RindParams, Scheme, SierpinskiParams, SubdivideParams, Thickness,
-    TruncateEdge, TruncateFace, TruncateVertex,
+    HandleParams, MengerParams, OpContext, Operate, RindParams, Scheme, ShellSource, SierpinskiParams, SubdivideParams,
+    Thickness, TruncateEdge, TruncateFace, TruncateVertex, rind,
 };
 use kerfold::select::Selection;
 use kerfold::shape;
@@ -48,6 +52,7 @@ fn step(dice: &mut Dice, mesh: &Mesh) -> Box<dyn Operate> {
             thickness_of: Vec::new(),
             punch: (dice.roll(2) == 0).then(|| chosen(dice, &all, 3)),
             peel: (dice.roll(2) == 0).then(|| chosen(dice, &all, 5)),
+            shell: if dice.roll(3) == 0 { ShellSource::Given } else { ShellSource::New },
         }),
         4 | 5 => {
             let corner = |face: u32| face.to_string().parse().expect("a face");
@@ -56,6 +61,8 @@ fn step(dice: &mut Dice, mesh: &Mesh) -> Box<dyn Operate> {
                 from: corner(from),
                 to: corner(to),
                 segments: 1 + dice.roll(4) as u32,
+                also: Vec::new(),
+                axis: None,
                 weights: None,
                 twist: Angle::from_degrees(90.0 * dice.roll(3) as f64),
             })
@@ -113,4 +120,57 @@ fn random_chains_stay_sound() {
         assert_sound(&mesh);
     }
     assert!(done > 3 * SEEDS as usize && refused < done, "{done} done, {refused} refused");
+}
+
+/// A patch of faces around one, found side by side; `None` when it is no disc.
+fn patch(mesh: &Mesh, start: FaceId, size: usize) -> Option<Vec<FaceId>> {
+    let mut faces = vec![start];
+    let mut next = 0;
+    while faces.len() < size && next < faces.len() {
+        for h in mesh.face_half_edges(faces[next]) {
+            let beside = mesh.face(h.twin());
+            if faces.len() < size && !faces.contains(&beside) {
+                faces.push(beside);
+            }
+        }
+        next += 1;
+    }
+    let mut vertices: Vec<VertexId> = faces.iter().flat_map(|&f| mesh.face_vertices(f)).collect();
+    let mut edges: Vec<_> = faces.iter().flat_map(|&f| mesh.face_half_edges(f)).map(|h| h.edge()).collect();
+    vertices.sort_unstable();
+    vertices.dedup();
+    edges.sort_unstable();
+    edges.dedup();
+    (vertices.len() + faces.len() == edges.len() + 1).then_some(faces)
+}
+
+/// Patches that share no vertex, each a disc, leave one opening each when peeled; punched one by one every face is an opening.
+#[test]
+fn rinds_of_spot_have_the_genus_of_their_openings() {
+    let spot = read_mesh(Path::new("fixtures/meshes/spot-1000.obj"), &ReadOptions::default()).expect("Spot").mesh;
+    let all = faces(&spot);
+    let mut dice = Dice(7);
+    for _ in 0..40 {
+        let mut is_used = vec![false; spot.vertex_slots()];
+        let mut patches: Vec<Vec<FaceId>> = Vec::new();
+        for _ in 0..12 {
+            let size = 1 + dice.roll(9);
+            let start = FaceId::new(dice.one_of(&all) as usize);
+            let Some(found) = patch(&spot, start, size) else { continue };
+            let corners: Vec<usize> = found.iter().flat_map(|&f| spot.face_vertices(f)).map(|v| v.index()).collect();
+            if corners.iter().all(|&v| !is_used[v]) {
+                corners.into_iter().for_each(|v| is_used[v] = true);
+                patches.push(found);
+            }
+        }
+        let chosen = Selection::of_ids(patches.iter().flatten().map(|f| f.index() as u32));
+        let count = patches.iter().map(Vec::len).sum::<usize>();
+        for (punch, peel, openings) in [(None, chosen.clone(), patches.len()), (chosen, None, count)] {
+            let thickness = Length::from_mm([0.002, -0.002][dice.roll(2)]);
+            let params = RindParams { thickness, thickness_of: Vec::new(), punch, peel, shell: ShellSource::New };
+            let (made, _, report) = rind(&spot, &params, &OpContext::default()).expect("a rind");
+            assert_sound(&made);
+            assert_eq!((made.components().len(), genus(&made)), (1, openings - 1), "{report:?}");
+        }
+    }
 }

@@ -109,6 +109,7 @@ const READERS: &[(&[&str], &str)] = &[
         &["handle", "IN", "--from", "0", "--to", "1", "--weights", "500mm,500mm", "--segments", "16", "-o", "OUT"],
         "out.obj",
     ),
+    (&["handle", "IN", "--from", "0", "--to", "1", "--also", "2", "--segments", "8", "-o", "OUT"], "hub.obj"),
     (&["planarize", "IN", "-o", "OUT"], "out.obj"),
     (&["unfold", "IN", "--sheet", "600x400", "-o", "OUT"], "out"),
     (&["unfold", "IN", "--sheet", "none", "--assembly", "pictures", "-o", "OUT"], "shown"),

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use kerfold::measure::{genus, volume};
 use kerfold::progress::Silent;
 use kerfold::recipe::{Job, Recipe};
+use kerfold::unfold::prove;
 
 const FOLDER: &str = "fixtures/recipes/gallery";
 
@@ -13,6 +14,7 @@ const QUICK: &[(&str, usize, usize)] = &[
     ("sierpinski-fig-01-b-cube", 1, 125),
     ("sierpinski-fig-11-a1-tetrahedron", 1, 3),
     ("sierpinski-fig-12-b-catmull-clark", 1, 7),
+    ("srinivasan-fig-14-unity-knot", 1, 1),
     ("srinivasan-fig-19-octagon-to-triangle", 1, 0),
     ("srinivasan-fig-20-b-quarter-turn", 1, 0),
     ("srinivasan-fig-21-non-star-ends", 1, 0),
@@ -28,6 +30,8 @@ const QUICK: &[(&str, usize, usize)] = &[
     ("srinivasan-fig-64-dodecahedron", 1, 11),
     ("srinivasan-fig-65-cup", 1, 1),
     ("srinivasan-fig-66-sierpinski-and-menger", 1, 41),
+    ("srinivasan-future-hub-inside", 1, 11),
+    ("srinivasan-future-hub-outside", 1, 2),
 ];
 
 fn recipes() -> Vec<PathBuf> {
@@ -68,4 +72,31 @@ fn quick_recipes_keep_what_their_captions_promise() {
         let findings: Vec<&str> = report.findings.iter().take(3).map(|f| f.message.as_str()).collect();
         assert!(job.is_check_asked && findings.is_empty(), "{name}: {findings:?}");
     }
+}
+
+/// Objects of genus above 0 on their way to card and plywood: pieces without overlap, proved once more, and the same surface again.
+#[test]
+fn what_is_fabricated_is_planar_and_comes_apart() {
+    for (name, expected) in [
+        ("fabricated-menger-cube-unfolded", 5),
+        ("fabricated-peeled-ball-unfolded", 11),
+        ("fabricated-menger-rounded", 5),
+        ("fabricated-honeycomb-planar", 0),
+    ] {
+        let recipe = read(&Path::new(FOLDER).join(format!("{name}.toml")));
+        let job = Job::run(&recipe, Path::new(FOLDER), &Silent).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let mesh = job.mesh().expect("a mesh");
+        assert_eq!(genus(mesh), expected, "{name}");
+        assert!(job.report().expect("a report").findings.is_empty(), "{name}");
+        let (fabrication, _) = job.fabrication.as_ref().expect("pieces");
+        let proof = prove(mesh, &fabrication.net).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert!(proof.overlaps == 0 && !fabrication.sheets.drawings.is_empty(), "{name}");
+    }
+    let name = "fabricated-menger-lamp";
+    let recipe = read(&Path::new(FOLDER).join(format!("{name}.toml")));
+    let job = Job::run(&recipe, Path::new(FOLDER), &Silent).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let mesh = job.mesh().expect("a mesh");
+    let (panelled, _) = job.panelled.as_ref().expect("plates");
+    assert_eq!((genus(mesh), panelled.fabrication.net.pieces.len()), (11, mesh.face_count()));
+    assert!(job.report().expect("a report").findings.is_empty() && !panelled.fabrication.sheets.drawings.is_empty());
 }

@@ -1,6 +1,6 @@
 //! Verbs that carry out one operator: `kerfold planarize` and its kin. Their parameters say what they do; all else is common.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -9,6 +9,7 @@ use super::input::Input;
 use super::terminal::Terminal;
 use super::{Console, Outcome};
 use crate::op::{OpContext, Operate};
+use crate::recipe::operate;
 
 /// A mesh, the parameters of an operator, and the mesh to write.
 #[derive(Debug, Args)]
@@ -26,7 +27,8 @@ pub(super) struct OperatorArgs<T: Args> {
 pub(super) fn run<T: Args + Operate>(args: &OperatorArgs<T>, console: &Console) -> Result<Outcome, CliError> {
     let read = args.input.read()?;
     let progress = Terminal::new(console.quiet);
-    let made = args.params.operate(&read.mesh, &OpContext { made: None, progress: &progress })?;
+    let context = OpContext { made: None, progress: &progress };
+    let made = operate(&args.params, Path::new(""), &read.mesh, &context)?;
     let notes: Vec<String> = read.notes.iter().map(ToString::to_string).chain(made.notes).collect();
     console.write_model(&args.output, &made.mesh, &notes)?;
     Ok(if made.is_clean { Outcome::Clean } else { Outcome::Findings })

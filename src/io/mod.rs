@@ -31,7 +31,7 @@ mod write;
 pub use error::{ContentFault, IoError, Place};
 pub use format::MeshFormat;
 pub use read::artwork;
-pub use read::{MeshUnit, ReadMesh, ReadNote, ReadOptions, read_mesh, read_mesh_bytes, read_seams};
+pub use read::{MeshUnit, ReadMesh, ReadNote, ReadOptions, read_mesh, read_mesh_bytes, read_points, read_seams};
 pub use write::glb;
 pub use write::plates;
 pub use write::step;

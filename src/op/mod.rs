@@ -40,7 +40,7 @@ pub use operate::{Operate, Operated};
 pub use planarize::{PlanarizeParams, PlanarizeReport, RimRule, planarize};
 pub use report::CutReport;
 pub use resolve::{ResolveParams, ResolveReport, resolve};
-pub use rind::{GroupThickness, RindParams, RindReport, rind};
+pub use rind::{GroupThickness, RindParams, RindReport, ShellSource, rind};
 pub use sierpinski::{SierpinskiParams, SierpinskiReport, VertexKind, sierpinski, vertex_kind};
 pub use slice::{Direction, Keep, Point, SliceParams, slice, slice_both};
 pub use subdivide::{Scheme, SubdivideParams, subdivide};
@@ -48,3 +48,5 @@ pub use truncate::{Disjoint, OpContext, Scope};
 pub use truncate_edge::{TruncateEdge, truncate_edges};
 pub use truncate_face::{TruncateFace, truncate_faces};
 pub use truncate_vertex::{TruncateVertex, truncate_vertices};
+
+pub use handle::HandleAxis;

@@ -1,9 +1,12 @@
 //! What all operators on one mesh have in common, so that a recipe and the command line can carry out any of them.
 
 use std::fmt;
+use std::path::Path;
+
+use glam::DVec3;
 
 use super::{
-    HandleParams, HullParams, MengerParams, OpContext, OpError, PlanarizeParams, ResolveParams, RindParams,
+    HandleAxis, HandleParams, HullParams, MengerParams, OpContext, OpError, PlanarizeParams, ResolveParams, RindParams,
     SierpinskiParams, SliceParams, SubdivideParams, TruncateEdge, TruncateFace, TruncateVertex, handle, hull, menger,
     planarize, resolve, rind, sierpinski, slice, subdivide, truncate_edges, truncate_faces, truncate_vertices,
 };
@@ -33,6 +36,16 @@ pub trait Operate: fmt::Debug + Send + Sync {
     /// # Errors
     /// Those of the operator itself.
     fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError>;
+
+    /// A file with points that has to be read first; operators read no files.
+    fn points_file(&self) -> Option<&Path> {
+        None
+    }
+
+    /// The same parameters with the points of their file in its place; `None` when they take none.
+    fn with_points(&self, _points: Vec<DVec3>) -> Option<Box<dyn Operate>> {
+        None
+    }
 }
 
 macro_rules! cuts {
@@ -107,5 +120,16 @@ impl Operate for HandleParams {
     fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError> {
         let (mesh, made, report) = handle(mesh, self, context)?;
         Ok(Operated { mesh, made: Some(made), notes: report.notes(), is_clean: report.crossing.is_empty() })
+    }
+
+    fn points_file(&self) -> Option<&Path> {
+        match &self.axis {
+            Some(HandleAxis::File(path)) => Some(path),
+            _ => None,
+        }
+    }
+
+    fn with_points(&self, points: Vec<DVec3>) -> Option<Box<dyn Operate>> {
+        Some(Box::new(Self { axis: Some(HandleAxis::Points(points)), ..self.clone() }))
     }
 }

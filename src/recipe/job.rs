@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::{
     DformParams, FabricateParams, Fabrication, OperatorStep, PanelFiles, Panelled, Recipe, ShowParams, Step, StepError,
-    StepFailure, carve_dform, fabricate, nest_files, panel_model, solid_of_planes, with_material,
+    StepFailure, carve_dform, fabricate, nest_files, operate, panel_model, solid_of_planes, with_material,
 };
 use crate::check::{CheckParams, Report, check};
 use crate::io::{ReadMesh, read_mesh};
@@ -101,7 +101,7 @@ impl Job {
             }
             Step::Operator(OperatorStep { params, .. }) => {
                 let context = OpContext { made: self.made.as_ref(), progress };
-                let operated = params.operate(self.mesh()?, &context)?;
+                let operated = operate(params.as_ref(), folder, self.mesh()?, &context)?;
                 self.notes.extend(operated.notes);
                 (self.mesh, self.made) = (Some(operated.mesh), operated.made);
             }

@@ -14,6 +14,7 @@ pub mod artwork;
 mod obj;
 mod off;
 mod ply;
+mod points;
 mod raw;
 mod rim;
 mod seams;
@@ -21,6 +22,7 @@ mod stl;
 mod text;
 mod weld;
 
+pub use points::read_points;
 pub use seams::read_seams;
 pub(super) use stl::is_binary as is_binary_stl;
 

@@ -1,10 +1,11 @@
-//! The axis of a handle: a Hermite curve with a frame that does not turn around it (double reflection: Wang, Jüttler, Zheng & Liu 2008,
+//! The axis of a handle: a Hermite curve, or several end to end (centripetal Catmull-Rom: Yuksel, Schaefer & Keyser 2011,
+//! "Parameterization and applications of Catmull-Rom curves"), with a frame that does not turn around it (double reflection: Wang, Jüttler, Zheng & Liu 2008,
 //! "Computation of rotation minimizing frames").
 
 use glam::DVec3;
 
 use super::super::OpError;
-use super::Weights;
+use crate::geom::RoundingBound;
 use crate::measure::face_centroid;
 use crate::mesh::{FaceId, Mesh};
 
@@ -13,11 +14,21 @@ const STEPS: usize = 16;
 /// A tangent shorter than this share of the curve's size has no direction.
 const NO_TANGENT: f64 = 1e-9;
 
-/// The Hermite curve: two points and two tangents.
-pub(super) struct Curve {
+/// Parts into which a span is divided to measure its length.
+const LENGTH_STEPS: usize = 64;
+
+/// A Hermite curve: two points and two tangents.
+struct Span {
     ends: [DVec3; 2],
     tangents: [DVec3; 2],
+}
+
+/// The axis: spans end to end.
+pub(super) struct Curve {
+    spans: Vec<Span>,
     normals: [DVec3; 2],
+    /// With several spans the length from the start to each step within each span.
+    lengths: Vec<f64>,
 }
 
 /// A point of the axis with its frame.
@@ -34,21 +45,7 @@ pub(super) struct Sample {
     pub normal: DVec3,
 }
 
-impl Curve {
-    /// The curve between two faces; `None` when it has no length.
-    pub fn between(mesh: &Mesh, faces: [FaceId; 2], weights: Option<Weights>) -> Result<Option<Self>, OpError> {
-        let mut normals = [DVec3::ZERO; 2];
-        for (normal, f) in normals.iter_mut().zip(faces) {
-            *normal = mesh.plane(f).ok_or(OpError::NoArea(f))?.normal();
-        }
-        let ends = faces.map(|f| face_centroid(mesh, f));
-        let distance = ends[0].distance(ends[1]);
-        let weights = weights.map_or([distance; 2], |w| w.0.map(crate::units::Length::mm));
-        let tangents = [normals[0] * weights[0], -normals[1] * weights[1]];
-        let size = distance.max(weights[0].abs()).max(weights[1].abs());
-        Ok((size > 0.0 && size.is_finite()).then_some(Self { ends, tangents, normals }))
-    }
-
+impl Span {
     fn point(&self, t: f64) -> DVec3 {
         let (t2, t3) = (t * t, t * t * t);
         let chord = self.ends[1] - self.ends[0];
@@ -59,7 +56,7 @@ impl Curve {
             + self.tangents[1] * (t3 - t2)
     }
 
-    fn direction(&self, t: f64) -> DVec3 {
+    fn direction(&self, t: f64, without: DVec3) -> DVec3 {
         let chord = self.ends[1] - self.ends[0];
         let slope = chord * (6.0 * t - 6.0 * t * t)
             + self.tangents[0] * (3.0 * t * t - 4.0 * t + 1.0)
@@ -70,19 +67,112 @@ impl Curve {
         }
         // Where the curve stands still: from a little before to a little after.
         let (before, after) = ((t - 1e-3).max(0.0), (t + 1e-3).min(1.0));
-        (self.point(after) - self.point(before)).normalize_or(self.normals[0])
+        (self.point(after) - self.point(before)).normalize_or(without)
+    }
+}
+
+/// The distance of the centroids of two faces.
+pub(super) fn distance(mesh: &Mesh, faces: [FaceId; 2]) -> f64 {
+    let [a, b] = faces.map(|f| face_centroid(mesh, f));
+    a.distance(b)
+}
+
+fn normals(mesh: &Mesh, faces: [FaceId; 2]) -> Result<[DVec3; 2], OpError> {
+    let mut normals = [DVec3::ZERO; 2];
+    for (normal, f) in normals.iter_mut().zip(faces) {
+        *normal = mesh.plane(f).ok_or(OpError::NoArea(f))?.normal();
+    }
+    Ok(normals)
+}
+
+impl Curve {
+    /// The curve between two faces with weights in mm; `None` when it has no length.
+    pub fn between(mesh: &Mesh, faces: [FaceId; 2], weights: [f64; 2]) -> Result<Option<Self>, OpError> {
+        let normals = normals(mesh, faces)?;
+        let ends = faces.map(|f| face_centroid(mesh, f));
+        let tangents = [normals[0] * weights[0], -normals[1] * weights[1]];
+        let size = ends[0].distance(ends[1]).max(weights[0].abs()).max(weights[1].abs());
+        let curve = Self { spans: vec![Span { ends, tangents }], normals, lengths: Vec::new() };
+        Ok((size > 0.0 && size.is_finite()).then_some(curve))
+    }
+
+    /// The curve from one face to another through points; `None` when it has no length. It leaves along the first face's normal and arrives
+    /// along the second's, each to the side on which the nearest point lies.
+    pub fn through(mesh: &Mesh, faces: [FaceId; 2], points: &[DVec3]) -> Result<Option<Self>, OpError> {
+        let normals = normals(mesh, faces)?;
+        let [start, end] = faces.map(|f| face_centroid(mesh, f));
+        let same = mesh.bounds().map_or(0.0, |(low, high)| RoundingBound::of_box(low, high).length());
+        let mut way = vec![start];
+        for &p in points.iter().chain([&end]) {
+            // Points at one place, and centroids that were given as well, are one.
+            if way[way.len() - 1].distance(p) > same {
+                way.push(p);
+            }
+        }
+        if way[way.len() - 1] != end {
+            way.pop();
+            way.push(end);
+        }
+        if way.len() < 2 || way.iter().any(|p| !p.is_finite()) || way.windows(2).any(|w| w[0] == w[1]) {
+            return Ok(None);
+        }
+        let last = way.len() - 1;
+        let legs: Vec<DVec3> = way.windows(2).map(|w| w[1] - w[0]).collect();
+        let knots: Vec<f64> = legs.iter().map(|leg| leg.length().sqrt()).collect();
+        // The slope at each point over the knots.
+        let slope = |i: usize| {
+            let (before, after) = (legs[i - 1] / knots[i - 1], legs[i] / knots[i]);
+            before + after - (legs[i - 1] + legs[i]) / (knots[i - 1] + knots[i])
+        };
+        let along = |normal: DVec3, leg: DVec3| if normal.dot(leg) < 0.0 { -normal } else { normal } * leg.length();
+        let tangent = |i: usize, leg: usize| match i {
+            0 => along(normals[0], legs[0]),
+            _ if i == last => along(-normals[1], legs[last - 1]),
+            _ => slope(i) * knots[leg],
+        };
+        let span = |i: usize| Span { ends: [way[i], way[i + 1]], tangents: [tangent(i, i), tangent(i + 1, i)] };
+        let mut curve = Self { spans: (0..last).map(span).collect(), normals, lengths: Vec::new() };
+        curve.measure();
+        Ok(Some(curve))
+    }
+
+    fn measure(&mut self) {
+        let mut length = 0.0;
+        self.lengths.push(length);
+        for span in &self.spans {
+            for i in 0..LENGTH_STEPS {
+                let [a, b] = [i, i + 1].map(|i| span.point(i as f64 / LENGTH_STEPS as f64));
+                length += a.distance(b);
+                self.lengths.push(length);
+            }
+        }
+    }
+
+    /// The point and the direction at a share of the way; by length where there are several spans.
+    fn at(&self, t: f64) -> (DVec3, DVec3) {
+        let (span, t) = match self.lengths.last() {
+            None => (0, t),
+            Some(whole) => {
+                let wanted = t * whole;
+                let step = self.lengths.partition_point(|&l| l <= wanted).clamp(1, self.lengths.len() - 1) - 1;
+                let (from, to) = (self.lengths[step], self.lengths[step + 1]);
+                let part = if to > from { ((wanted - from) / (to - from)).clamp(0.0, 1.0) } else { 0.0 };
+                let span = step / LENGTH_STEPS;
+                (span, ((step % LENGTH_STEPS) as f64 + part) / LENGTH_STEPS as f64)
+            }
+        };
+        (self.spans[span].point(t), self.spans[span].direction(t, self.normals[0]))
     }
 
     /// The ends of all segments, with frames carried along without turning.
     pub fn samples(&self, segments: usize) -> Vec<Sample> {
         let steps = segments * STEPS;
-        let along = self.direction(0.0);
-        let mut across = along.any_orthonormal_vector();
-        let mut at = (self.point(0.0), along);
+        let mut at = self.at(0.0);
+        let mut across = at.1.any_orthonormal_vector();
         let mut samples = Vec::with_capacity(segments + 1);
         for i in 0..=steps {
             let t = i as f64 / steps as f64;
-            let next = (self.point(t), self.direction(t));
+            let next = self.at(t);
             across = carried(at, next, across);
             at = next;
             if i % STEPS == 0 {

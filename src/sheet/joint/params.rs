@@ -166,10 +166,17 @@ fn flap(params: &SheetParams, width: f64) -> Result<Flap, SheetError> {
     Ok(Flap { width, angle: angle.to_radians(), side: params.flap_side.unwrap_or_default() })
 }
 
+/// Up to this thickness, in mm, card is pierced rather than cut, and holes stay small.
+const THIN: f64 = 1.0;
+
 fn holes(params: &SheetParams, [spacing, diameter]: [f64; 2]) -> Result<Holes, SheetError> {
     let kerf = params.kerf.mm();
     // What the material wants, where it is known.
     let web = params.made_of.as_ref().map_or(WEB, |m| m.web.mm().max(WEB)) + kerf;
+    // Holes narrower than one and a half times the plate burn out. A little more, since the corners of a drawn circle lie on it.
+    let thickness = params.thickness.or(params.made_of.as_ref().map(|m| m.thickness)).map_or(0.0, Length::mm);
+    let least = if thickness > THIN { 1.55 * thickness + kerf } else { 0.0 };
+    let (diameter, spacing) = (diameter.max(least), spacing.max(2.0 * least));
     let diameter = length("hole-diameter", params.hole_diameter, diameter, kerf + 0.1)?;
     let spacing = length("hole-spacing", params.hole_spacing, spacing, diameter + web)?;
     let inset =

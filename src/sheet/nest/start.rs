@@ -44,6 +44,9 @@ impl<'p> Bins<'p> {
     }
 }
 
+/// On so many sheets room is searched for one piece; tens of thousands of large panels take too long otherwise.
+const MOST_TRIED: usize = 24;
+
 /// Lays out everything for the first time.
 pub(super) struct Start<'s, 'f, 'a, 'p> {
     pub field: &'f mut Field<'a>,
@@ -70,15 +73,22 @@ impl Start<'_, '_, '_, '_> {
                 self.trials = self.trials.min(8);
             }
             let area = self.field.shapes[unit[0]].area;
-            let mut bin = 0;
+            let (mut bin, mut tried) = (0, 0);
             loop {
+                if tried == MOST_TRIED {
+                    // So many sheets have no room: only the newest is still likely to have some.
+                    bin = bin.max(self.bins.open - 1);
+                }
                 let is_new = bin == self.bins.open;
                 if is_new {
                     self.bins.open_next(self.field);
                     refused.push(f64::INFINITY);
                 }
-                if area < refused[bin] && self.lay_unit(&unit, bin) {
-                    break;
+                if area < refused[bin] {
+                    tried += 1;
+                    if self.lay_unit(&unit, bin) {
+                        break;
+                    }
                 }
                 if is_new && self.bins.stock(bin) + 1 == self.bins.problem.stock.len() {
                     return Err(NoPlace { pieces: unit });

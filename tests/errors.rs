@@ -48,7 +48,8 @@ fn error_types(text: &str) -> BTreeSet<String> {
         let declared = rest.lines().find_map(|line| {
             let words: Vec<&str> = line.split_whitespace().collect();
             let at = words.iter().position(|word| *word == "enum" || *word == "struct")?;
-            Some(words.get(at + 1)?.trim_matches(|c: char| !c.is_alphanumeric()).to_owned())
+            let name = words.get(at + 1)?.split(|c: char| !c.is_alphanumeric()).next()?;
+            Some(name.to_owned())
         });
         names.extend(declared);
     }

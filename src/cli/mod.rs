@@ -18,6 +18,7 @@ mod nest;
 mod operator;
 mod output;
 mod panels;
+mod reference;
 mod render;
 mod run;
 mod seams;
@@ -31,6 +32,7 @@ use std::process::ExitCode;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use output::Console;
+pub use reference::reference;
 
 use crate::op::{HandleParams, MengerParams, PlanarizeParams, RindParams, SierpinskiParams, SubdivideParams};
 

@@ -25,7 +25,7 @@ pub enum Keep {
     Reverse,
     /// The part on the side to which the normal points.
     Normal,
-    /// Both parts, each as a mesh of its own; see [`slice_both`].
+    /// Both parts, each as a mesh of its own
     Both,
 }
 

@@ -1,56 +1,18 @@
 //! Recipes as text: TOML in, steps out, every complaint with line and column.
 //!
-//! The keys of a step are the fields of the parameter structs that its verb takes; the structs' own command-line definitions
-//! are asked for them, so that recipe and command line cannot part.
+//! Which steps there are and which keys they take is said in [`super::keys`].
 
 use std::ops::Range;
-use std::sync::Arc;
 
-use clap::{Args, Command};
+use clap::Args;
 use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::{Position, RecipeError};
-use super::{
-    DformParams, FabricateParams, NestStep, OperatorStep, PanelFiles, PlanesStep, ReadStep, Recipe, ShowParams, Step,
-};
-use crate::check::CheckParams;
-use crate::op::{
-    HandleParams, HullParams, MengerParams, Operate, PlanarizeParams, ResolveParams, RindParams, SierpinskiParams,
-    SliceParams, SubdivideParams, TruncateEdge, TruncateFace, TruncateVertex,
-};
-use crate::panel::PanelParams;
-use crate::picture::RenderParams;
-use crate::shape::SolidParams;
-use crate::sheet::SheetParams;
-use crate::unfold::UnfoldParams;
+use super::keys::{StepKind, cuts, field_names, steps, verbs};
+use super::{Recipe, Step};
 use crate::units::nearest_word;
-
-/// The keys that say what a step does, with the field of its parameters that the value goes to.
-const VERBS: &[(&str, &str)] = &[
-    ("solid", "name"),
-    ("read", "path"),
-    ("planes", "path"),
-    ("cut", ""),
-    ("hull", "dual"),
-    ("resolve", "select"),
-    ("planarize", "profile"),
-    ("subdivide", "scheme"),
-    ("sierpinski", "rounds"),
-    ("handle", "from"),
-    ("menger", "rounds"),
-    ("rind", "thickness"),
-    ("check", "profile"),
-    ("unfold", "pieces"),
-    ("dform", "matching"),
-    ("panels", "side"),
-    ("nest", "pieces"),
-    ("render", "view"),
-];
-
-/// What `cut` may cut.
-const CUTS: [&str; 4] = ["vertex", "edge", "face", "plane"];
 
 impl Recipe {
     /// Reads a recipe.
@@ -122,12 +84,12 @@ impl Source<'_> {
         entries.sort_by_key(|e| e.key_span.start);
         // An unfold step has a list of edges called `cut`, which is no verb there.
         let is_unfold = entries.iter().any(|e| e.key == "unfold");
-        let is_verb = |e: &&Entry<'_>| VERBS.iter().any(|v| v.0 == e.key) && !(is_unfold && e.key == "cut");
-        let mut verbs = entries.iter().filter(is_verb);
-        let Some(verb) = verbs.next() else {
+        let is_verb = |e: &&Entry<'_>| steps().iter().any(|s| s.verb == e.key) && !(is_unfold && e.key == "cut");
+        let mut found = entries.iter().filter(is_verb);
+        let Some(verb) = found.next() else {
             return Err(self.no_verb(step.span(), &entries));
         };
-        if let Some(second) = verbs.next() {
+        if let Some(second) = found.next() {
             let at = self.position(second.key_span.start);
             return Err(RecipeError::TwoVerbs { at, first: verb.key.to_owned(), second: second.key.to_owned() });
         }
@@ -136,7 +98,7 @@ impl Source<'_> {
 
     /// A step without a verb, most often because the verb is misspelt.
     fn no_verb(&self, span: Range<usize>, entries: &[Entry<'_>]) -> RecipeError {
-        let verbs: Vec<&str> = VERBS.iter().map(|v| v.0).collect();
+        let verbs = verbs();
         match entries.iter().find(|e| nearest_word(e.key, verbs.iter().copied()).is_some()) {
             Some(e) => self.unknown(e.key_span.clone(), e.key, "as a step", &verbs),
             None => RecipeError::NoVerb { at: self.position(span.start), verbs: verbs.join(", ") },
@@ -151,88 +113,30 @@ impl Source<'_> {
             }
             _ => String::new(),
         };
-        let fields = StepFields { source: self, verb, entries, span };
-        Ok(match (verb.key, kind.as_str()) {
-            ("solid", _) => Step::Solid(fields.read1::<SolidParams>()?),
-            ("read", _) => Step::Read(fields.read1::<ReadStep>()?),
-            ("planes", _) => Step::Planes(fields.read1::<PlanesStep>()?),
-            ("hull", _) => Step::Hull(fields.read1::<HullParams>()?),
-            ("resolve", _) => fields.operator::<ResolveParams>("resolve")?,
-            ("subdivide", _) => fields.operator::<SubdivideParams>("subdivide")?,
-            ("sierpinski", _) => fields.operator::<SierpinskiParams>("sierpinski")?,
-            ("rind", _) => fields.operator::<RindParams>("rind")?,
-            ("menger", _) => fields.operator::<MengerParams>("menger")?,
-            ("handle", _) => fields.operator::<HandleParams>("handle")?,
-            ("planarize", _) => fields.operator::<PlanarizeParams>("planarize")?,
-            ("check", _) => Step::Check(fields.read1::<CheckParams>()?),
-            ("render", _) => Step::Render(fields.read1::<RenderParams>()?),
-            ("unfold", _) => fields.unfold()?,
-            ("dform", _) => fields.dform()?,
-            ("nest", _) => fields.nest()?,
-            ("panels", _) => fields.panels()?,
-            ("cut", "vertex") => fields.operator::<TruncateVertex>("cut vertex")?,
-            ("cut", "edge") => fields.operator::<TruncateEdge>("cut edge")?,
-            ("cut", "face") => fields.operator::<TruncateFace>("cut face")?,
-            ("cut", "plane") => fields.operator::<SliceParams>("cut plane")?,
-            (_, other) => return Err(self.unknown(verb.value.span(), other, "as something to cut", &CUTS)),
-        })
+        let is_meant = |step: &&StepKind| step.verb == verb.key && step.kind.is_none_or(|wanted| wanted == kind);
+        let Some(step) = steps().iter().find(is_meant) else {
+            return Err(self.unknown(verb.value.span(), &kind, "as something to cut", &cuts()));
+        };
+        let fields = StepFields { source: self, step, verb, entries, span };
+        fields.check_keys()?;
+        (step.read)(&fields)
     }
 }
 
 /// The keys and values of one step.
-struct StepFields<'a> {
+pub(super) struct StepFields<'a> {
     source: &'a Source<'a>,
+    step: &'static StepKind,
     verb: &'a Entry<'a>,
     entries: &'a [Entry<'a>],
     span: Range<usize>,
 }
 
 impl StepFields<'_> {
-    fn read1<T: Args + DeserializeOwned>(&self) -> Result<T, RecipeError> {
-        self.check_keys(&field_names::<T>())?;
-        self.read::<T>()
-    }
-
-    fn operator<T: Args + DeserializeOwned + Operate + 'static>(
-        &self,
-        verb: &'static str,
-    ) -> Result<Step, RecipeError> {
-        Ok(Step::Operator(OperatorStep { verb, params: Arc::new(self.read1::<T>()?) }))
-    }
-
-    fn unfold(&self) -> Result<Step, RecipeError> {
-        let known = [
-            field_names::<UnfoldParams>(),
-            field_names::<FabricateParams>(),
-            field_names::<SheetParams>(),
-            field_names::<ShowParams>(),
-        ]
-        .concat();
-        self.check_keys(&known)?;
-        Ok(Step::Unfold { unfold: self.read()?, fabricate: self.read()?, sheet: self.read()?, show: self.read()? })
-    }
-
-    fn dform(&self) -> Result<Step, RecipeError> {
-        self.check_keys(
-            &[field_names::<DformParams>(), field_names::<SheetParams>(), field_names::<ShowParams>()].concat(),
-        )?;
-        Ok(Step::Dform { dform: self.read()?, sheet: self.read()?, show: self.read()? })
-    }
-
-    fn panels(&self) -> Result<Step, RecipeError> {
-        let known = [field_names::<PanelParams>(), field_names::<PanelFiles>(), field_names::<SheetParams>()].concat();
-        self.check_keys(&known)?;
-        Ok(Step::Panels { panels: self.read()?, files: self.read()?, sheet: self.read()? })
-    }
-
-    fn nest(&self) -> Result<Step, RecipeError> {
-        self.check_keys(&[field_names::<NestStep>(), field_names::<SheetParams>()].concat())?;
-        Ok(Step::Nest { nest: self.read()?, sheet: self.read()? })
-    }
-
-    fn check_keys(&self, known: &[String]) -> Result<(), RecipeError> {
+    fn check_keys(&self) -> Result<(), RecipeError> {
+        let known = self.step.keys();
         let known: Vec<&str> = known.iter().map(String::as_str).collect();
-        let field_of_verb = self.field_of_verb();
+        let field_of_verb = self.step.field;
         let is_known = |e: &&Entry<'_>| e.key == self.verb.key || (known.contains(&e.key) && e.key != field_of_verb);
         match self.entries.iter().find(|e| !is_known(e)) {
             None => Ok(()),
@@ -244,24 +148,21 @@ impl StepFields<'_> {
         }
     }
 
-    fn field_of_verb(&self) -> &'static str {
-        VERBS.iter().find(|v| v.0 == self.verb.key).map_or("", |v| v.1)
-    }
-
     fn value_text<'t>(&'t self, entry: &Entry<'_>, span: &Range<usize>) -> &'t str {
         let text = &self.source.text[span.clone()];
-        let word = HULLS.iter().find(|(word, _)| entry.key == "hull" && *word == text);
+        let words = if entry.key == self.verb.key { self.step.words } else { &[] };
+        let word = words.iter().find(|(word, _)| *word == text);
         word.map_or(text, |(_, switch)| switch)
     }
 
     /// Reads one parameter struct from those entries that are its fields. Each value is read from its own text, so that an
     /// error inside it can be placed.
-    fn read<T: Args + DeserializeOwned>(&self) -> Result<T, RecipeError> {
+    pub(super) fn read<T: Args + DeserializeOwned>(&self) -> Result<T, RecipeError> {
         let names = field_names::<T>();
         let mut document = String::new();
         let mut places: Vec<(Range<usize>, usize)> = Vec::new();
         for entry in self.entries {
-            let field = if entry.key == self.verb.key { self.field_of_verb() } else { entry.key };
+            let field = if entry.key == self.verb.key { self.step.field } else { entry.key };
             if !names.iter().any(|n| n == field) {
                 continue;
             }
@@ -279,13 +180,4 @@ impl StepFields<'_> {
             self.source.bad(offset..offset, e.message())
         })
     }
-}
-
-/// `hull` takes a word for what is a switch on the command line.
-const HULLS: [(&str, &str); 2] = [("\"convex\"", "false"), ("\"dual\"", "true")];
-
-/// The names of a parameter struct's fields, as its command-line definition has them.
-fn field_names<T: Args>() -> Vec<String> {
-    let command = T::augment_args(Command::new("step"));
-    command.get_arguments().map(|a| a.get_id().to_string()).collect()
 }

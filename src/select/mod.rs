@@ -1,28 +1,14 @@
 //! The selection language: which vertices, edges, faces.
 //!
 //! Conditions are joined by `!` (not), `&` (and), `|` (or), binding in this order, and brackets. What each condition means
-//! for each kind of element:
-//!
-//! | condition | vertices | edges | faces |
-//! |---|---|---|---|
-//! | `all` | all | all | all but holes |
-//! | `3,7,10-14` | by id | by id | by id |
-//! | `valence=4` | number of edges at the vertex | both ends | all corners |
-//! | `sides=5` | – | – | number of sides |
-//! | `fold>30deg` | – | \|fold angle\|; rims have none and never fit | – |
-//! | `along=z:5deg` | – | parallel to the direction within the angle, either way | – |
-//! | `above=z:10mm`, `below=z:10mm` | beyond (short of) that height | both ends | all corners |
-//! | `normal=z:20deg` | mean of the unit normals around it | – | normal within the angle of the direction |
-//! | `group=name` | on a face of the group | on a face of the group | in the group |
-//! | `made` | made by the last step | made by the last step | made by the last step |
-//! | `strip` | – | the long edges that the last step made | – |
-//! | `matching`, `dullest`, `matching:7`, `hamiltonian` | – | folds of such a seam of the mesh as it is now | – |
+//! for each kind of element says the table [`CONDITIONS`], which `docs/reference.md` shows.
 //!
 //! Where it says –, the condition is an error. `valence`, `sides` and `fold` take `=`, `!=`, `<`, `<=`, `>`, `>=`. Directions
 //! are `x`, `-z`, … or three numbers (`along=1,1,0:5deg`); the tolerance of `along` and `normal` is 1deg when left out.
 //! Angles that differ by no more than a millionth of a degree are equal. A group name with `&`, `|`, brackets or blanks at
 //! its ends goes in quotes: `group="top (left)"`.
 
+mod conditions;
 mod error;
 mod evaluate;
 mod expr;
@@ -30,6 +16,7 @@ mod found;
 mod parse;
 mod seams;
 
+pub use conditions::{CONDITIONS, Condition, NOTHING};
 pub use error::{ElementKind, SelectError};
 pub use parse::ParseError;
 

@@ -12,6 +12,7 @@
 
 use glam::DVec3;
 
+use super::conditions::words;
 use super::expr::{Atom, Compare, Direction, Expr};
 use super::seams::Folds;
 use crate::code::codes;
@@ -77,27 +78,9 @@ codes!(error ParseError {
 fn hint(nearest: Option<&str>) -> String {
     match nearest {
         Some(word) => format!("did you mean `{word}`?"),
-        None => format!("the words are {}", WORDS.join(", ")),
+        None => format!("the words are {}", words().collect::<Vec<_>>().join(", ")),
     }
 }
-
-/// All words that can begin an atom.
-const WORDS: [&str; 14] = [
-    "all",
-    "valence",
-    "sides",
-    "fold",
-    "along",
-    "above",
-    "below",
-    "normal",
-    "group",
-    "made",
-    "strip",
-    "matching",
-    "dullest",
-    "hamiltonian",
-];
 
 /// How far expressions may nest: deep enough for people, shallow enough for the stack.
 const DEEPEST: usize = 64;
@@ -219,7 +202,7 @@ impl<'a> Parser<'a> {
                 Atom::Group(self.value("a name", "group=roof", |t| unquoted(t).map(str::to_owned))?)
             }
             _ => {
-                let nearest = nearest_word(word, WORDS).map(str::to_owned);
+                let nearest = nearest_word(word, words()).map(str::to_owned);
                 return Err(ParseError::UnknownWord { word: word.to_owned(), column: self.column(start), nearest });
             }
         })

@@ -300,3 +300,17 @@ proptest! {
         prop_assert_eq!(yes + no, n);
     }
 }
+
+#[test]
+fn the_table_of_conditions_is_what_the_language_does() {
+    let mesh = boxed();
+    for row in CONDITIONS {
+        let selection: Selection = row.example.parse().unwrap_or_else(|error| panic!("{}: {error}", row.example));
+        let context = Context::of(&mesh);
+        let means = |error: Option<SelectError>| !matches!(error, Some(SelectError::WrongKind { .. }));
+        assert_eq!(means(selection.vertices(&context).err()), row.vertices != NOTHING, "{} of vertices", row.example);
+        assert_eq!(means(selection.edges(&context).err()), row.edges != NOTHING, "{} of edges", row.example);
+        assert_eq!(means(selection.faces(&context).err()), row.faces != NOTHING, "{} of faces", row.example);
+        assert!(row.word.is_empty() || row.example.starts_with(row.word), "{}", row.example);
+    }
+}

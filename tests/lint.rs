@@ -162,6 +162,7 @@ fn assert_shared_lines_pass(shape: &dyn Fn(usize) -> Vec<DVec2>) {
 fn nothing_is_found_in_what_we_write_ourselves() {
     let folder = Path::new("fixtures/recipes");
     let mut names: Vec<_> = std::fs::read_dir(folder).expect("recipes").map(|e| e.expect("an entry").path()).collect();
+    names.retain(|path| path.is_file());
     names.sort();
     for path in names {
         let text = std::fs::read_to_string(&path).expect("a recipe");

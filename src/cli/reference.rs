@@ -141,7 +141,7 @@ fn describe_step(page: &mut String, step: &StepKind, sheets: &Shared) {
     let has_sheets = sheets.is_in(&args);
     let is_of_verb = |arg: &&&Arg| Some(arg.get_id().as_str()) == first;
     let verb = args.iter().filter(is_of_verb).map(|arg| key_row(step.verb, arg, step.words));
-    let others = args.iter().filter(|arg| !is_of_verb(arg) && !(has_sheets && sheets.tells(arg)));
+    let others = args.iter().filter(|arg| !(is_of_verb(arg) || has_sheets && sheets.tells(arg)));
     table(page, "key", verb.chain(others.map(|arg| key_row(arg.get_id().as_str(), arg, &[]))));
     if has_sheets {
         links(page, &[sheets]);

@@ -1,7 +1,7 @@
 //! Codes of errors and findings, and the pages that explain them.
 //!
 //! A code is a letter and a number: `E302` is an error, `F104` a finding. The tables stand beside the enums they number
-//! ([`codes!`]); the pages stand in `docs/errors.md`, two sentences each. Each room has a range of its own:
+//! (macro `codes!`); the pages stand in `docs/errors.md`, two sentences each. Each room has a range of its own:
 //!
 //! | range | room |
 //! |---|---|

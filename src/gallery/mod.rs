@@ -13,6 +13,7 @@ use std::thread;
 
 pub use self::bundle::{BundledFile, bundled};
 pub use self::page::{gallery_html, gallery_markdown};
+use crate::code::codes;
 use crate::progress::Progress;
 use crate::recipe::{Job, Output, Recipe, RecipeError, StepError, StepFailure, job_outputs};
 
@@ -94,6 +95,8 @@ pub enum GalleryError {
         error: StepFailure,
     },
 }
+
+codes!(error GalleryError {} through { Recipe.error, Step.error, Output.error });
 
 /// Builds one recipe: what is told about it, and its files. `width` is that of its pictures in pixels, instead of what the
 /// recipe says.

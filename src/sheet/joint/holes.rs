@@ -7,6 +7,7 @@ use super::super::verify::{distance_to_contour, distance_to_segment};
 use super::boundary::{Boundaries, Place};
 use super::flaps::Made;
 use super::params::Holes;
+use super::slots::Slot;
 use super::{Hole, JointReport};
 use crate::geom::polygon::{Location, locate};
 use crate::net::Net;
@@ -20,8 +21,10 @@ struct Drill<'a> {
 }
 
 impl<'a> Drill<'a> {
-    fn new(net: &'a Net, boundaries: &Boundaries, holes: &'a Holes) -> Self {
-        let paths = (0..net.pieces.len()).map(|i| boundaries.of_piece(i).map(|c| c.path()).collect()).collect();
+    fn new(net: &'a Net, boundaries: &Boundaries, holes: &'a Holes, slots: &[Slot]) -> Self {
+        let mut paths: Vec<Vec<Vec<DVec2>>> =
+            (0..net.pieces.len()).map(|i| boundaries.of_piece(i).map(|c| c.path()).collect()).collect();
+        slots.iter().for_each(|slot| paths[slot.piece].push(slot.contour.clone()));
         Self { net, paths, holes, drilled: Vec::new() }
     }
 
@@ -57,16 +60,16 @@ impl<'a> Drill<'a> {
     }
 }
 
-/// Stitch holes along the stretches, on the seams that are wanted.
+/// Stitch holes along the stretches, on the seams that are wanted, clear of the slots of other seams.
 pub(super) fn stitch(
     net: &Net,
     boundaries: &Boundaries,
     stretches: &[Stretch],
     wanted: &[usize],
-    holes: &Holes,
+    (holes, slots): (&Holes, &[Slot]),
     report: &mut JointReport,
 ) -> Vec<Hole> {
-    let mut drill = Drill::new(net, boundaries, holes);
+    let mut drill = Drill::new(net, boundaries, holes, slots);
     for stretch in stretches {
         let length = stretch.length(net);
         let count = (length / holes.spacing).floor().max(1.0);
@@ -109,7 +112,7 @@ pub(super) fn rivet(
     holes: &Holes,
     report: &mut JointReport,
 ) -> Vec<Hole> {
-    let mut drill = Drill::new(net, boundaries, holes);
+    let mut drill = Drill::new(net, boundaries, holes, &[]);
     for flap in flaps {
         let [own, partner] = [flap.side, 1 - flap.side].map(|k| boundaries.places[flap.seam][k]);
         let (Some(own), Some(partner)) = (own, partner) else { continue };

@@ -119,16 +119,16 @@ pub(crate) fn join(net: &Net, params: &SheetParams) -> Result<Option<Jointed>, S
             drilled = holes::rivet(net, &boundaries, &made, &holes, &mut report);
         }
         JointPlan::Stitch(holes) => {
-            drilled = holes::stitch(net, &boundaries, &stretches(net, &boundaries), &all, &holes, &mut report);
+            drilled = holes::stitch(net, &boundaries, &stretches(net, &boundaries), &all, (&holes, &[]), &mut report);
         }
         JointPlan::Fingers(fingers, holes) => {
             let fallen = fingers::add_fingers(net, &mut boundaries, &fingers, &mut report);
-            drilled = substitute(net, &boundaries, &fallen, holes.as_ref(), &mut report);
+            drilled = substitute(net, &boundaries, &fallen, (holes.as_ref(), &[]), &mut report);
         }
         JointPlan::Tabs(tabs, holes) => {
             let (made, fallen) = slots::add_tabs(net, &mut boundaries, &tabs, &mut report);
             slots = made;
-            drilled = substitute(net, &boundaries, &fallen, holes.as_ref(), &mut report);
+            drilled = substitute(net, &boundaries, &fallen, (holes.as_ref(), &slots), &mut report);
         }
     }
     let mut net = net.clone();
@@ -146,11 +146,11 @@ fn substitute(
     net: &Net,
     boundaries: &Boundaries,
     fallen: &[usize],
-    holes: Option<&params::Holes>,
+    (holes, slots): (Option<&params::Holes>, &[slots::Slot]),
     report: &mut JointReport,
 ) -> Vec<Hole> {
     if let Some(holes) = holes {
-        return holes::stitch(net, boundaries, &stretches(net, boundaries), fallen, holes, report);
+        return holes::stitch(net, boundaries, &stretches(net, boundaries), fallen, (holes, slots), report);
     }
     report.mitred = fallen.iter().map(|&s| (net.seams[s].id, net.seams[s].fold_angle / 2.0)).collect();
     Vec::new()

@@ -12,6 +12,7 @@ pub mod predicate;
 mod rounding;
 pub mod sparse;
 mod triangulate;
+mod triple;
 
 pub use bending::bending_patterns;
 pub use fit::fit_plane;
@@ -22,3 +23,4 @@ pub use plane::Plane;
 pub use predicate::Side;
 pub use rounding::RoundingBound;
 pub use triangulate::{triangulate, triangulate_contours, triangulate_region};
+pub use triple::{Double, triple_product};

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::geom::Plane;
+use crate::geom::{Double, Plane, triple_product};
 use crate::mesh::{FaceId, Mesh};
 
 /// The area of a face by its Newell vector; for a face that is not planar, of its projection along the Newell normal.
@@ -33,19 +33,21 @@ pub fn surface_area(mesh: &Mesh) -> f64 {
     mesh.faces().map(|f| face_area(mesh, f)).sum()
 }
 
-/// The signed volume enclosed by the faces; holes are closed as if by a fan. Positive when the faces look outwards.
+/// The signed volume enclosed by the faces; holes are closed as if by a fan. Positive when the faces look outwards. Right to the
+/// last digits of the given positions, for needles and far from the origin, too.
 pub fn volume(mesh: &Mesh) -> f64 {
     let Some((low, high)) = mesh.bounds() else { return 0.0 };
-    // Measured from the middle of the model, so that far from the origin no digits are lost.
     let centre = low.midpoint(high);
-    mesh.faces_and_holes()
-        .map(|f| {
-            let corners: Vec<DVec3> = mesh.face_vertices(f).map(|v| mesh.position(v) - centre).collect();
-            let fan = corners.windows(2).skip(1).map(|w| corners[0].dot(doubled_area([corners[0], w[0], w[1]])));
-            fan.sum::<f64>()
-        })
-        .sum::<f64>()
-        / 6.0
+    let mut sum = Double::default();
+    let mut corners: Vec<DVec3> = Vec::new();
+    for f in mesh.faces_and_holes() {
+        corners.clear();
+        corners.extend(mesh.face_vertices(f).map(|v| mesh.position(v)));
+        for w in corners.windows(2).skip(1) {
+            sum = sum.plus(triple_product(centre, [corners[0], w[0], w[1]]));
+        }
+    }
+    sum.value() / 6.0
 }
 
 /// The model's extent along the three axes; zero without vertices.

@@ -9,6 +9,7 @@ use super::error::CliError;
 use super::output::command_line;
 use super::terminal::Terminal;
 use super::{Console, Outcome};
+use crate::code::Coded;
 use crate::gallery::{Exhibit, GalleryError, GalleryRecipe, bundled, exhibit, gallery_html, side_by_side};
 use crate::io::output::{OutputFolder, write_file};
 use crate::progress::Progress;
@@ -55,7 +56,7 @@ pub(super) fn run(args: &GalleryArgs, console: &Console) -> Result<Outcome, CliE
             Err(failure) => failures.push(failure),
         }
     }
-    let told: Vec<String> = failures.iter().map(ToString::to_string).collect();
+    let told: Vec<String> = failures.iter().map(|f| format!("{f} ({})", f.code())).collect();
     let page = args.output.join("index.html");
     write_file(&page, gallery_html(&exhibits, &told, &command_line()).as_bytes())?;
     tell(&exhibits, &told, &page, console)?;

@@ -13,7 +13,7 @@ use std::thread;
 
 pub use self::bundle::{BundledFile, bundled};
 pub use self::page::{gallery_html, gallery_markdown};
-use crate::code::codes;
+use crate::code::{Code, Coded};
 use crate::progress::Progress;
 use crate::recipe::{Job, Output, Recipe, RecipeError, StepError, StepFailure, job_outputs};
 
@@ -92,11 +92,19 @@ pub enum GalleryError {
         /// Its name.
         name: String,
         /// What is wrong.
-        error: StepFailure,
+        error: Box<StepFailure>,
     },
 }
 
-codes!(error GalleryError {} through { Recipe.error, Step.error, Output.error });
+impl Coded for GalleryError {
+    fn code(&self) -> Code {
+        match self {
+            Self::Recipe { error, .. } => error.code(),
+            Self::Step { error, .. } => error.code(),
+            Self::Output { error, .. } => error.code(),
+        }
+    }
+}
 
 /// Builds one recipe: what is told about it, and its files. `width` is that of its pictures in pixels, instead of what the
 /// recipe says.
@@ -116,7 +124,7 @@ pub fn exhibit(
     if let Some(width) = width {
         (job.render.width, job.render.height) = (width, None);
     }
-    let failed = |error| GalleryError::Output { name: name(), error };
+    let failed = |error| GalleryError::Output { name: name(), error: Box::new(error) };
     let command = format!("kerfold run {0}.toml -o {0}", recipe.name);
     let outputs = job_outputs(&job, &command).map_err(failed)?;
     let report = if job.has_mesh() { Some(job.report().map_err(failed)?) } else { None };

@@ -502,8 +502,10 @@ impl Cutter {
         v
     }
 
-    /// The point where the edge of `h` meets the plane: on the edge, then moved onto the planes of its two faces as far as
-    /// rounding explains (the meeting point of three planes, solved on residuals).
+    /// The point where the edge of `h` meets the plane: on the edge, and, where an end of the edge was constructed itself, moved
+    /// onto the planes of its two faces as far as rounding explains (the meeting point of three planes, solved on residuals), so
+    /// that errors do not add up from cut to cut. An edge between given vertices is true as it is, while the planes of its faces
+    /// are not: those of a needle lean by many digits.
     fn crossing(&self, plane: &SlicingPlane, h: HalfEdgeId) -> DVec3 {
         let carried = [h, h.twin()].map(|side| self.mesh.carried_plane(self.mesh.face(side)));
         self.crossing_between(plane, h, carried)
@@ -513,6 +515,9 @@ impl Cutter {
     pub(super) fn crossing_between(&self, plane: &SlicingPlane, h: HalfEdgeId, carried: [Option<Plane>; 2]) -> DVec3 {
         let on_edge = self.point_on_edge(plane, h);
         let [Some(f), Some(g)] = carried else { return on_edge };
+        if [h, h.twin()].into_iter().all(|side| self.mesh.is_given(self.mesh.origin(side))) {
+            return on_edge;
+        }
         let is_end = |p: DVec3| [h, h.twin()].into_iter().any(|side| self.mesh.position(self.mesh.origin(side)) == p);
         match meet_three([&f, &g, &plane.plane], on_edge) {
             Some(met) if met.distance(on_edge) <= self.bound && !is_end(met) => met,

@@ -86,11 +86,11 @@ pub(super) fn panels_text(panelled: &Panelled) -> String {
         text += &format!("V-gaps of square cuts: up to {} mm\n", short(widest));
     }
     text += &format!(
-        "{} nodes, {} with more than three edges; residual up to {:.2e} mm per mm, plates miss by up to {:.2e} mm\n",
+        "{} nodes, {} with more than three edges; residual up to {} mm per mm, plates miss by up to {} mm\n",
         schedule.nodes.len(),
         totals.nodes_above_three,
-        totals.residual,
-        totals.miss_mm,
+        settled(totals.residual),
+        settled(totals.miss_mm),
     );
     let layout = &panelled.fabrication.sheets.layout;
     if !layout.sheets.is_empty() {
@@ -117,8 +117,10 @@ fn finding_text(finding: &PanelFinding) -> String {
             format!("finding {code}: vertex {} has {} edges instead of 3\n", finding.vertex, finding.measured)
         }
         PanelRequirement::Conical => format!(
-            "finding {code}: the plates of vertex {} miss each other by {:.3e} mm per mm of offset (at most {:e})\n",
-            finding.vertex, finding.measured, finding.limit
+            "finding {code}: the plates of vertex {} miss each other by {} mm per mm of offset (at most {})\n",
+            finding.vertex,
+            short(finding.measured),
+            short(finding.limit)
         ),
     }
 }
@@ -132,4 +134,9 @@ pub(super) fn panels_json(panelled: &Panelled) -> Value {
         "verdict": if panelled.findings.is_empty() { "pass" } else { "fail" },
         "findings": panelled.findings.iter().map(finding).collect::<Vec<_>>(),
     })
+}
+
+/// A length for people: what is below a millionth is rounding.
+fn settled(mm: f64) -> String {
+    if mm < 1e-6 { "0".to_owned() } else { short(mm) }
 }

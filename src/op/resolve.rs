@@ -24,6 +24,7 @@ use serde::Deserialize;
 
 use super::cutter::{Capping, Cutter, Reach, SlicingPlane};
 use super::{OpContext, OpError};
+use crate::check::short;
 use crate::mesh::{FaceId, HalfEdgeId, Mesh, VertexId};
 use crate::select::Selection;
 use crate::units::Length;
@@ -74,10 +75,10 @@ impl ResolveReport {
         let mut notes = Vec::new();
         if !self.resolved.is_empty() {
             notes.push(format!(
-                "{} vertices were split into 3-valent ones; faces moved by {:.3e} mm at most, vertices by {:.3e} mm",
+                "{} vertices were split into 3-valent ones; faces moved by {} mm at most, vertices by {} mm",
                 self.resolved.len(),
-                self.largest_face_movement_mm,
-                self.largest_vertex_movement_mm
+                short(self.largest_face_movement_mm),
+                short(self.largest_vertex_movement_mm)
             ));
         }
         if !self.unresolved.is_empty() {

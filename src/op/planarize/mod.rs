@@ -20,7 +20,7 @@ use serde::Deserialize;
 
 use self::constraints::Constraints;
 use super::{OpContext, OpError, OpFinding};
-use crate::check::{Limits, Profile};
+use crate::check::{Limits, Profile, short};
 use crate::code::Coded;
 use crate::geom::{RoundingBound, fit_plane};
 use crate::measure::planarity;
@@ -128,13 +128,13 @@ impl PlanarizeReport {
     /// What the user should know, in words.
     pub fn notes(&self) -> Vec<String> {
         let mut notes = vec![format!(
-            "planarized in {} rounds: corners off their face's plane by {:.3e} mm at most before, {:.3e} mm after; vertices moved by {:.4} mm at most{}, {:.4} mm on average",
+            "planarized in {} rounds: corners off their face's plane by {} mm at most before, {} mm after; vertices moved by {} mm at most{}, {} mm on average",
             self.rounds,
-            self.before_mm,
-            self.after_mm,
-            self.largest_movement_mm,
+            short(self.before_mm),
+            short(self.after_mm),
+            short(self.largest_movement_mm),
             self.farthest.map_or(String::new(), |v| format!(" (vertex {v})")),
-            self.mean_movement_mm
+            short(self.mean_movement_mm)
         )];
         if let Some(worst) = self.worst.filter(|_| !self.is_planar) {
             notes.push(format!(

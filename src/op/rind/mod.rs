@@ -32,6 +32,7 @@ use std::str::FromStr;
 use serde::{Deserialize, Deserializer, de};
 
 use super::{OpContext, OpError, OpFinding};
+use crate::check::short;
 use crate::code::Coded;
 use crate::geom::RoundingBound;
 use crate::mesh::{FaceId, FaceMap, Mesh};
@@ -142,8 +143,8 @@ impl RindReport {
         )];
         if self.residual_mm > 0.0 {
             notes.push(format!(
-                "vertices of more than three planes: the second skin is up to {:.3e} mm off the thickness there",
-                self.residual_mm
+                "vertices of more than three planes: the second skin is up to {} mm off the thickness there",
+                short(self.residual_mm)
             ));
         }
         if !self.crossing.is_empty() {

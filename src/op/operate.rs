@@ -8,7 +8,8 @@ use glam::DVec3;
 use super::{
     HandleAxis, HandleParams, HullParams, MengerParams, OpContext, OpError, PlanarizeParams, ResolveParams, RindParams,
     SierpinskiParams, SliceParams, SubdivideParams, TruncateEdge, TruncateFace, TruncateVertex, handle, hull, menger,
-    planarize, resolve, rind, sierpinski, sierpinski_forecast, slice, subdivide, truncate_edges, truncate_faces, truncate_vertices,
+    planarize, resolve, rind, sierpinski, sierpinski_forecast, slice, subdivide, truncate_edges, truncate_faces,
+    truncate_vertices,
 };
 use crate::mesh::Mesh;
 use crate::select::Made;

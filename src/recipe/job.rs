@@ -97,13 +97,7 @@ impl Job {
         Ok(check(self.mesh()?, &self.check)?)
     }
 
-    fn step(
-        &mut self,
-        number: usize,
-        step: &Step,
-        folder: &Path,
-        progress: &dyn Progress,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, number: usize, step: &Step, folder: &Path, progress: &dyn Progress) -> Result<(), StepFailure> {
         if progress.is_cancelled() {
             return Err(OpError::Cancelled.into());
         }

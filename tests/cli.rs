@@ -293,6 +293,30 @@ fn findings_are_exit_code_1() {
 }
 
 #[test]
+fn what_an_operator_finds_counts_in_a_recipe_as_it_does_in_its_verb() {
+    let folder = Folder::new("unclean");
+    let (model, sponge) = (folder.path("tetrahedron.obj"), folder.path("sponge.obj"));
+    assert_eq!(run(&["solid", "tetrahedron", "-o", &model]).code, Some(0));
+    let ran = run(&["menger", &model, "--thickness", "0.3", "-o", &sponge]);
+    assert!(ran.code == Some(1) && ran.err.contains("(F503)"), "{}", ran.err);
+    let recipe = |thickness: &str| {
+        let path = folder.path("recipe.toml");
+        let text = format!("[[step]]\nsolid = \"tetrahedron\"\n[[step]]\nmenger = 1\nthickness = {thickness}\n");
+        fs::write(&path, text).expect("a recipe");
+        run(&["run", &path, "-o", &folder.path("made"), "--json"])
+    };
+    for (thickness, code, unclean) in [("0.3", 1, 1), ("0.15", 0, 0)] {
+        let ran = recipe(thickness);
+        let told: Value = serde_json::from_str(&ran.out).expect("JSON");
+        assert_eq!((ran.code, told["unclean"].as_array().map(Vec::len)), (Some(code), Some(unclean)), "{}", ran.out);
+    }
+    // Kinds of vertices are told before the rounds, and once.
+    let ran = run(&["sierpinski", &model, "-o", &sponge]);
+    assert_eq!((ran.code, ran.err.matches("vertices before the first round: 4 convex").count()), (Some(0), 1));
+    assert!(ran.err.starts_with("note: vertices before"), "{}", ran.err);
+}
+
+#[test]
 fn a_reader_that_leaves_is_no_error() {
     for arguments in [&["completions", "bash"][..], &["solid", "geodesic-40", "-o", "-"]] {
         let mut command = program();

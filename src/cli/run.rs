@@ -48,6 +48,7 @@ pub(super) fn finish(job: &Job, name: Option<String>, folder: &Path, console: &C
             "command": command, "name": name, "written": written, "notes": job.notes, "model": model_json(job.mesh()?),
             "verdict": report.verdict().name(), "fabrication": job.fabrication.as_ref().map(|(f, sheet)| summary_json(f, sheet)),
             "panels": panelled.map(panels_json),
+            "unclean": job.unclean.iter().map(ToString::to_string).collect::<Vec<_>>(),
         });
         console.result(&format!("{summary:#}\n"))?;
     } else {
@@ -59,6 +60,7 @@ pub(super) fn finish(job: &Job, name: Option<String>, folder: &Path, console: &C
             report.verdict().name(),
             job.check.profile.name()
         );
+        job.unclean.iter().for_each(|step| text += &format!("{step}\n"));
         text += &job.fabrication.as_ref().map_or_else(String::new, |(f, sheet)| summary_text(f, sheet));
         text += &panelled.map_or_else(String::new, panels_text);
         for path in &written {
@@ -67,7 +69,8 @@ pub(super) fn finish(job: &Job, name: Option<String>, folder: &Path, console: &C
         console.result(&text)?;
     }
     let has_panel_findings = panelled.is_some_and(|p| !p.findings.is_empty());
-    Ok(if has_findings && job.is_check_asked || has_panel_findings { Outcome::Findings } else { Outcome::Clean })
+    let is_clean = !(has_findings && job.is_check_asked) && !has_panel_findings && job.unclean.is_empty();
+    Ok(if is_clean { Outcome::Clean } else { Outcome::Findings })
 }
 
 /// Tells about a job that had pieces and no model.

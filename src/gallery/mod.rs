@@ -135,7 +135,7 @@ pub fn exhibit(
         title: parsed.name.unwrap_or_else(name),
         story: story(&recipe.text),
         recipe: recipe.text.clone(),
-        findings: findings.map(|f| f.message.clone()).collect(),
+        findings: job.unclean.iter().map(ToString::to_string).chain(findings.map(|f| f.message.clone())).collect(),
         model: report.as_ref().map(|r| ModelFacts {
             vertices: r.model.vertices,
             edges: r.model.edges,

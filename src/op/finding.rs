@@ -14,6 +14,8 @@ pub enum OpFinding {
     SpongeCrosses,
     /// Sections of a [`super::handle`] pass through each other.
     HandleCrosses,
+    /// [`super::planarize`] made sides of faces cross.
+    FacesCross,
 }
 
 codes!(finding OpFinding {
@@ -21,4 +23,5 @@ codes!(finding OpFinding {
     ShellCrosses = 502,
     SpongeCrosses = 503,
     HandleCrosses = 504,
+    FacesCross = 505,
 });

@@ -8,7 +8,8 @@ use glam::DVec3;
 use super::{
     HandleAxis, HandleParams, HullParams, MengerParams, OpContext, OpError, PlanarizeParams, ResolveParams, RindParams,
     SierpinskiParams, SliceParams, SubdivideParams, TruncateEdge, TruncateFace, TruncateVertex, handle, hull, menger,
-    planarize, resolve, rind, sierpinski, slice, subdivide, truncate_edges, truncate_faces, truncate_vertices,
+    planarize, resolve, rind, sierpinski, sierpinski_forecast, slice, subdivide, truncate_edges, truncate_faces,
+    truncate_vertices,
 };
 use crate::mesh::Mesh;
 use crate::select::Made;
@@ -36,6 +37,11 @@ pub trait Operate: fmt::Debug + Send + Sync {
     /// # Errors
     /// Those of the operator itself.
     fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError>;
+
+    /// What can be said of the mesh before the work begins, in words; the notes of the result say it again.
+    fn forecast(&self, _mesh: &Mesh) -> Vec<String> {
+        Vec::new()
+    }
 
     /// A file with points that has to be read first; operators read no files.
     fn points_file(&self) -> Option<&Path> {
@@ -84,7 +90,7 @@ impl Operate for ResolveParams {
 impl Operate for PlanarizeParams {
     fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError> {
         let (mesh, report) = planarize(mesh, self, context)?;
-        Ok(Operated { mesh, made: None, notes: report.notes(), is_clean: report.is_planar })
+        Ok(Operated { mesh, made: None, notes: report.notes(), is_clean: report.is_clean() })
     }
 }
 
@@ -99,6 +105,10 @@ impl Operate for SierpinskiParams {
     fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError> {
         let (mesh, report) = sierpinski(mesh, self, context)?;
         Ok(Operated { mesh, made: None, notes: report.notes(), is_clean: true })
+    }
+
+    fn forecast(&self, mesh: &Mesh) -> Vec<String> {
+        sierpinski_forecast(mesh)
     }
 }
 

@@ -1,5 +1,6 @@
 //! Carries out a recipe: one mesh on its way from a solid or a file to sheets.
 
+use std::fmt;
 use std::path::{Path, PathBuf};
 
 use super::{
@@ -18,6 +19,21 @@ use crate::shape::solid;
 use crate::sheet::SheetParams;
 use crate::unfold::{Source, UnfoldParams};
 
+/// An operator of a recipe that did not reach what was asked for; the notes say what is missing.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct UncleanStep {
+    /// The number of the step, from 1.
+    pub step: usize,
+    /// Its verb.
+    pub verb: &'static str,
+}
+
+impl fmt::Display for UncleanStep {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "step {} ({}) has findings, see its notes", self.step, self.verb)
+    }
+}
+
 /// What a recipe has made so far.
 #[derive(Default)]
 pub struct Job {
@@ -25,6 +41,8 @@ pub struct Job {
     made: Option<Made>,
     /// What the user should know, in order.
     pub notes: Vec<String>,
+    /// Operators that did not reach what was asked for, as far as no later step mends it.
+    pub unclean: Vec<UncleanStep>,
     /// How the picture of the model looks.
     pub render: RenderParams,
     /// The dual hull on its way, as the last hull was asked for.
@@ -49,7 +67,7 @@ impl Job {
     pub fn run(recipe: &Recipe, folder: &Path, progress: &dyn Progress) -> Result<Self, StepError> {
         let mut job = Self::default();
         for (i, step) in recipe.steps.iter().enumerate() {
-            job.step(step, folder, progress).map_err(|cause| StepError {
+            job.step(i + 1, step, folder, progress).map_err(|cause| StepError {
                 step: i + 1,
                 verb: step.verb(),
                 cause: Box::new(cause),
@@ -79,7 +97,7 @@ impl Job {
         Ok(check(self.mesh()?, &self.check)?)
     }
 
-    fn step(&mut self, step: &Step, folder: &Path, progress: &dyn Progress) -> Result<(), StepFailure> {
+    fn step(&mut self, number: usize, step: &Step, folder: &Path, progress: &dyn Progress) -> Result<(), StepFailure> {
         if progress.is_cancelled() {
             return Err(OpError::Cancelled.into());
         }
@@ -99,16 +117,23 @@ impl Job {
                 self.notes.extend(report.notes());
                 self.start(mesh)?;
             }
-            Step::Operator(OperatorStep { params, .. }) => {
+            Step::Operator(OperatorStep { verb, params }) => {
                 let context = OpContext { made: self.made.as_ref(), progress };
                 let operated = operate(params.as_ref(), folder, self.mesh()?, &context)?;
                 self.notes.extend(operated.notes);
+                // To planarize again is how to mend faces that did not become planar.
+                self.unclean.retain(|u| u.verb != "planarize" || *verb != "planarize");
+                if !operated.is_clean {
+                    self.unclean.push(UncleanStep { step: number, verb });
+                }
                 (self.mesh, self.made) = (Some(operated.mesh), operated.made);
             }
             Step::Hull(params) => {
                 let (mesh, report) = hull(self.mesh()?, params, &OpContext { made: None, progress })?;
                 self.notes.extend(report.notes());
                 self.hull_steps = report.steps;
+                // The hull is a solid of its own, whatever its corners came from.
+                self.unclean.clear();
                 (self.mesh, self.made) = (Some(mesh), None);
             }
             Step::Check(params) => (self.check, self.is_check_asked) = (params.clone(), true),

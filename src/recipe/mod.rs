@@ -34,7 +34,7 @@ pub use carve::{CarvedDform, carve_dform};
 pub use dform::{DformParams, MatchingChoice, MatchingChoiceError};
 pub use error::{Position, RecipeError, StepError, StepFailure};
 pub use fabricate::{FabricateParams, Fabrication, fabricate};
-pub use job::Job;
+pub use job::{Job, UncleanStep};
 pub use keys::{StepKind, steps};
 pub use materials::{MaterialError, material, with_material};
 pub use nest::{NestError, NestStep, nest_files};

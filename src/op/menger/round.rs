@@ -84,7 +84,8 @@ impl Places {
         for f in mesh.faces() {
             let normal = planes[f].expect("every face has a plane").normal();
             let length = |h: HalfEdgeId| mesh.position(mesh.origin(h)).distance(mesh.position(mesh.target(h)));
-            let shortest = mesh.face_half_edges(f).map(length).fold(f64::INFINITY, f64::min);
+            let is_straight = |h: &HalfEdgeId| length(*h) > 0.0;
+            let shortest = mesh.face_half_edges(f).filter(is_straight).map(length).fold(f64::INFINITY, f64::min);
             let depth = match thickness {
                 Thickness::Share(share) => share * shortest,
                 Thickness::Length(length) => length.mm(),
@@ -98,8 +99,16 @@ impl Places {
                         Thickness::Length(length) => side.normalize_or_zero() * length.mm(),
                     }
                 };
-                let (on, back) = (way(mesh.target(h)), way(mesh.origin(mesh.prev(h))));
-                places.thirds[h] = at + on;
+                // A self-loop has no direction: both its ends get the corner between the sides before and after it.
+                let (mut after, mut before) = (h, mesh.prev(h));
+                while !is_straight(&after) {
+                    after = mesh.next(after);
+                }
+                while !is_straight(&before) {
+                    before = mesh.prev(before);
+                }
+                let (on, back) = (way(mesh.target(after)), way(mesh.origin(before)));
+                places.thirds[h] = if after == h { at + on } else { at };
                 places.frames[h] = at + inwards(on, back, normal);
                 places.depths[h] = places.frames[h] - normal * depth;
             }
@@ -208,6 +217,9 @@ fn crossing(
     let is_odd = |h: HalfEdgeId| {
         let (next, across) = (mesh.next(h), mesh.next(h.twin()));
         let side = mesh.position(mesh.target(h)) - mesh.position(mesh.origin(h));
+        if side == DVec3::ZERO {
+            return false;
+        }
         let least = SAME_ANGLE * side.length_squared();
         let turns = [&places.frames, &places.depths].iter().any(|p| (p[next] - p[h]).dot(side) <= least);
         let too_long = (places.thirds[h.twin()] - places.thirds[h]).dot(side) <= least;

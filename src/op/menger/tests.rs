@@ -134,3 +134,15 @@ fn what_does_not_fit_is_told_or_refused() {
     let sheet = Mesh::from_faces([DVec3::ZERO, DVec3::X, DVec3::Y], [[0, 1, 2]]).expect("a triangle");
     assert!(matches!(refuse(&sheet, MengerParams::default()), OpError::NotClosed { .. }));
 }
+
+#[test]
+fn self_loops_have_no_frame_of_their_own() {
+    use crate::op::{SierpinskiParams, sierpinski};
+    let (gasket, _) = sierpinski(&shape::cube(1.0), &SierpinskiParams { rounds: 1 }, &OpContext::default())
+        .expect("a round on a cube");
+    let (sponge, report) = run(&gasket, &share(0.125, 1));
+    // 2 g + F - 1 with genus 5 and 32 faces; the pyramids' bases are dug as well, and nothing crosses.
+    assert_eq!((genus(&sponge), report.crossing.len()), (41, 0));
+    let (_, report) = run(&gasket, &share(0.4, 1));
+    assert_eq!(report.crossing[0].1.len(), 32);
+}

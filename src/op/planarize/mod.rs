@@ -23,7 +23,7 @@ use super::{OpContext, OpError, OpFinding};
 use crate::check::{Limits, Profile, short};
 use crate::code::Coded;
 use crate::geom::{RoundingBound, fit_plane};
-use crate::measure::planarity;
+use crate::measure::{planarity, self_contact};
 use crate::mesh::{FaceId, Mesh, VertexId};
 use crate::select::Selection;
 
@@ -122,6 +122,8 @@ pub struct PlanarizeReport {
     pub mean_movement_mm: f64,
     /// The vertex with the longest way.
     pub farthest: Option<VertexId>,
+    /// Faces whose sides cross or touch each other now and did not before.
+    pub crossing: Vec<FaceId>,
 }
 
 impl PlanarizeReport {
@@ -142,12 +144,27 @@ impl PlanarizeReport {
                 OpFinding::NotPlanar.code()
             ));
         }
+        if !self.crossing.is_empty() {
+            let shown: Vec<String> = self.crossing.iter().take(8).map(ToString::to_string).collect();
+            let more = if self.crossing.len() > 8 { ", …" } else { "" };
+            notes.push(format!(
+                "sides cross now at {} faces that were simple before ({}{more}): take a looser profile or more fairness, or make them planar by `cut face` instead ({})",
+                self.crossing.len(),
+                shown.join(", "),
+                OpFinding::FacesCross.code()
+            ));
+        }
         notes
+    }
+
+    /// Whether the profile is reached and no face crosses itself that did not before.
+    pub fn is_clean(&self) -> bool {
+        self.is_planar && self.crossing.is_empty()
     }
 }
 
 /// Moves vertices as little as possible until every face is planar to the profile. Where the rounds do not suffice the best so far is
-/// returned, and the report says so.
+/// returned, and the report says so; it names the faces whose sides cross for the movement, too.
 ///
 /// # Errors
 /// [`OpError::WeightOutOfRange`], [`OpError::RepeatOutOfRange`], [`OpError::Select`] for an empty selection of fixed vertices,
@@ -172,7 +189,10 @@ pub fn planarize(
     };
     let before_mm = work.worst().2;
     let rounds = work.run(context)?;
-    Ok(work.finish(rounds, before_mm))
+    let (made, mut report) = work.finish(rounds, before_mm);
+    let crosses = |f: &FaceId| self_contact(&made, *f).is_some() && self_contact(mesh, *f).is_none();
+    report.crossing = made.faces().filter(crosses).collect();
+    Ok((made, report))
 }
 
 fn check_numbers(params: &PlanarizeParams) -> Result<(), OpError> {
@@ -333,6 +353,7 @@ impl Work<'_> {
             largest_movement_mm: farthest.map_or(0.0, |i| ways[i]),
             mean_movement_mm: if ways.is_empty() { 0.0 } else { ways.iter().sum::<f64>() / ways.len() as f64 },
             farthest: farthest.map(|i| self.start[i].0),
+            crossing: Vec::new(),
         };
         (self.mesh, report)
     }

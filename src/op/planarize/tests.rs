@@ -145,3 +145,22 @@ fn what_cannot_move_is_told() {
     let (_, report) = run(&torus, &PlanarizeParams { rounds: 1, ..PlanarizeParams::default() });
     assert!(!report.is_planar && report.worst.is_some() && report.notes().len() == 2);
 }
+
+#[test]
+fn faces_that_the_movement_made_cross_are_named() {
+    use crate::op::{Scheme, SierpinskiParams, SubdivideParams, sierpinski, subdivide};
+    let context = OpContext::default();
+    let (gasket, _) = sierpinski(&crate::shape::tetrahedron(200.0), &SierpinskiParams { rounds: 1 }, &context)
+        .expect("a round on a tetrahedron");
+    let smoothed = subdivide(&gasket, &SubdivideParams::new(Scheme::CatmullClark, 2), &context).expect("two rounds");
+    let crosses = |mesh: &Mesh| -> Vec<FaceId> { mesh.faces().filter(|&f| self_contact(mesh, f).is_some()).collect() };
+    let before = crosses(&smoothed);
+    let (made, report) = run(&smoothed, &PlanarizeParams { profile: Profile::Paper, ..PlanarizeParams::default() });
+    let new: Vec<FaceId> = crosses(&made).into_iter().filter(|f| !before.contains(f)).collect();
+    assert!(!new.is_empty() && report.crossing == new, "{new:?} {report:?}");
+    assert!(report.is_planar && !report.is_clean());
+    let told = report.notes().concat();
+    assert!(told.contains("(F505)") && told.contains(&format!("{}, ", new[0])), "{told}");
+    let (_, report) = run(&shaken_torus(24, 4.0), &PlanarizeParams::default());
+    assert!(report.is_clean() && report.crossing.is_empty());
+}

@@ -59,12 +59,7 @@ pub struct SierpinskiReport {
 impl SierpinskiReport {
     /// The report in words: what there is, and what to expect of it.
     pub fn notes(&self) -> Vec<String> {
-        let counted = || VertexKind::ALL.iter().zip(self.kinds).filter(|&(_, count)| count > 0);
-        let list: Vec<String> = counted().map(|(kind, count)| format!("{count} {}", kind.name())).collect();
-        let mut notes = vec![format!("vertices before the first round: {}", list.join(", "))];
-        notes.extend(
-            counted().filter_map(|(kind, _)| kind.expectation().map(|text| format!("{}: {text}", kind.name()))),
-        );
+        let mut notes = kinds_in_words(self.kinds);
         notes
             .push(format!("{} self-loops of length zero hold the pyramids together; files leave them out", self.loops));
         notes
@@ -100,6 +95,19 @@ pub fn sierpinski(
     let fine = fine.expect("there is at least one round");
     let loops = fine.edges().filter(|e| is_loop(&fine, e.half_edge())).count();
     Ok((fine, SierpinskiReport { kinds, loops }))
+}
+
+/// The kinds of the vertices of a mesh in words, and what to expect of each; known before the first round.
+pub fn sierpinski_forecast(mesh: &Mesh) -> Vec<String> {
+    kinds_in_words(count_kinds(mesh))
+}
+
+fn kinds_in_words(kinds: [usize; 6]) -> Vec<String> {
+    let counted = || VertexKind::ALL.iter().zip(kinds).filter(|&(_, count)| count > 0);
+    let list: Vec<String> = counted().map(|(kind, count)| format!("{count} {}", kind.name())).collect();
+    let mut notes = vec![format!("vertices before the first round: {}", list.join(", "))];
+    notes.extend(counted().filter_map(|(kind, _)| kind.expectation().map(|text| format!("{}: {text}", kind.name()))));
+    notes
 }
 
 fn count_kinds(mesh: &Mesh) -> [usize; 6] {

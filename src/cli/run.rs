@@ -69,8 +69,8 @@ pub(super) fn finish(job: &Job, name: Option<String>, folder: &Path, console: &C
         console.result(&text)?;
     }
     let has_panel_findings = panelled.is_some_and(|p| !p.findings.is_empty());
-    let is_clean = !(has_findings && job.is_check_asked) && !has_panel_findings && job.unclean.is_empty();
-    Ok(if is_clean { Outcome::Clean } else { Outcome::Findings })
+    let is_unclean = has_findings && job.is_check_asked || has_panel_findings || !job.unclean.is_empty();
+    Ok(if is_unclean { Outcome::Findings } else { Outcome::Clean })
 }
 
 /// Tells about a job that had pieces and no model.

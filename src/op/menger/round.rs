@@ -86,6 +86,9 @@ impl Places {
             let length = |h: HalfEdgeId| mesh.position(mesh.origin(h)).distance(mesh.position(mesh.target(h)));
             let is_straight = |h: &HalfEdgeId| length(*h) > 0.0;
             let shortest = mesh.face_half_edges(f).filter(is_straight).map(length).fold(f64::INFINITY, f64::min);
+            // A face may be one point: then no side leads out of it.
+            let is_point = shortest == f64::INFINITY;
+            let shortest = if is_point { 0.0 } else { shortest };
             let depth = match thickness {
                 Thickness::Share(share) => share * shortest,
                 Thickness::Length(length) => length.mm(),
@@ -101,10 +104,10 @@ impl Places {
                 };
                 // A self-loop has no direction: both its ends get the corner between the sides before and after it.
                 let (mut after, mut before) = (h, mesh.prev(h));
-                while !is_straight(&after) {
+                while !is_point && !is_straight(&after) {
                     after = mesh.next(after);
                 }
-                while !is_straight(&before) {
+                while !is_point && !is_straight(&before) {
                     before = mesh.prev(before);
                 }
                 let (on, back) = (way(mesh.target(after)), way(mesh.origin(before)));

@@ -136,7 +136,7 @@ mod tests {
 
     enum Inner {
         Lost { _at: usize },
-        Found(#[allow(dead_code)] u8),
+        Found(()),
     }
     codes!(error Inner { Lost = 7, Found = 12 });
 
@@ -151,7 +151,7 @@ mod tests {
     fn the_innermost_error_gives_the_code() {
         let shown = |coded: &dyn Coded| coded.code().to_string();
         assert_eq!(shown(&Outer::Alone), "F999");
-        assert_eq!(shown(&Outer::Tuple(Inner::Found(1))), "E012");
+        assert_eq!(shown(&Outer::Tuple(Inner::Found(()))), "E012");
         assert_eq!(shown(&Outer::Named { error: Box::new(Inner::Lost { _at: 3 }) }), "E007");
     }
 

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::geom::predicate::orient2d;
+use crate::geom::polygon::convex_hull;
 
 /// Length and width of the rectangle of least area around points, the longer one first. One of its sides lies along a side of
 /// the convex hull (Freeman and Shapira 1975).
@@ -23,30 +23,6 @@ pub(super) fn smallest_box(points: &[DVec2]) -> [f64; 2] {
         }
     }
     if best[0].is_finite() { best } else { [0.0; 2] }
-}
-
-/// The corners of the convex hull, counter-clockwise (Andrew 1979).
-fn convex_hull(points: &[DVec2]) -> Vec<DVec2> {
-    let mut sorted = points.to_vec();
-    sorted.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    sorted.dedup();
-    if sorted.len() < 3 {
-        return sorted;
-    }
-    let half = |points: &mut dyn Iterator<Item = DVec2>| {
-        let mut chain: Vec<DVec2> = Vec::new();
-        for p in points {
-            while chain.len() > 1 && orient2d(chain[chain.len() - 2], chain[chain.len() - 1], p) <= 0.0 {
-                chain.pop();
-            }
-            chain.push(p);
-        }
-        chain.pop();
-        chain
-    };
-    let mut hull = half(&mut sorted.iter().copied());
-    hull.extend(half(&mut sorted.iter().rev().copied()));
-    hull
 }
 
 #[cfg(test)]

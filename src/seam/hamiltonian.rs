@@ -200,16 +200,13 @@ mod tests {
         assert!(matches!(TwoPieceSearch::new(&large, &Cancelled), Err(SeamError::Cancelled)));
     }
 
+    /// As an unfolder does: hundreds of short fold paths forbidden, five times. The bench tells how fast.
     #[test]
-    #[ignore = "timing, run in release"]
-    fn a_thousand_faces() {
-        for seed in 0..5 {
-            let mesh = fixtures::random_convex(1000, seed);
-            let start = std::time::Instant::now();
+    fn many_forbidden_paths_leave_two_pieces() {
+        for seed in 0..2 {
+            let mesh = fixtures::random_convex(200, seed);
             let mut search = TwoPieceSearch::new(&mesh, &Silent).expect("a search");
             let mut folds = search.next_candidate(&Silent).expect("two pieces");
-            assert!(start.elapsed().as_secs_f64() < 1.0, "{:?}", start.elapsed());
-            // As an unfolder does: hundreds of short fold paths forbidden.
             for _ in 0..5 {
                 for path in folds.chunks(7).step_by(6) {
                     search.forbid_folds_together(path);
@@ -217,10 +214,6 @@ mod tests {
                 folds = search.next_candidate(&Silent).expect("two pieces");
                 assert_two_pieces(&mesh, &folds);
             }
-            assert!(start.elapsed().as_secs_f64() < 3.0, "{:?}", start.elapsed());
         }
-        let start = std::time::Instant::now();
-        assert!(TwoPieceSearch::new(&fixtures::tutte(), &Silent).expect("a search").next_candidate(&Silent).is_none());
-        assert!(start.elapsed().as_secs_f64() < 1.0, "{:?}", start.elapsed());
     }
 }

@@ -6,8 +6,7 @@
 use glam::DVec2;
 
 use super::layout::Turn;
-use crate::geom::polygon::bounds;
-use crate::geom::predicate::orient2d;
+use crate::geom::polygon::{bounds, convex_hull};
 
 /// Two boxes whose areas differ by less than this part are equally good; then the smaller turn wins, whatever rounding says.
 const TIE: f64 = 1e-9;
@@ -110,32 +109,6 @@ pub(crate) fn rounded(value: f64) -> f64 {
     let scaled = (value * 1e9).round() / 1e9;
     // Adding zero turns −0 into 0.
     if scaled.is_finite() { scaled + 0.0 } else { value }
-}
-
-/// The convex hull, counter-clockwise, without collinear corners (Andrew 1979, monotone chain, exact signs).
-pub(crate) fn convex_hull(points: &[DVec2]) -> Vec<DVec2> {
-    let mut sorted = points.to_vec();
-    sorted.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    sorted.dedup();
-    if sorted.len() < 3 {
-        return sorted;
-    }
-    let mut hull = half_hull(sorted.iter().copied());
-    hull.extend(half_hull(sorted.iter().rev().copied()));
-    hull
-}
-
-/// One side of the hull without its last corner.
-fn half_hull(points: impl Iterator<Item = DVec2>) -> Vec<DVec2> {
-    let mut chain: Vec<DVec2> = Vec::new();
-    for p in points {
-        while chain.len() > 1 && orient2d(chain[chain.len() - 2], chain[chain.len() - 1], p) <= 0.0 {
-            chain.pop();
-        }
-        chain.push(p);
-    }
-    chain.pop();
-    chain
 }
 
 #[cfg(test)]

@@ -279,9 +279,7 @@ fn a_hub_that_cannot_be_is_refused_with_the_reason() {
     assert!(matches!(refuse(&among(&[a, b, beside], 4)), OpError::NoHandle { .. }));
 }
 
-/// All pairs with all numbers of segments: `cargo test --release -- --ignored every_number`.
 #[test]
-#[ignore = "takes a while"]
 fn every_pair_gets_a_handle_with_every_number_of_segments_from_1_to_20() {
     let all: Vec<u32> = (1..=20).collect();
     handles_between_all_pairs(&all);

@@ -197,17 +197,14 @@ fn nearly_equal_weights_and_many_odd_cycles() {
     }
 }
 
+/// Thousands of edges, with ties and without; how fast a hundred thousand are is the bench's to tell.
 #[test]
-#[ignore = "timing, run in release"]
-fn a_hundred_thousand_edges() {
+fn thousands_of_edges() {
     let mut random = Random(4);
     for range in [1, 2, 10, 1000, 1 << 40] {
-        for (name, graph) in [("wall", brick_wall(183, 182, 6)), ("random", random_cubic(66_666, &mut random))] {
+        for graph in [brick_wall(37, 36, 6), random_cubic(2_666, &mut random)] {
             let weights: Vec<i64> = graph.ends.iter().map(|_| random.below(range) as i64).collect();
-            let start = std::time::Instant::now();
-            let result = least_perfect_matching(&graph, &weights, &Silent);
-            let edges = graph.ends.len();
-            assert!(start.elapsed().as_secs() < 5, "{name} {range} {edges}: {:?} {}", start.elapsed(), result.is_ok());
+            assert_solved(&graph, &weights);
         }
     }
 }

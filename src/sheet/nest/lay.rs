@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::super::bounding_box::{MinBox, box_at, convex_hull, fitting_box, rounded};
+use super::super::bounding_box::{MinBox, box_at, fitting_box, rounded};
 use super::super::kerf::CutShape;
 use super::super::layout::Turn;
 use super::super::params::SheetParams;
@@ -12,7 +12,7 @@ use super::search::Turns;
 use super::shape::Shape;
 use super::stock::StockSheet;
 use super::{Axis, CommonLine, Effort, Guillotine, Lying, NoPlace, Piece, Problem, Rotation, nest};
-use crate::geom::polygon::bounds;
+use crate::geom::polygon::{bounds, convex_hull};
 use crate::net::PieceId;
 use crate::progress::Progress;
 

@@ -19,7 +19,7 @@ pub(super) fn convex_parts(outline: &[DVec2], holes: &[Vec<DVec2>]) -> Vec<Vec<D
     let contours: Vec<&[DVec2]> = std::iter::once(outline).chain(holes.iter().map(Vec::as_slice)).collect();
     let region = triangulate_region(&contours).or_else(|| triangulate_region(&[outline]));
     let Some((corners, triangles)) = region else {
-        return vec![super::super::bounding_box::convex_hull(outline)];
+        return vec![crate::geom::polygon::convex_hull(outline)];
     };
     let parts = united(&corners, triangles);
     parts.into_iter().map(|part| part.into_iter().map(|i| corners[i]).collect()).collect()
@@ -29,9 +29,7 @@ fn is_convex(contour: &[DVec2]) -> bool {
     let n = contour.len();
     let turns = (0..n).all(|i| orient2d(contour[i], contour[(i + 1) % n], contour[(i + 2) % n]) >= 0.0);
     // A contour that winds twice turns left everywhere, too.
-    turns
-        && n >= 3
-        && signed_area(&super::super::bounding_box::convex_hull(contour)) <= signed_area(contour) * (1.0 + 1e-12)
+    turns && n >= 3 && signed_area(&crate::geom::polygon::convex_hull(contour)) <= signed_area(contour) * (1.0 + 1e-12)
 }
 
 /// Unites triangles across the longest sides first, and across the shortest; what leaves fewer parts is taken.

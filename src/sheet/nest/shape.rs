@@ -4,11 +4,10 @@
 
 use glam::DVec2;
 
-use super::super::bounding_box::convex_hull;
 use super::super::layout::Turn;
 use super::parts::convex_parts;
 use super::simplify::simplified;
-use crate::geom::polygon::{bounds, centroid, signed_area};
+use crate::geom::polygon::{bounds, centroid, convex_hull, signed_area};
 
 /// Corners that are worked on together.
 const LANES: usize = 4;

@@ -32,14 +32,23 @@ pub(super) struct Cloud<S> {
 
 impl<S: Signs> Cloud<S> {
     /// `points` carry a relative error of at most `roundings` half ulps in each coordinate. They are scaled by a power of two.
-    pub(super) fn new(mut points: Vec<DVec3>, roundings: f64, signs: S) -> (Self, f64) {
-        let reach = points.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
-        let scale = inverse_power_of_two(reach) * 0.5;
-        if scale != 1.0 {
+    pub(super) fn new(points: Vec<DVec3>, roundings: f64, signs: S) -> (Self, f64) {
+        let scale = inverse_power_of_two(reach(&points).max_element()) * 0.5;
+        (Self::scaled(points, DVec3::splat(scale), roundings, signs), scale)
+    }
+
+    /// The same with a power of two for each axis, so that the points fill the cube however flat they lie: no sign depends on that.
+    pub(super) fn stretched(points: Vec<DVec3>, roundings: f64, signs: S) -> (Self, DVec3) {
+        let scale = DVec3::from_array(reach(&points).to_array().map(inverse_power_of_two)) * 0.5;
+        (Self::scaled(points, scale, roundings, signs), scale)
+    }
+
+    fn scaled(mut points: Vec<DVec3>, scale: DVec3, roundings: f64, signs: S) -> Self {
+        if scale != DVec3::ONE {
             points.iter_mut().for_each(|p| *p *= scale);
         }
         let noise = roundings * f64::EPSILON / 2.0;
-        (Self { points, noise, height_bound: height_bound(2.0, noise), signs }, scale)
+        Self { points, noise, height_bound: height_bound(2.0, noise), signs }
     }
 
     pub(super) fn points(&self) -> &[DVec3] {
@@ -52,6 +61,11 @@ impl<S: Signs> Cloud<S> {
 
     pub(super) fn point(&self, p: u32) -> DVec3 {
         self.points[p as usize]
+    }
+
+    /// How far a coordinate may be from the true one.
+    pub(super) fn noise(&self) -> f64 {
+        self.noise
     }
 
     /// On which side of the plane through three points, counter-clockwise from its normal side, p lies; exact.
@@ -87,6 +101,11 @@ impl<S: Signs> Cloud<S> {
     pub(super) fn turn_bound(&self) -> f64 {
         19.0 * self.noise + 4e-15
     }
+}
+
+/// The largest coordinates along the axes, without their signs.
+fn reach(points: &[DVec3]) -> DVec3 {
+    points.iter().fold(DVec3::ZERO, |reach, p| reach.max(p.abs()))
 }
 
 /// The most that the rounded volume of three differences of points can be wrong by, with no entry above `m`: each entry is off

@@ -9,7 +9,7 @@ use std::ops::Range;
 use super::merge::Faces;
 use super::parallel::fill_runs;
 use super::polytope::Polygons;
-use super::surface::{NONE, Surface};
+use super::surface::{NONE, Surface, link};
 
 /// So many fans are walked at the same time, since each step waits for the one before.
 const LANES: usize = 4;
@@ -19,41 +19,54 @@ const BLOCK: usize = 12;
 /// The dual faces around a point.
 #[derive(Clone, Copy)]
 struct Fan {
-    /// A facet that has the point for a corner; `NONE` if there is none.
+    /// A facet that has the point for a corner, as four times the facet plus which of its corners that is; `NONE` if there is none.
     start: u32,
     /// How many faces there are; none around a point that is no corner of the dual hull, inside a dual face or edge: its plane only
     /// touches the solid. Later where the run ends.
     size: u32,
 }
 
-/// The faces of the solid: for each dual point that is a corner the dual faces around it. Also which half-spaces they are of.
-pub(super) fn polygons(surface: &Surface<'_>, faces: &Faces, order: &[u32]) -> (Vec<u32>, Polygons) {
-    let mut fans = fans(surface, faces, order.len());
-    // For each half-space the size of its run and where that lies among the runs in the order of the points.
-    let mut sources = vec![[0_u32; 2]; order.len()];
-    let mut total = 0;
-    for (&i, fan) in order.iter().zip(&mut fans) {
-        sources[i as usize] = [fan.size, total];
-        total += fan.size;
-        fan.size = total;
+/// The faces of the solid in the order of the dual points, as a step on the way: it is all that is needed of the dual hull.
+pub(super) struct Runs {
+    /// For each half-space the size of its run and where that begins.
+    sources: Vec<[u32; 2]>,
+    runs: Vec<u32>,
+}
+
+impl Runs {
+    /// For each dual point that is a corner the dual faces around it.
+    pub(super) fn of(surface: &Surface<'_>, faces: &Faces, order: &[u32]) -> Self {
+        let mut fans = fans(surface, faces, order.len());
+        let mut sources = vec![[0_u32; 2]; order.len()];
+        let mut total = 0;
+        for (&i, fan) in order.iter().zip(&mut fans) {
+            sources[i as usize] = [fan.size, total];
+            total += fan.size;
+            fan.size = total;
+        }
+        let walks = Walks { surface, faces, fans };
+        let mut runs = vec![0; total as usize];
+        fill_runs(&mut runs, order.len(), |place| walks.begin(place), |places, out| walks.write(places, out));
+        Self { sources, runs }
     }
-    let walks = Walks { surface, faces, fans };
-    let mut runs = vec![0; total as usize];
-    fill_runs(&mut runs, order.len(), |place| walks.begin(place), |places, out| walks.write(places, out));
-    drop(walks);
-    let (mut half_spaces, mut ends) = (Vec::with_capacity(order.len()), Vec::with_capacity(order.len()));
-    let mut end = 0;
-    for (i, &[size, _]) in (0..).zip(&sources).filter(|(_, source)| source[0] > 0) {
-        end += size;
-        half_spaces.push(i);
-        ends.push(end);
+
+    /// The faces in the order of the half-spaces, and which half-spaces they are of.
+    pub(super) fn into_polygons(self) -> (Vec<u32>, Polygons) {
+        let Self { sources, runs } = self;
+        let (mut half_spaces, mut ends) = (Vec::with_capacity(sources.len()), Vec::with_capacity(sources.len()));
+        let mut end = 0;
+        for (i, &[size, _]) in (0..).zip(&sources).filter(|(_, source)| source[0] > 0) {
+            end += size;
+            half_spaces.push(i);
+            ends.push(end);
+        }
+        let begin = |face: usize| if face == 0 { 0 } else { ends[face - 1] as usize };
+        let mut corners = vec![0; runs.len()];
+        fill_runs(&mut corners, ends.len(), begin, |own, out| {
+            collect(half_spaces[own].iter().map(|&i| sources[i as usize]), &runs, out);
+        });
+        (half_spaces, Polygons::from_runs(corners, ends))
     }
-    let begin = |face: usize| if face == 0 { 0 } else { ends[face - 1] as usize };
-    let mut corners = vec![0; total as usize];
-    fill_runs(&mut corners, ends.len(), begin, |own, out| {
-        collect(half_spaces[own].iter().map(|&i| sources[i as usize]), &runs, out);
-    });
-    (half_spaces, Polygons::from_runs(corners, ends))
 }
 
 /// Copies runs, each given by its size and where it begins, one behind the other.
@@ -75,15 +88,15 @@ fn collect(sources: impl Iterator<Item = [u32; 2]>, runs: &[u32], out: &mut [u32
 fn fans(surface: &Surface<'_>, faces: &Faces, points: usize) -> Vec<Fan> {
     let mut fans = vec![Fan { start: NONE, size: 0 }; points];
     for f in surface.live() {
-        for v in surface.facet(f).corners {
+        for (v, corner) in surface.facet(f).corners.into_iter().zip(0..) {
             let fan = &mut fans[v as usize];
-            *fan = Fan { start: f, size: fan.size + 1 };
+            *fan = Fan { start: link(f, corner), size: fan.size + 1 };
         }
     }
     if faces.has_merged() {
         let mut around = Vec::new();
         for (v, fan) in (0..).zip(&mut fans).filter(|(_, fan)| fan.size > 0) {
-            faces.around(surface, v, fan.start, &mut around);
+            faces.around(surface, v, fan.start >> 2, &mut around);
             fan.size = if around.len() > 2 { around.len() as u32 } else { 0 };
         }
     }
@@ -141,8 +154,8 @@ impl Walks<'_> {
     /// sizes can be walked together without a branch.
     #[inline(always)]
     fn step(&self, lane: &mut Lane, out: &mut [u32]) {
-        out[lane.begin + lane.step] = self.faces.of_facet(lane.at);
-        lane.at = self.surface.next_around(lane.point, lane.at);
+        out[lane.begin + lane.step] = self.faces.of_facet(lane.at >> 2);
+        lane.at = self.surface.next_around(lane.at);
         lane.step += 1;
         lane.step = if lane.step == lane.size { 0 } else { lane.step };
     }
@@ -150,7 +163,7 @@ impl Walks<'_> {
     fn write_merged(&self, lane: Lane, out: &mut [u32]) {
         if lane.size > 0 {
             let mut around = Vec::with_capacity(lane.size);
-            self.faces.around(self.surface, lane.point, lane.at, &mut around);
+            self.faces.around(self.surface, lane.point, lane.at >> 2, &mut around);
             out[lane.begin..lane.begin + lane.size].copy_from_slice(&around);
         }
     }

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::cloud::{Cloud, PlaneSigns};
 use super::contract::contract;
 use super::determinant::excess;
-use super::fans::polygons;
+use super::fans::Runs;
 use super::grow::grow;
 use super::interior::{Centre, deepest_point};
 use super::merge::Faces;
@@ -14,7 +14,7 @@ use super::parallel::fill;
 use super::polytope::Polytope;
 use super::split::split;
 use super::start::{Flat, enclose_centre, far_apart};
-use super::surface::{Slot, Surface, room};
+use super::surface::{Room, Surface};
 use crate::code::codes;
 
 /// A half-space: all x with normal · x ≤ offset.
@@ -225,33 +225,51 @@ fn exact_intersection(half_spaces: &[HalfSpace], centre: DVec3, simple: bool) ->
         h.normal * (1.0 / h.slack(centre))
     });
     // A dual point carries the rounding of the slack, one ulp, and of the division and the product, half an ulp each.
-    let (cloud, scale) = Cloud::new(near, 4.0, PlaneSigns::new(half_spaces, &order.points));
-    let mut facets = room(count);
-    let mut surface = dual_hull(&cloud, &order, &mut facets)?;
+    let (cloud, scale) = Cloud::stretched(near, 4.0, PlaneSigns::new(half_spaces, &order.points));
+    let mut room = Room::new(count);
+    let mut surface = dual_hull(&cloud, scale, &order, &mut room)?;
     let faces = if simple && !surface.has_zeros() {
         surface.compact();
         Faces::unmerged(&surface)
     } else {
         Faces::of(&surface, &cloud)
     };
-    let vertices = vertices(&surface, &faces, cloud.points(), scale, centre);
+    let place = |pole: DVec3| centre + pole * scale;
+    let merged = if faces.has_merged() || surface.slots() > surface.len() {
+        Some(vertices(&surface, &faces, cloud.points(), place))
+    } else {
+        surface.update_poles(|[a, b, c], pole| {
+            let y = DVec3::from_array(pole);
+            let lies_on = |v: u32| (1.0 - cloud.point(v).dot(y)).abs() <= SETTLED;
+            // A pole that is no number lies on nothing.
+            let is_settled = lies_on(a) & lies_on(b) & lies_on(c);
+            place(if is_settled { y } else { meeting_point([a, b, c].map(|v| cloud.point(v))) }).to_array()
+        });
+        None
+    };
     drop(cloud);
-    let (half_spaces, faces) = polygons(&surface, &faces, &order.points);
+    let count = surface.len();
+    let runs = Runs::of(&surface, &faces, &order.points);
+    drop((faces, order));
+    let poles = room.into_poles(count);
+    let vertices = merged.unwrap_or_else(|| poles.into_iter().map(DVec3::from_array).collect());
+    let (half_spaces, faces) = runs.into_polygons();
     Ok(Polytope { vertices, half_spaces, faces, interior: centre })
 }
 
 /// The hull of the dual points, with the centre inside.
 fn dual_hull<'a>(
     cloud: &Cloud<PlaneSigns<'_>>,
+    scale: DVec3,
     order: &Order,
-    facets: &'a mut [Slot],
+    room: &'a mut Room,
 ) -> Result<Surface<'a>, HalfSpaceError> {
-    let open = |flat| HalfSpaceError::Unbounded { direction: open_direction(flat, cloud.points()) };
+    let open = |flat| HalfSpaceError::Unbounded { direction: open_direction(flat, cloud.points(), scale) };
     if cloud.len() < 4 {
         return Err(open(few(cloud.points())));
     }
     let start = far_apart(cloud, 0).map_err(open)?;
-    let mut surface = Surface::tetrahedron(start, None, facets);
+    let mut surface = Surface::tetrahedron(cloud, start, None, room);
     let mut inserted = enclose_centre(cloud, &mut surface).map_err(open)?;
     inserted.extend(start);
     inserted.sort_unstable();
@@ -267,8 +285,9 @@ fn few(points: &[DVec3]) -> Flat {
     }
 }
 
-/// A unit vector u with n·u ≤ 0 for all normals n: along it no plane is ever met.
-fn open_direction(flat: Flat, dual_points: &[DVec3]) -> DVec3 {
+/// A unit vector u with n·u ≤ 0 for all normals n: along it no plane is ever met. The dual points q were stretched by `scale`; for
+/// a direction u that is right for them u ∘ scale is right for the normals.
+fn open_direction(flat: Flat, dual_points: &[DVec3], scale: DVec3) -> DVec3 {
     let Some(&q) = dual_points.first() else { return DVec3::X };
     let direction = match flat {
         Flat::OneSided(normal) => normal,
@@ -282,18 +301,19 @@ fn open_direction(flat: Flat, dual_points: &[DVec3]) -> DVec3 {
     };
     // Where the line of dual points passes through the centre any direction across it is open.
     let fallback = || q.try_normalize().map_or(DVec3::X, |q| q.any_orthonormal_vector());
-    direction.try_normalize().unwrap_or_else(fallback) + DVec3::ZERO
+    let unstretched = direction.try_normalize().unwrap_or_else(fallback) * (scale / scale.max_element());
+    unstretched.normalize_or(DVec3::X) + DVec3::ZERO
 }
 
 /// The meeting point of the planes of each face of the dual hull.
-fn vertices(surface: &Surface<'_>, faces: &Faces, dual: &[DVec3], scale: f64, centre: DVec3) -> Vec<DVec3> {
+fn vertices(surface: &Surface<'_>, faces: &Faces, dual: &[DVec3], place: impl Fn(DVec3) -> DVec3 + Sync) -> Vec<DVec3> {
     let mut vertices = vec![DVec3::ZERO; faces.len()];
     fill(&mut vertices, |face| {
         let facet = surface.facet(faces.first(face as u32));
         let is_alone = !faces.has_merged() || facet.across.iter().all(|&g| faces.of_facet(g) != face as u32);
         let triple =
             if is_alone { facet.corners.map(|v| dual[v as usize]) } else { widest(surface, faces, face, dual) };
-        centre + meeting_point(triple) * scale
+        place(meeting_point(triple))
     });
     vertices
 }
@@ -318,8 +338,12 @@ pub(super) fn widest_triple(points: &[DVec3]) -> [DVec3; 3] {
     [a, b, c]
 }
 
+/// Terms of this size leave no more to gain.
+const SETTLED: f64 = 2.0 * f64::EPSILON;
+
 /// Where q·y = 1 for three dual points, with the residuals solved for again: y lies on the planes to rounding, however flat
 /// they meet.
+#[inline(never)]
 pub(super) fn meeting_point([a, b, c]: [DVec3; 3]) -> DVec3 {
     let (ab, ac) = (b - a, c - a);
     let normal = ab.cross(ac);
@@ -327,8 +351,7 @@ pub(super) fn meeting_point([a, b, c]: [DVec3; 3]) -> DVec3 {
     let mut best = normal * inverse;
     for _ in 0..3 {
         let residuals = DVec3::new(1.0 - a.dot(best), 1.0 - b.dot(best), 1.0 - c.dot(best));
-        // Terms of this size leave no more to gain.
-        if residuals.abs().max_element() <= 2.0 * f64::EPSILON {
+        if residuals.abs().max_element() <= SETTLED {
             break;
         }
         let [x, y, z] = residuals.to_array();

@@ -10,6 +10,11 @@ pub(super) fn fill<T: Send>(out: &mut [T], make: impl Fn(usize) -> T + Sync) {
     in_shares(out, |start, part| part.iter_mut().enumerate().for_each(|(i, value)| *value = make(start + i)));
 }
 
+/// Sets every value of `out` to `make(its index, itself)`.
+pub(super) fn update<T: Send>(out: &mut [T], make: impl Fn(usize, &T) -> T + Sync) {
+    in_shares(out, |start, part| part.iter_mut().zip(start..).for_each(|(value, i)| *value = make(i, value)));
+}
+
 /// Runs `work` on shares of `count` runs that lie one behind the other in `out`. Each share is told which runs are its own.
 pub(super) fn fill_runs<T: Send>(
     out: &mut [T],

@@ -9,7 +9,7 @@ use super::merge::{Faces, fan_starts};
 use super::order::{MOST_POINTS, insertion_order};
 use super::polytope::Polygons;
 use super::start::{Flat, far_apart};
-use super::surface::{NONE, Surface, room};
+use super::surface::{NONE, Room, Surface};
 use crate::code::codes;
 use crate::geom::RoundingBound;
 use crate::geom::predicate::orient3d;
@@ -105,8 +105,8 @@ pub fn convex_hull(points: &[DVec3], numbers: Numbers) -> Result<Polygons, HullE
     let (cloud, scale) =
         Cloud::new(order.points.iter().map(|&i| points[i as usize] - centre.point).collect(), 2.0, signs);
     let places = corners.map(|c| order.points.iter().position(|&i| i == c).expect("every point has a place") as u32);
-    let mut facets = room(count);
-    let mut surface = Surface::tetrahedron(places, centre.is_corner.then_some(places[0]), &mut facets);
+    let mut room = Room::new(count);
+    let mut surface = Surface::tetrahedron(&cloud, places, centre.is_corner.then_some(places[0]), &mut room);
     let mut inserted = places;
     inserted.sort_unstable();
     grow(&cloud, &mut surface, &order, &inserted);

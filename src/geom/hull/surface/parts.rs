@@ -3,7 +3,7 @@
 //! A facet at the border of a part is never replaced there, so it keeps its slot, and the parts fit together again whatever
 //! happened inside them.
 
-use super::{BORDER, NONE, Slot, Surface};
+use super::{BORDER, NONE, Pole, Slot, Surface, link};
 
 /// How a surface was divided.
 pub(in super::super) struct Division {
@@ -46,6 +46,7 @@ impl Surface<'_> {
         part_of: impl Fn(u32) -> usize,
     ) -> (Vec<Surface<'_>>, Division) {
         let whole: Vec<Slot> = self.facets[..self.used].to_vec();
+        let poles: Vec<Pole> = self.poles[..self.used].to_vec();
         self.facets[..self.used].fill([0; 6]);
         let mut sizes = vec![0; room.len()];
         let mut division =
@@ -62,19 +63,23 @@ impl Surface<'_> {
         for (f, facet) in whole.iter().enumerate() {
             if let Some((part, slot)) = division.place_of(f as u32) {
                 let [a, b, c, across @ ..] = *facet;
-                let [ab, bc, ca] = across.map(|g| match division.place_of(g) {
-                    Some((other, slot)) if other != part => (division.begin(other) + slot) | BORDER,
-                    place => place.map_or(NONE, |(_, slot)| slot),
+                let [ab, bc, ca] = across.map(|side| match division.place_of(side >> 2) {
+                    Some((other, slot)) if other != part => link(division.begin(other) + slot, side & 3) | BORDER,
+                    place => place.map_or(NONE, |(_, slot)| link(slot, side & 3)),
                 });
-                self.facets[division.begins[part] + slot as usize] = [a, b, c, ab, bc, ca];
+                let at = division.begins[part] + slot as usize;
+                self.facets[at] = [a, b, c, ab, bc, ca];
+                self.poles[at] = poles[f];
             }
         }
-        let mut rest = &mut *self.facets;
+        let (mut facets, mut poles) = (&mut *self.facets, &mut *self.poles);
         let mut parts = Vec::with_capacity(sizes.len());
         for (part, size) in sizes.into_iter().enumerate() {
-            let (own, others) = rest.split_at_mut(division.begins[part + 1] - division.begins[part]);
-            rest = others;
-            parts.push(Surface::with_facets(own, size));
+            let slots = division.begins[part + 1] - division.begins[part];
+            let (own_facets, own_poles);
+            (own_facets, facets) = facets.split_at_mut(slots);
+            (own_poles, poles) = poles.split_at_mut(slots);
+            parts.push(Surface::with_facets(own_facets, own_poles, size));
         }
         (parts, division)
     }
@@ -82,8 +87,8 @@ impl Surface<'_> {
     /// Ends the growth of a part that begins at slot `begin` of the whole surface: its facets point into that again.
     pub(in super::super) fn into_growth(self, begin: u32) -> Growth {
         for slot in self.facets[..self.used].iter_mut().filter(|slot| slot[0] != slot[1]) {
-            for g in &mut slot[3..] {
-                *g = if *g & BORDER == 0 { begin + *g } else { *g & !BORDER };
+            for side in &mut slot[3..] {
+                *side = if *side & BORDER == 0 { link(begin, 0) + *side } else { *side & !BORDER };
             }
         }
         let free = self.free.iter().map(|&f| begin + f).collect();

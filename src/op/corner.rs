@@ -4,7 +4,7 @@
 //! without looking farther: one new vertex on each edge of the corner, one cap. Nothing is divided that would be removed
 //! again, so the cut costs as much as the corner has edges, whatever the sizes of its faces and of the mesh.
 
-use super::cutter::{Capping, Cutter, SlicingPlane};
+use super::cutter::{Capping, Cutter, End, SlicingPlane};
 use crate::geom::{Plane, Side};
 use crate::mesh::{FaceId, FaceKind, HalfEdgeId, VertexId};
 
@@ -20,6 +20,8 @@ const OTHER: u8 = 2;
 pub(super) struct CornerWork {
     outgoing: Vec<HalfEdgeId>,
     planes: Vec<Option<Plane>>,
+    /// The far ends of the edges.
+    ends: Vec<End>,
     places: Vec<glam::DVec3>,
     corners: Vec<VertexId>,
 }
@@ -27,11 +29,15 @@ pub(super) struct CornerWork {
 impl Cutter {
     /// Cuts off the corner `v` if it is the simple case; else returns `false` and has changed nothing.
     pub(super) fn cut_corner(&mut self, plane: &SlicingPlane, v: VertexId) -> bool {
-        if plane.given.is_some() || !self.mesh.has_vertex(v) || self.side(plane, v) != Side::Normal {
+        if plane.given.is_some() || !self.mesh.has_vertex(v) {
+            return false;
+        }
+        let here = self.end(&plane.plane, v);
+        if self.side_at(v, here.distance) != Side::Normal {
             return false;
         }
         let mut work = std::mem::take(&mut self.corner);
-        let is_simple = self.look_at_corner(plane, v, &mut work);
+        let is_simple = self.look_at_corner(&plane.plane, v, here, &mut work);
         if is_simple {
             self.remove_corner(plane, v, &mut work);
         }
@@ -40,34 +46,41 @@ impl Cutter {
     }
 
     /// Collects the edges, planes and new places; tells whether the corner is the simple case.
-    fn look_at_corner(&mut self, plane: &SlicingPlane, v: VertexId, work: &mut CornerWork) -> bool {
-        work.outgoing.clear();
-        work.outgoing.extend(self.mesh.outgoing(v));
-        if work.outgoing.len() < 3 {
+    fn look_at_corner(&mut self, plane: &Plane, v: VertexId, here: End, work: &mut CornerWork) -> bool {
+        let CornerWork { outgoing, planes, ends, places, .. } = work;
+        outgoing.clear();
+        outgoing.extend(self.mesh.outgoing(v));
+        if outgoing.len() < 3 {
             return false;
         }
-        work.planes.clear();
-        for &h in &work.outgoing {
-            if self.side(plane, self.mesh.target(h)) != Side::Reverse {
+        planes.clear();
+        ends.clear();
+        for &h in &*outgoing {
+            let end = self.end(plane, self.mesh.target(h));
+            if self.side_at(self.mesh.target(h), end.distance) != Side::Reverse {
                 return false;
             }
+            ends.push(end);
             let f = self.mesh.face(h);
             if !self.is_convex(f) {
                 return false;
             }
-            self.ensure_plane(f);
-            work.planes.push(self.mesh.carried_plane(f));
+            planes.push(self.mesh.carried_plane(f).or_else(|| {
+                self.ensure_plane(f);
+                self.mesh.carried_plane(f)
+            }));
         }
-        work.places.clear();
-        let k = work.outgoing.len();
-        for (i, &h) in work.outgoing.iter().enumerate() {
+        places.clear();
+        let k = outgoing.len();
+        for (i, &end) in ends.iter().enumerate() {
             // The other face of an edge is that of the next edge around the vertex.
-            let place = self.crossing_between(plane, h, [work.planes[i], work.planes[(i + 1) % k]]);
-            let is_end = place == self.mesh.position(v) || place == self.mesh.position(self.mesh.target(h));
-            if is_end || work.places.last() == Some(&place) || (i + 1 == k && place == work.places[0]) {
+            let faces = [planes[i].as_ref(), planes[(i + 1) % k].as_ref()];
+            let place = self.crossing_between(plane, [here, end], faces);
+            let is_end = place == here.position || place == end.position;
+            if is_end || places.last() == Some(&place) || (i + 1 == k && place == places[0]) {
                 return false;
             }
-            work.places.push(place);
+            places.push(place);
         }
         true
     }
@@ -97,6 +110,7 @@ impl Cutter {
     }
 
     /// Whether every line meets the face in one piece. Asked once for each face; a cut leaves convex faces convex.
+    #[inline]
     pub(super) fn is_convex(&mut self, f: FaceId) -> bool {
         if self.shapes[f.index()] == UNKNOWN {
             self.shapes[f.index()] = if self.finds_convex(f) { CONVEX } else { OTHER };

@@ -9,6 +9,8 @@
 
 mod crossing;
 
+pub(super) use crossing::End;
+
 use glam::DVec3;
 use serde::Deserialize;
 
@@ -280,15 +282,30 @@ impl Cutter {
         side
     }
 
-    #[cfg(test)]
     pub(super) fn classify(&mut self, plane: &SlicingPlane, v: VertexId) -> Side {
+        self.unless_told(v, |cutter| cutter.classify_by_numbers(plane, v))
+    }
+
+    /// The side of a vertex for a constructed plane at a known distance.
+    pub(super) fn side_at(&mut self, v: VertexId, distance: f64) -> Side {
+        self.unless_told(v, |cutter| cutter.constructed_side(distance))
+    }
+
+    #[cfg(test)]
+    fn unless_told(&mut self, v: VertexId, find: impl FnOnce(&Self) -> Side) -> Side {
         self.classified += 1;
-        self.pattern.get(v.index()).copied().unwrap_or_else(|| self.classify_by_numbers(plane, v))
+        self.pattern.get(v.index()).copied().unwrap_or_else(|| find(self))
     }
 
     #[cfg(not(test))]
-    pub(super) fn classify(&mut self, plane: &SlicingPlane, v: VertexId) -> Side {
-        self.classify_by_numbers(plane, v)
+    #[inline]
+    fn unless_told(&mut self, _: VertexId, find: impl FnOnce(&Self) -> Side) -> Side {
+        find(self)
+    }
+
+    #[inline]
+    fn constructed_side(&self, distance: f64) -> Side {
+        if distance.abs() <= self.bound { Side::On } else { Side::of(distance) }
     }
 
     fn classify_by_numbers(&self, plane: &SlicingPlane, v: VertexId) -> Side {
@@ -302,8 +319,7 @@ impl Cutter {
                     side_of_plane(normal, point, x)
                 }
             }
-            _ if distance.abs() <= self.bound => Side::On,
-            _ => Side::of(distance),
+            _ => self.constructed_side(distance),
         }
     }
 

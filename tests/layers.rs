@@ -99,6 +99,7 @@ const DOORS: &[(&str, &[&str])] = &[
     ("clap_complete", &["src/cli/"]),
     ("clap_mangen", &["src/cli/"]),
     ("ctrlc", &["src/cli/"]),
+    ("mimalloc", &["src/main.rs"]),
 ];
 
 /// What parameter structs anywhere may take from clap. The rule: whatever builds or runs a command line stays in `src/cli`.

@@ -3,6 +3,10 @@
 
 #![allow(dead_code, reason = "each bench needs its part")]
 
+/// What the program has, too.
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 /// Processor seconds of the calling thread.
 pub fn thread_seconds() -> f64 {
     seconds(Whose::Thread)

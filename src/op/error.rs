@@ -57,7 +57,7 @@ pub enum OpError {
     #[error("keeping both parts gives two models, but only one can go on from here; keep `reverse` or `normal`")]
     TwoParts,
     /// The cuts take everything away.
-    #[error("nothing is left: the {cut} of {cuts} cuts removes the rest of the model; use a smaller offset or fewer elements", cut = ordinal(*cut))]
+    #[error("nothing is left: the {cut} of {cuts} cuts removes the rest of the model; use a smaller offset, fewer elements or a local scope", cut = ordinal(*cut))]
     NothingLeft {
         /// Which cut it was, counted from 1.
         cut: usize,

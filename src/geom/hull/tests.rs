@@ -324,6 +324,37 @@ fn infeasible_flat_and_open_sets_are_refused_with_the_reason() {
 }
 
 #[test]
+fn however_flat_or_long_a_solid_is_it_is_the_same() {
+    let mut random = Random(23);
+    let normals: Vec<DVec3> = (0..2000).map(|_| random.on_sphere()).collect();
+    let reference = intersect(&tangent(normals.clone()), &Intersect::default()).expect("a ball");
+    for axes in [v(1.0, 0.25, 4.0), v(1024.0, 1.0, 1.0), v(1.0, 1.0, 1.0 / 4096.0), v(1e-30, 1.0, 1e30)] {
+        // Powers of two change no digit; others the last.
+        let planes: Vec<HalfSpace> = normals.iter().map(|&n| HalfSpace { normal: n / axes, offset: 1.0 }).collect();
+        let p = intersect(&planes, &Intersect::default()).expect("an ellipsoid");
+        assert_eq!(counts(&p), counts(&reference), "{axes}");
+        let worst = p.vertices.iter().map(|&x| (x / axes).length()).fold(0.0, f64::max);
+        let expected = reference.vertices.iter().map(|x| x.length()).fold(0.0, f64::max);
+        assert!((worst - expected).abs() <= 1e-12 * expected, "{axes}: {worst} instead of {expected}");
+    }
+}
+
+#[test]
+fn the_open_direction_of_a_flat_or_long_set_is_right() {
+    let mut random = Random(29);
+    let open = v(3.0, -2.0, 1.0);
+    let normals: Vec<DVec3> = (0..500).map(|_| random.on_sphere()).filter(|n| n.dot(open) < 0.0).collect();
+    for axes in [DVec3::ONE, v(1000.0, 1.0, 0.001), v(1e-12, 1.0, 1e12)] {
+        let planes: Vec<HalfSpace> = normals.iter().map(|&n| HalfSpace { normal: n / axes, offset: 1.0 }).collect();
+        let error = intersect(&planes, &Intersect::default()).expect_err("open");
+        let HalfSpaceError::Unbounded { direction } = error else { panic!("{axes}: {error}") };
+        assert!((direction.length() - 1.0).abs() < 1e-12);
+        let closes = |h: &HalfSpace| h.normal.dot(direction) > 1e-12 * (h.normal * direction).abs().max_element();
+        assert!(!planes.iter().any(closes), "{axes}: {direction}");
+    }
+}
+
+#[test]
 fn far_away_and_at_any_scale_it_is_the_same_solid() {
     let mut random = Random(17);
     let normals: Vec<DVec3> = (0..300).map(|_| random.on_sphere()).collect();

@@ -61,3 +61,53 @@ pub(super) fn pole(apex: DVec3, a: Ray, b: Ray, noise: f64) -> Pole {
 fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::predicate::orient3d;
+    use proptest::prelude::*;
+
+    fn point() -> impl Strategy<Value = DVec3> {
+        prop::array::uniform3(-1.0..1.0_f64).prop_map(DVec3::from_array)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(4000))]
+
+        #[test]
+        fn what_a_pole_tells_for_certain_is_so(
+            apex in point(), ways in prop::array::uniform2(point()), sizes in prop::array::uniform2(0..40),
+            weights in prop::array::uniform2(-2.0..2.0_f64), nudge in point(), nearness in 0..60,
+        ) {
+            // Triangles of every size and shape, slivers among them, and points ever nearer to their planes.
+            let corner = |i: usize| (apex + ways[i] * 0.5_f64.powi(sizes[i])).clamp(DVec3::NEG_ONE, DVec3::ONE);
+            let (a, b) = (corner(0), corner(1));
+            let near = apex + (a - apex) * weights[0] + (b - apex) * weights[1] + nudge * 0.5_f64.powi(nearness);
+            let x = near.clamp(DVec3::NEG_ONE, DVec3::ONE);
+            let y = pole(apex, Ray::new(apex, a), Ray::new(apex, b), 0.0);
+            let value = product(&y, x);
+            // Positive below the plane, which the pole is only kept for where the centre is.
+            let below = orient3d(apex, a, b, x);
+            if !value.is_nan() {
+                prop_assert!(orient3d(apex, a, b, DVec3::ZERO) > 0.0);
+            }
+            if value > SEEN_FROM {
+                prop_assert!(below < 0.0, "{value} {below}");
+            } else if value < UNSEEN_BELOW {
+                prop_assert!(below > 0.0, "{value} {below}");
+            }
+        }
+
+        #[test]
+        fn facets_of_a_good_shape_have_a_pole(apex in point(), ways in prop::array::uniform2(point()), size in 0..8) {
+            let [a, b] = ways.map(|way| (apex + way * 0.5_f64.powi(size)).clamp(DVec3::NEG_ONE, DVec3::ONE));
+            let normal = (a - apex).cross(b - apex);
+            let spread = normal.length() / (a - apex).length_squared().max((b - apex).length_squared());
+            let height = normal.normalize_or_zero().dot(apex);
+            let is_good = spread > 0.3 && height > 0.4 && ways.iter().all(|way| way.length() > 0.5);
+            let has_pole = !pole(apex, Ray::new(apex, a), Ray::new(apex, b), 0.0)[0].is_nan();
+            prop_assert!(has_pole || !is_good);
+        }
+    }
+}

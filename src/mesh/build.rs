@@ -172,15 +172,12 @@ impl MeshBuilder {
         let holes = edges.hole_walks(&self.ends);
         let mut positions: Vec<Option<DVec3>> =
             self.positions.iter().zip(&used).map(|(&p, &used)| used.then_some(p)).collect();
-        let mut walks =
-            FaceList { half_edges: std::mem::take(&mut edges.walk), ends: Vec::with_capacity(self.ends.len()) };
-        walks.ends.extend(self.ends.iter().map(|&end| (end, FaceKind::Solid)));
+        let mut walks = FaceList::of_faces(std::mem::take(&mut edges.walk), &self.ends);
         for hole in holes {
-            walks.half_edges.extend(hole);
-            walks.ends.push((walks.half_edges.len(), FaceKind::Hole));
+            walks.push(hole, FaceKind::Hole);
         }
         let splits = split_fans(&walks, &mut edges.ends, &mut positions);
-        Ok((Mesh::assemble(positions, &edges.ends, &walks), splits))
+        Ok((Mesh::assemble(positions, edges.ends, &walks), splits))
     }
 
     fn check_vertices(&self) -> Result<(), BuildError> {
@@ -388,13 +385,10 @@ pub(super) fn split_fans(
     positions: &mut Vec<Option<DVec3>>,
 ) -> Vec<SplitVertex> {
     let mut next = vec![HalfEdgeId(u32::MAX); 2 * ends.len()];
-    let mut start = 0;
-    for &(end, _) in &walks.ends {
-        let walk = &walks.half_edges[start..end];
+    for (walk, _) in walks.iter() {
         for (i, &h) in walk.iter().enumerate() {
             next[h.index()] = walk[(i + 1) % walk.len()];
         }
-        start = end;
     }
     let mut fan_seen = vec![false; positions.len()];
     let mut done = vec![false; next.len()];

@@ -11,9 +11,10 @@ use glam::DVec3;
 use super::{EdgeId, FaceId, HalfEdgeId, MAX_ELEMENTS, VertexId};
 use crate::geom::Plane;
 
+mod face_list;
 mod links;
 
-pub(in crate::mesh) use links::FaceList;
+pub(in crate::mesh) use face_list::FaceList;
 pub(crate) use links::Region;
 pub use links::{LinkError, Renumbering};
 

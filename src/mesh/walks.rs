@@ -19,7 +19,7 @@ pub(crate) struct WalkBuilder {
 impl WalkBuilder {
     /// A builder with room for so many vertices, edges and faces.
     pub(crate) fn with_capacity(vertices: usize, edges: usize, faces: usize) -> Self {
-        let list = FaceList { half_edges: Vec::with_capacity(2 * edges), ends: Vec::with_capacity(faces) };
+        let list = FaceList::with_capacity(2 * edges, faces);
         Self { positions: Vec::with_capacity(vertices), edges: Vec::with_capacity(edges), list }
     }
 
@@ -37,18 +37,16 @@ impl WalkBuilder {
 
     /// Adds a face by its half-edges in order, each of which ends where the next begins.
     pub(crate) fn face(&mut self, half_edges: impl IntoIterator<Item = HalfEdgeId>) -> FaceId {
-        self.list.half_edges.extend(half_edges);
-        self.list.ends.push((self.list.half_edges.len(), FaceKind::Solid));
-        FaceId::new(self.list.ends.len() - 1)
+        FaceId::new(self.list.push(half_edges, FaceKind::Solid))
     }
 
     /// Builds the mesh; positions count as constructed. Faces that share a vertex only, at a rim, are pulled apart.
     pub(crate) fn build(mut self) -> Mesh {
-        if self.list.half_edges.len() < 2 * self.edges.len() {
+        if self.list.half_edge_count() < 2 * self.edges.len() {
             self.close_holes();
             split_fans(&self.list, &mut self.edges, &mut self.positions);
         }
-        let mut mesh = Mesh::assemble(self.positions, &self.edges, &self.list);
+        let mut mesh = Mesh::assemble(self.positions, self.edges, &self.list);
         for v in (0..mesh.vertex_slots()).map(VertexId::new) {
             mesh.set_position(v, mesh.position(v), false);
         }
@@ -61,14 +59,11 @@ impl WalkBuilder {
         let sides = 2 * self.edges.len();
         let mut prev = vec![HalfEdgeId(u32::MAX); sides];
         let mut is_used = vec![false; sides];
-        let mut start = 0;
-        for &(end, _) in &self.list.ends {
-            let walk = &self.list.half_edges[start..end];
+        for (walk, _) in self.list.iter() {
             for (i, &h) in walk.iter().enumerate() {
                 prev[walk[(i + 1) % walk.len()].index()] = h;
                 is_used[h.index()] = true;
             }
-            start = end;
         }
         let successor = |h: HalfEdgeId| {
             let mut out = h.twin();
@@ -79,15 +74,16 @@ impl WalkBuilder {
         };
         let mut is_done = is_used.clone();
         for start in (0..sides).map(HalfEdgeId::new) {
-            let before = self.list.half_edges.len();
-            let mut h = start;
-            while !std::mem::replace(&mut is_done[h.index()], true) {
-                self.list.half_edges.push(h);
-                h = successor(h);
-            }
-            if self.list.half_edges.len() > before {
-                self.list.ends.push((self.list.half_edges.len(), FaceKind::Hole));
-            }
+            let mut next = start;
+            let walk = std::iter::from_fn(|| {
+                let h = next;
+                let is_new = !std::mem::replace(&mut is_done[h.index()], true);
+                is_new.then(|| {
+                    next = successor(h);
+                    h
+                })
+            });
+            self.list.push(walk, FaceKind::Hole);
         }
     }
 }

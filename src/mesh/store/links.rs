@@ -6,7 +6,7 @@
 
 use glam::DVec3;
 
-use super::{Corner, Face, FaceKind, HalfEdge, Link, Mesh, NONE, Vertex};
+use super::{Corner, Face, FaceKind, FaceList, HalfEdge, Link, Mesh, NONE, Vertex};
 use crate::code::codes;
 use crate::mesh::{EdgeId, FaceId, HalfEdgeId, MAX_ELEMENTS, VertexId};
 
@@ -317,22 +317,24 @@ impl Mesh {
     /// builder has checked that every half-edge appears exactly once.
     pub(in crate::mesh) fn assemble(
         positions: Vec<Option<DVec3>>,
-        edges: &[(VertexId, VertexId)],
+        edges: Vec<(VertexId, VertexId)>,
         faces: &FaceList,
     ) -> Self {
         let mut mesh = Self { seams: vec![false; edges.len()], ..Self::default() };
-        mesh.vertices = positions
-            .iter()
-            .map(|p| Vertex { position: p.unwrap_or_default(), start: Link::FREE, is_given: true })
-            .collect();
         let unset = HalfEdgeId(NONE);
-        mesh.half_edges = edges
-            .iter()
-            .flat_map(|&(a, b)| [a, b].map(|origin| HalfEdge { next: unset, prev: unset, origin, face: FaceId(NONE) }))
-            .collect();
+        mesh.half_edges = Vec::with_capacity(2 * edges.len());
+        for (a, b) in edges {
+            let pair = [a, b].map(|origin| HalfEdge { next: unset, prev: unset, origin, face: FaceId(NONE) });
+            mesh.half_edges.extend(pair);
+        }
+        let absent: Vec<usize> = (0..positions.len()).filter(|&v| positions[v].is_none()).collect();
+        let vertex = |p: Option<DVec3>| Vertex { position: p.unwrap_or_default(), start: Link::FREE, is_given: true };
+        // In the memory of the positions, which are as large.
+        mesh.vertices = positions.into_iter().map(vertex).collect();
         for (h, half_edge) in mesh.half_edges.iter().enumerate() {
             mesh.vertices[half_edge.origin.index()].start = Link(h as u32);
         }
+        mesh.faces.reserve(faces.len());
         for (walk, kind) in faces.iter() {
             let f = mesh.new_face(kind);
             mesh.faces[f.index()].start = Link::edge(walk[0]);
@@ -341,14 +343,13 @@ impl Mesh {
                 mesh.half_edges[h.index()].face = f;
             }
         }
-        for (v, position) in positions.iter().enumerate() {
-            if mesh.vertices[v].start == Link::FREE {
-                if position.is_some() {
-                    let f = mesh.new_face(FaceKind::Solid);
-                    mesh.isolate(VertexId::new(v), f);
-                } else {
-                    mesh.free_vertices.push(VertexId::new(v));
-                }
+        let mut absent = absent.into_iter().peekable();
+        for v in 0..mesh.vertices.len() {
+            if absent.next_if_eq(&v).is_some() {
+                mesh.free_vertices.push(VertexId::new(v));
+            } else if mesh.vertices[v].start == Link::FREE {
+                let f = mesh.new_face(FaceKind::Solid);
+                mesh.isolate(VertexId::new(v), f);
             }
         }
         mesh
@@ -526,20 +527,6 @@ impl Mesh {
         self.set_kind(f, FaceKind::Solid);
         self.faces[f.index()].start = Link::FREE;
         self.free_faces.push(f);
-    }
-}
-
-/// The walks of faces and holes, for [`Mesh::assemble`]: all half-edges in one vector, with the ends of the walks.
-#[derive(Default)]
-pub(in crate::mesh) struct FaceList {
-    pub half_edges: Vec<HalfEdgeId>,
-    pub ends: Vec<(usize, FaceKind)>,
-}
-
-impl FaceList {
-    fn iter(&self) -> impl Iterator<Item = (&[HalfEdgeId], FaceKind)> {
-        let starts = std::iter::once(0).chain(self.ends.iter().map(|&(end, _)| end));
-        starts.zip(&self.ends).map(|(start, &(end, kind))| (&self.half_edges[start..end], kind))
     }
 }
 

@@ -25,7 +25,7 @@ mod tests;
 use serde::Deserialize;
 
 use super::{OpContext, OpError};
-use crate::mesh::{FaceId, HalfEdgeId, HalfEdgeMap, Mesh, VertexId, WalkBuilder};
+use crate::mesh::{EdgeId, FaceId, HalfEdgeId, HalfEdgeMap, Mesh, VertexId, WalkBuilder};
 
 pub use vertex_kind::{VertexKind, vertex_kind};
 
@@ -147,14 +147,15 @@ fn once(coarse: &Mesh) -> Mesh {
     let mut fine = WalkBuilder::with_capacity(v + e, 5 * e, 3 * e);
     let links = Links::make(coarse, &mut fine);
     let mut inherited = Vec::new();
+    let mut bases = Bases::new(&links);
     for f in coarse.faces() {
         let faces = links.corners(f, &mut fine);
         if let Some(name) = coarse.group(f) {
             inherited.push((faces, name));
         }
+        bases.make_at(f, &mut fine);
     }
-    links.bases(&mut fine);
-    drop(links);
+    drop((bases.is_done, links));
     let mut fine = fine.build();
     for (faces, name) in inherited {
         faces.for_each(|f| fine.set_group(FaceId::new(f), name));
@@ -168,36 +169,44 @@ impl<'a> Links<'a> {
         let mut links = Self { coarse, second: none(), cut: none(), ring: none() };
         let mut kept = vec![VertexId::new(0); coarse.vertex_slots()];
         coarse.vertices().for_each(|v| kept[v.index()] = fine.vertex(coarse.position(v)));
-        let mut middles = vec![VertexId::new(0); coarse.edge_slots()];
-        for edge in coarse.edges() {
-            let [h, t] = edge.half_edges();
-            let [a, b] = [h, t].map(|h| kept[coarse.origin(h).index()]);
-            if a == b {
-                links.second[h] = fine.edge(a, a);
-                links.second[t] = links.second[h].twin();
-                continue;
+        let mut middles = vec![None; coarse.edge_slots()];
+        // Face by face, so that what lies near each other has numbers near each other, and the next round finds it in the cache.
+        for f in coarse.faces() {
+            for h in coarse.face_half_edges(f) {
+                if middles[h.edge().index()].is_none() {
+                    middles[h.edge().index()] = Some(links.halve(h.edge(), &kept, fine));
+                }
             }
-            let [p, q] = coarse.edge_positions(edge);
-            let middle = fine.vertex(p.midpoint(q));
-            middles[edge.index()] = middle;
-            links.second[h] = fine.edge(middle, b);
-            links.second[t] = fine.edge(middle, a);
-            if !coarse.is_rim(edge) {
-                links.ring[h] = fine.edge(middle, middle);
-                links.ring[t] = links.ring[h].twin();
+            for h in coarse.face_half_edges(f).filter(|&h| !is_loop(coarse, h)) {
+                let ends = [h, next_straight(coarse, h)].map(|h| middles[h.edge().index()].expect("it was halved"));
+                links.cut[h] = fine.edge(ends[0], ends[1]);
             }
         }
-        for h in links.sides() {
-            let next = next_straight(coarse, h);
-            links.cut[h] = fine.edge(middles[h.edge().index()], middles[next.edge().index()]);
+        for e in coarse.edges().filter(|e| middles[e.index()].is_none()) {
+            links.halve(e, &kept, fine);
         }
         links
     }
 
-    /// The straight half-edges of faces.
-    fn sides(&self) -> impl Iterator<Item = HalfEdgeId> + use<'a> {
+    /// Divides an edge in the middle, with a loop there; a loop stays as it is. Returns the middle, or where the loop is.
+    fn halve(&mut self, edge: EdgeId, kept: &[VertexId], fine: &mut WalkBuilder) -> VertexId {
         let coarse = self.coarse;
-        coarse.faces().flat_map(|f| coarse.face_half_edges(f)).filter(|&h| !is_loop(coarse, h))
+        let [h, t] = edge.half_edges();
+        let [a, b] = [h, t].map(|h| kept[coarse.origin(h).index()]);
+        if a == b {
+            self.second[h] = fine.edge(a, a);
+            self.second[t] = self.second[h].twin();
+            return a;
+        }
+        let [p, q] = coarse.edge_positions(edge);
+        let middle = fine.vertex(p.midpoint(q));
+        self.second[h] = fine.edge(middle, b);
+        self.second[t] = fine.edge(middle, a);
+        if !coarse.is_rim(edge) {
+            self.ring[h] = fine.edge(middle, middle);
+            self.ring[t] = self.ring[h].twin();
+        }
+        middle
     }
 
     /// The faces at the corners of an old face, each with the loops that lie in its corner. Returns their numbers.
@@ -218,27 +227,38 @@ impl<'a> Links<'a> {
             face..face + 1
         })
     }
+}
 
-    /// The bases of the pyramids, seen from outside through the openings: cuts around a vertex, joined by the new loops.
-    fn bases(&self, fine: &mut WalkBuilder) {
-        let coarse = self.coarse;
-        let mut is_done = HalfEdgeMap::filled(coarse.half_edge_slots(), false);
-        let mut walk = Vec::new();
-        for start in self.sides() {
-            walk.clear();
+/// The bases of the pyramids, seen from outside through the openings: cuts around a vertex, joined by the new loops.
+struct Bases<'a> {
+    links: &'a Links<'a>,
+    is_done: HalfEdgeMap<bool>,
+    walk: Vec<HalfEdgeId>,
+}
+
+impl<'a> Bases<'a> {
+    fn new(links: &'a Links<'a>) -> Self {
+        Self { links, is_done: HalfEdgeMap::filled(links.coarse.half_edge_slots(), false), walk: Vec::new() }
+    }
+
+    /// Makes the bases that begin in a face.
+    fn make_at(&mut self, f: FaceId, fine: &mut WalkBuilder) {
+        let coarse = self.links.coarse;
+        for start in coarse.face_half_edges(f).filter(|&h| !is_loop(coarse, h)) {
+            self.walk.clear();
             let mut h = start;
-            while !std::mem::replace(&mut is_done[h], true) {
+            while !std::mem::replace(&mut self.is_done[h], true) {
                 let next = next_straight(coarse, h);
-                walk.push(self.cut[h]);
+                self.walk.push(self.links.cut[h]);
                 h = if coarse.is_rim(next.edge()) {
                     next
                 } else {
-                    walk.push(self.ring[next]);
+                    self.walk.push(self.links.ring[next]);
                     next.twin()
                 };
             }
-            if !walk.is_empty() {
-                fine.face(walk.iter().copied());
+            if !self.walk.is_empty() {
+                fine.face(self.walk.iter().copied());
             }
         }
     }

@@ -37,7 +37,7 @@ impl WalkBuilder {
 
     /// Adds a face by its half-edges in order, each of which ends where the next begins.
     pub(crate) fn face(&mut self, half_edges: impl IntoIterator<Item = HalfEdgeId>) -> FaceId {
-        FaceId::new(self.list.push(half_edges, FaceKind::Solid))
+        FaceId::new(self.list.push(half_edges, FaceKind::Solid).expect("a face has sides"))
     }
 
     /// Builds the mesh; positions count as constructed. Faces that share a vertex only, at a rim, are pulled apart.

@@ -20,14 +20,18 @@ impl FaceList {
         Self { half_edges, ends: ends.iter().map(|&end| (end as u32, FaceKind::Solid)).collect() }
     }
 
-    /// Adds a walk, if it is not empty; returns its number.
-    pub(in crate::mesh) fn push(&mut self, walk: impl IntoIterator<Item = HalfEdgeId>, kind: FaceKind) -> usize {
+    /// Adds a walk and returns its number; nothing is added for an empty one.
+    pub(in crate::mesh) fn push(
+        &mut self,
+        walk: impl IntoIterator<Item = HalfEdgeId>,
+        kind: FaceKind,
+    ) -> Option<usize> {
         let before = self.half_edges.len();
         self.half_edges.extend(walk);
-        if self.half_edges.len() > before {
+        (self.half_edges.len() > before).then(|| {
             self.ends.push((self.half_edges.len() as u32, kind));
-        }
-        self.ends.len() - 1
+            self.ends.len() - 1
+        })
     }
 
     /// Number of walks.

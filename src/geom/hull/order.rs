@@ -194,38 +194,44 @@ fn on_cube(direction: DVec3) -> (usize, [f64; 2]) {
 
 /// The place of a cell along the Hilbert curve of a square with 2^bits cells a side.
 fn hilbert([x, y]: [u32; 2], bits: u32) -> u32 {
-    // Three levels at a time. An odd number of levels above, all zeros, would turn the curve, so whole steps are taken from the top.
-    let steps = bits.div_ceil(3);
-    let shift = 3 * steps - bits;
+    // Several levels at a time. An odd number of levels above, all zeros, would turn the curve, so whole steps are taken from the top.
+    let steps = bits.div_ceil(STEP_LEVELS);
+    let shift = STEP_LEVELS * steps - bits;
     let (x, y) = (x << shift, y << shift);
     let (mut place, mut state) = (0, 0);
     for step in (0..steps).rev() {
-        let (x, y) = (x >> (3 * step) & 7, y >> (3 * step) & 7);
-        let entry = THREE_LEVELS[(state << 6 | x << 3 | y) as usize];
-        place = place << 6 | u32::from(entry & 63);
-        state = u32::from(entry >> 6);
+        let [x, y] = [x, y].map(|c| c >> (STEP_LEVELS * step) & STEP_MASK);
+        let entry = u32::from(STEP[(state << (2 * STEP_LEVELS) | x << STEP_LEVELS | y) as usize]);
+        place = place << (2 * STEP_LEVELS) | entry & PLACE_MASK;
+        state = entry >> (2 * STEP_LEVELS);
     }
     place >> (2 * shift)
 }
 
-/// For each state of the curve and place of a cell in a square of 8 × 8 how far along the curve the cell lies, in the lower six
+/// So many levels of the curve are looked up at once.
+const STEP_LEVELS: u32 = 5;
+const STEP_MASK: u32 = (1 << STEP_LEVELS) - 1;
+const PLACE_MASK: u32 = (1 << (2 * STEP_LEVELS)) - 1;
+
+/// For each state of the curve and place of a cell in a square of 32 × 32 how far along the curve the cell lies, in the lower ten
 /// bits, and the state of the curve within it. State 0 is the curve from the lower left to the lower right, 1 that mirrored at the diagonal;
 /// 2 is added where it is mirrored at both sides.
-const THREE_LEVELS: [u8; 256] = three_levels();
+static STEP: [u16; 4 << (2 * STEP_LEVELS)] = step_table();
 
-const fn three_levels() -> [u8; 256] {
-    let mut table = [0; 256];
+const fn step_table() -> [u16; 4 << (2 * STEP_LEVELS)] {
+    let mut table = [0; 4 << (2 * STEP_LEVELS)];
     let mut i = 0;
-    while i < 256 {
-        let (mut x, mut y, mut place) = (i as u32 >> 3 & 7, i as u32 & 7, 0);
-        let (mut is_swapped, mut is_flipped) = (i >> 6 & 1 == 1, i >> 7 == 1);
+    while i < table.len() {
+        let (mut x, mut y, mut place) = (i as u32 >> STEP_LEVELS & STEP_MASK, i as u32 & STEP_MASK, 0);
+        let state = i as u32 >> (2 * STEP_LEVELS);
+        let (mut is_swapped, mut is_flipped) = (state & 1 == 1, state >> 1 == 1);
         if is_flipped {
-            (x, y) = (7 - x, 7 - y);
+            (x, y) = (STEP_MASK - x, STEP_MASK - y);
         }
         if is_swapped {
             (x, y) = (y, x);
         }
-        let mut level = 3;
+        let mut level = STEP_LEVELS;
         while level > 0 {
             level -= 1;
             let (right, upper) = (x >> level & 1, y >> level & 1);
@@ -240,7 +246,8 @@ const fn three_levels() -> [u8; 256] {
                 is_swapped = !is_swapped;
             }
         }
-        table[i] = place as u8 | (is_swapped as u8) << 6 | (is_flipped as u8) << 7;
+        table[i] =
+            (place | (is_swapped as u32) << (2 * STEP_LEVELS) | (is_flipped as u32) << (2 * STEP_LEVELS + 1)) as u16;
         i += 1;
     }
     table

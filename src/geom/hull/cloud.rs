@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::HalfSpace;
 use super::determinant::sign_of_determinant;
+use super::half_space::HalfSpace;
 use crate::geom::Side;
 use crate::geom::predicate::orient3d;
 

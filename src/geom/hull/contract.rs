@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::HalfSpace;
-use super::halfspaces::{meeting_point, widest_triple};
+use super::half_space::HalfSpace;
+use super::meeting::{meeting_point, widest_triple};
 use super::polytope::{Polygons, Polytope};
 use crate::geom::RoundingBound;
 

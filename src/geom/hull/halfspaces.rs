@@ -4,10 +4,11 @@ use glam::DVec3;
 
 use super::cloud::{Cloud, PlaneSigns};
 use super::contract::contract;
-use super::determinant::excess;
 use super::fans::Runs;
 use super::grow::grow;
+use super::half_space::HalfSpace;
 use super::interior::{Centre, deepest_point};
+use super::meeting::{SETTLED, meeting_point, widest_triple};
 use super::merge::Faces;
 use super::order::{MOST_POINTS, Order, insertion_order};
 use super::parallel::fill;
@@ -16,22 +17,6 @@ use super::split::split;
 use super::start::{Flat, enclose_centre, far_apart};
 use super::surface::{Room, Surface};
 use crate::code::codes;
-
-/// A half-space: all x with normal · x ≤ offset.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HalfSpace {
-    /// The outward normal, of any length but zero.
-    pub normal: DVec3,
-    /// normal · x on the plane.
-    pub offset: f64,
-}
-
-impl HalfSpace {
-    /// How far inside `x` lies, in units of the normal's length: right to an ulp even where the terms cancel.
-    pub fn slack(&self, x: DVec3) -> f64 {
-        if x == DVec3::ZERO { self.offset } else { -excess(self.normal.to_array(), x.to_array(), self.offset) }
-    }
-}
 
 /// What becomes of points where more than three planes meet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
@@ -324,45 +309,6 @@ fn widest(surface: &Surface<'_>, faces: &Faces, face: usize, dual: &[DVec3]) -> 
     faces.rim(surface, face as u32, &mut rim);
     let points: Vec<DVec3> = rim.iter().map(|&v| dual[v as usize]).collect();
     widest_triple(&points)
-}
-
-/// The first point, the one farthest from it, and the one farthest from the line of the two; counter-clockwise order is not
-/// kept.
-pub(super) fn widest_triple(points: &[DVec3]) -> [DVec3; 3] {
-    let far = |measure: &dyn Fn(DVec3) -> f64| {
-        points.iter().copied().max_by(|&p, &q| measure(p).total_cmp(&measure(q))).unwrap_or_default()
-    };
-    let a = points.first().copied().unwrap_or_default();
-    let b = far(&|p| p.distance_squared(a));
-    let c = far(&|p| (b - a).cross(p - a).length_squared());
-    [a, b, c]
-}
-
-/// Terms of this size leave no more to gain.
-const SETTLED: f64 = 2.0 * f64::EPSILON;
-
-/// Where q·y = 1 for three dual points, with the residuals solved for again: y lies on the planes to rounding, however flat
-/// they meet.
-#[inline(never)]
-pub(super) fn meeting_point([a, b, c]: [DVec3; 3]) -> DVec3 {
-    let (ab, ac) = (b - a, c - a);
-    let normal = ab.cross(ac);
-    let inverse = 1.0 / normal.dot(a);
-    let mut best = normal * inverse;
-    for _ in 0..3 {
-        let residuals = DVec3::new(1.0 - a.dot(best), 1.0 - b.dot(best), 1.0 - c.dot(best));
-        if residuals.abs().max_element() <= SETTLED {
-            break;
-        }
-        let [x, y, z] = residuals.to_array();
-        let turned = normal * x + ac.cross(a) * (y - x) + a.cross(ab) * (z - x);
-        let better = best + turned * inverse;
-        if !better.is_finite() {
-            break;
-        }
-        best = better;
-    }
-    best
 }
 
 /// Contracts what is shorter than rounding. Planes that then span no face any more are left out and the rest is intersected

@@ -4,7 +4,7 @@
 //! linear programming made easy", for solving with one constraint more by going down one dimension. All in rounded
 //! arithmetic: whoever uses the point checks it exactly.
 
-use super::HalfSpace;
+use super::half_space::HalfSpace;
 use glam::DVec3;
 
 /// The centre of a largest ball inside half-spaces.

@@ -14,8 +14,10 @@ mod contract;
 mod determinant;
 mod fans;
 mod grow;
+mod half_space;
 mod halfspaces;
 mod interior;
+mod meeting;
 mod merge;
 mod order;
 mod parallel;
@@ -30,6 +32,7 @@ mod large_tests;
 #[cfg(test)]
 mod tests;
 
-pub use halfspaces::{Form, HalfSpace, HalfSpaceError, Intersect, Numbers, intersect};
+pub use half_space::HalfSpace;
+pub use halfspaces::{Form, HalfSpaceError, Intersect, Numbers, intersect};
 pub use points::{HullError, convex_hull};
 pub use polytope::{Polygons, Polytope};

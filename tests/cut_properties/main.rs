@@ -7,6 +7,7 @@ mod solids;
 mod voxels;
 
 use glam::{DVec3, IVec3};
+use kerfold::geom::RoundingBound;
 use kerfold::measure::{face_area, surface_area, volume};
 use kerfold::mesh::{FaceId, Mesh, assert_sound};
 use kerfold::op::{Capping, CutReport, Keep, OpContext, OpError, SliceParams, slice, slice_both};
@@ -134,9 +135,10 @@ fn check_halves(mesh: &Mesh, plane: Given, halves: &Halves, title: &str) {
 fn check_volume(mesh: &Mesh, halves: &Halves, title: &str) {
     let before = volume(mesh);
     let after: f64 = halves.iter().flatten().map(|(part, _)| volume(part)).sum();
-    // Constructed vertices within 1e-12 of the size count as on the plane: needles feel that.
+    // Constructed vertices within the rounding bound count as on the plane: needles feel that.
     let is_given = mesh.vertices().all(|v| mesh.is_given(v));
-    let near = if is_given { 0.0 } else { 1e-12 * kerfold::measure::size(mesh).length() };
+    let (low, high) = mesh.bounds().expect("it has vertices");
+    let near = if is_given { 0.0 } else { RoundingBound::of_box(low, high).length() };
     // No vertex can lie nearer to where it should than its coordinates are fine: what is thin, or small and far from the origin, feels that.
     let largest = mesh.vertices().map(|v| mesh.position(v).abs().max_element()).fold(0.0, f64::max);
     let slack = surface_area(mesh) * near.max(4.0 * (largest.next_up() - largest));

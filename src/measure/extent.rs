@@ -1,8 +1,8 @@
 //! How large things are: faces, surfaces, volumes, models.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
-use crate::geom::{Double, Plane, triangulate, triple_product};
+use crate::geom::{Double, Plane, triple_product};
 use crate::mesh::{FaceId, Mesh};
 
 /// The area of a face by its Newell vector; for a face that is not planar, of its projection along the Newell normal.
@@ -43,32 +43,11 @@ pub fn volume(mesh: &Mesh) -> f64 {
     for f in mesh.faces_and_holes() {
         corners.clear();
         corners.extend(mesh.face_vertices(f).map(|v| mesh.position(v)));
-        if !mesh.is_hole(f) && folds_over(&corners) {
-            for triangle in triangulate(&flattened(&corners)) {
-                sum = sum.plus(triple_product(centre, triangle.map(|i| corners[i])));
-            }
-        } else {
-            for w in corners.windows(2).skip(1) {
-                sum = sum.plus(triple_product(centre, [corners[0], w[0], w[1]]));
-            }
+        for w in corners.windows(2).skip(1) {
+            sum = sum.plus(triple_product(centre, [corners[0], w[0], w[1]]));
         }
     }
     sum.value() / 6.0
-}
-
-/// Whether the fan from the first corner covers much more than the polygon: then what its corners are off their plane by would count
-/// many times.
-fn folds_over(corners: &[DVec3]) -> bool {
-    let Some((&first, rest)) = corners.split_first().filter(|_| corners.len() > 4) else { return false };
-    let fan = || rest.windows(2).map(|w| doubled_area([first, w[0], w[1]]));
-    fan().map(DVec3::length).sum::<f64>() > 4.0 * fan().sum::<DVec3>().length()
-}
-
-/// The polygon seen along the axis that its area vector is nearest to.
-fn flattened(corners: &[DVec3]) -> Vec<DVec2> {
-    let seen_from = area_vector(corners).abs();
-    let axis = (0..3).fold(0, |best, k| if seen_from[k] > seen_from[best] { k } else { best });
-    corners.iter().map(|p| DVec2::new(p[(axis + 1) % 3], p[(axis + 2) % 3])).collect()
 }
 
 /// The model's extent along the three axes; zero without vertices.

@@ -43,7 +43,7 @@ fn fuzz() {
     println!("{} chains of cuts, from seed {first}, no finding", seed - first);
 }
 
-/// Needles, whose volume was measured wrong by up to some per cent, rings of needles, whose fans covered a million times their area, and what is so thin, or so small and far from the origin, that the
+/// Needles, whose volume was measured wrong by up to some per cent, a thin ring, whose fan covers a million times its area, and what is so thin, or so small and far from the origin, that the
 /// spacing of the coordinates is seen in its volume.
 #[test]
 fn what_the_fuzz_found() {

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::geom::{Double, Plane, triple_product};
+use crate::geom::{Double, Frame, Plane, triangulate, triple_product};
 use crate::mesh::{FaceId, Mesh};
 
 /// The area of a face by its Newell vector; for a face that is not planar, of its projection along the Newell normal.
@@ -16,7 +16,7 @@ pub fn face_centroid(mesh: &Mesh, f: FaceId) -> DVec3 {
     let Some(plane) = Plane::newell(&corners) else {
         return corners.iter().sum::<DVec3>() / corners.len() as f64;
     };
-    let frame = crate::geom::Frame::on_plane(&plane);
+    let frame = Frame::on_plane(&plane);
     let flat: Vec<_> = corners.iter().map(|&p| frame.flatten(p)).collect();
     frame.lift(crate::geom::polygon::centroid(&flat))
 }
@@ -43,11 +43,28 @@ pub fn volume(mesh: &Mesh) -> f64 {
     for f in mesh.faces_and_holes() {
         corners.clear();
         corners.extend(mesh.face_vertices(f).map(|v| mesh.position(v)));
-        for w in corners.windows(2).skip(1) {
-            sum = sum.plus(triple_product(centre, [corners[0], w[0], w[1]]));
+        match mesh.carried_plane(f).filter(|_| folds_over(&corners)) {
+            Some(plane) => {
+                let frame = Frame::on_plane(&plane);
+                let flat: Vec<_> = corners.iter().map(|&p| frame.flatten(p)).collect();
+                let triangles = triangulate(&flat).into_iter().map(|t| t.map(|i| corners[i]));
+                triangles.for_each(|t| sum = sum.plus(triple_product(centre, t)));
+            }
+            None => {
+                let fan = corners.windows(2).skip(1).map(|w| [corners[0], w[0], w[1]]);
+                fan.for_each(|t| sum = sum.plus(triple_product(centre, t)));
+            }
         }
     }
     sum.value() / 6.0
+}
+
+/// Whether the fan from the first corner covers much more than the polygon, so that what its corners are off their plane by would
+/// count many times. Only faces that carry a plane are cut another way: for others the volume would depend on how.
+fn folds_over(corners: &[DVec3]) -> bool {
+    let Some((&first, rest)) = corners.split_first().filter(|_| corners.len() > 4) else { return false };
+    let fan = || rest.windows(2).map(|w| doubled_area([first, w[0], w[1]]));
+    fan().map(DVec3::length).sum::<f64>() > 4.0 * fan().sum::<DVec3>().length()
 }
 
 /// The model's extent along the three axes; zero without vertices.

@@ -43,14 +43,14 @@ fn fuzz() {
     println!("{} chains of cuts, from seed {first}, no finding", seed - first);
 }
 
-/// Needles, whose volume was measured wrong by up to some per cent, a thin ring, whose fan covers a million times its area, and what is so thin, or so small and far from the origin, that the
-/// spacing of the coordinates is seen in its volume.
+/// Needles and thin rings, whose volume was measured wrong by some per cent or more, and what is so thin, or so small and far from the
+/// origin, that the spacing of the coordinates is seen in its volume.
 #[test]
 fn what_the_fuzz_found() {
     let seeds = [
         410, 14_213, 20_015, 23_014, 29_130, 30_180, 39_933, 54_661, 54_773, 55_996, 58_587, 65_039, 74_717, 101_637,
         104_133, 109_321, 144_115, 150_413, 152_298, 158_973, 162_559, 174_767, 175_411, 176_788, 182_761, 210_171,
-        232_510, 242_767, 563_149, 563_600, 678_337, 1_910_006, 2_651_628,
+        232_510, 242_767, 563_149, 563_600, 678_337, 1_910_006,
     ];
     seeds.into_iter().for_each(chain);
 }

@@ -7,7 +7,6 @@ mod solids;
 mod voxels;
 
 use glam::{DVec3, IVec3};
-use kerfold::geom::RoundingBound;
 use kerfold::measure::{face_area, surface_area, volume};
 use kerfold::mesh::{FaceId, Mesh, assert_sound};
 use kerfold::op::{Capping, CutReport, Keep, OpContext, OpError, SliceParams, slice, slice_both};
@@ -132,25 +131,15 @@ fn check_halves(mesh: &Mesh, plane: Given, halves: &Halves, title: &str) {
     }
 }
 
-/// The area of the fans by which volumes are measured: that of the surface, but for faces that a fan does not stay inside.
-fn fanned_area(mesh: &Mesh) -> f64 {
-    let fan = |f: FaceId| {
-        let corners = mesh.face_positions(f);
-        corners[1..].windows(2).map(|w| (w[0] - corners[0]).cross(w[1] - corners[0]).length() / 2.0).sum::<f64>()
-    };
-    mesh.faces().map(fan).sum()
-}
-
 fn check_volume(mesh: &Mesh, halves: &Halves, title: &str) {
     let before = volume(mesh);
     let after: f64 = halves.iter().flatten().map(|(part, _)| volume(part)).sum();
-    // Constructed vertices within the rounding bound count as on the plane: needles feel that.
+    // Constructed vertices within 1e-12 of the size count as on the plane: needles feel that.
     let is_given = mesh.vertices().all(|v| mesh.is_given(v));
-    let (low, high) = mesh.bounds().expect("it has vertices");
-    let near = if is_given { 0.0 } else { RoundingBound::of_box(low, high).length() };
+    let near = if is_given { 0.0 } else { 1e-12 * kerfold::measure::size(mesh).length() };
     // No vertex can lie nearer to where it should than its coordinates are fine: what is thin, or small and far from the origin, feels that.
     let largest = mesh.vertices().map(|v| mesh.position(v).abs().max_element()).fold(0.0, f64::max);
-    let slack = fanned_area(mesh) * near.max(4.0 * (largest.next_up() - largest));
+    let slack = surface_area(mesh) * near.max(4.0 * (largest.next_up() - largest));
     assert!((after - before).abs() <= slack.max(1e-12 * before.abs()), "{title}: volume {after} for {before}");
 }
 

@@ -4,6 +4,12 @@ use super::cutter::{Cutter, Lineage};
 use crate::mesh::{FaceId, Mesh, VertexId};
 use crate::select::Made;
 
+/// The first of a list as a note names them; dots stand for the rest.
+pub(super) fn first_few<T: ToString>(list: &[T], most: usize) -> String {
+    let shown: Vec<String> = list.iter().take(most).map(T::to_string).collect();
+    shown.join(", ") + if list.len() > most { ", …" } else { "" }
+}
+
 /// What a chain of cuts did. Ids of things that were made are those of the resulting mesh.
 #[derive(Debug, Clone, Default)]
 pub struct CutReport {
@@ -48,12 +54,10 @@ impl CutReport {
             notes.push(format!("{} of {} cuts met nothing", self.missed, self.cuts));
         }
         if !self.overcut.is_empty() {
-            let shown: Vec<String> = self.overcut.iter().take(12).map(usize::to_string).collect();
-            let more = if self.overcut.len() > 12 { ", …" } else { "" };
             notes.push(format!(
-                "{} cuts met each other ({element} {}{more}): the caps are not disjoint; a smaller offset keeps them apart",
+                "{} cuts met each other ({element} {}): the caps are not disjoint; a smaller offset keeps them apart",
                 self.overcut.len(),
-                shown.join(", ")
+                first_few(&self.overcut, 12)
             ));
         }
         if let Some(least) = self.shrunk.iter().map(|s| s.1).min_by(f64::total_cmp) {

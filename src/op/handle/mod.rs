@@ -29,6 +29,7 @@ mod tests;
 
 use glam::DVec3;
 
+use super::report::first_few;
 use super::{OpContext, OpError, OpFinding};
 use crate::code::Coded;
 use crate::mesh::{FaceId, HalfEdgeId, Mesh, VertexId};
@@ -70,11 +71,9 @@ impl HandleReport {
             ));
         }
         if !self.crossing.is_empty() {
-            let shown: Vec<String> = self.crossing.iter().take(8).map(usize::to_string).collect();
-            let more = if self.crossing.len() > 8 { ", …" } else { "" };
             notes.push(format!(
-                "the handle crosses itself in segment {}{more}: it bends more sharply there than it is wide; take other weights or fewer segments ({})",
-                shown.join(", "),
+                "the handle crosses itself in segment {}: it bends more sharply there than it is wide; take other weights or fewer segments ({})",
+                first_few(&self.crossing, 8),
                 OpFinding::HandleCrosses.code()
             ));
         }

@@ -27,6 +27,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Deserializer, de};
 
+use super::report::first_few;
 use super::{OpContext, OpError, OpFinding};
 use crate::code::Coded;
 use crate::mesh::Mesh;
@@ -133,12 +134,10 @@ impl MengerReport {
     /// The report in words.
     pub fn notes(&self) -> Vec<String> {
         let note = |(round, faces): &(u32, Vec<usize>)| {
-            let shown: Vec<String> = faces.iter().take(8).map(usize::to_string).collect();
-            let more = if faces.len() > 8 { ", …" } else { "" };
             format!(
-                "round {round}: the thickness is too large at {} faces ({}{more}), so the sponge crosses itself there; take less ({})",
+                "round {round}: the thickness is too large at {} faces ({}), so the sponge crosses itself there; take less ({})",
                 faces.len(),
-                shown.join(", "),
+                first_few(faces, 8),
                 OpFinding::SpongeCrosses.code()
             )
         };

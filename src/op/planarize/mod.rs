@@ -19,6 +19,7 @@ use glam::DVec3;
 use serde::Deserialize;
 
 use self::constraints::Constraints;
+use super::report::first_few;
 use super::{OpContext, OpError, OpFinding};
 use crate::check::{Limits, Profile, short};
 use crate::code::Coded;
@@ -145,12 +146,10 @@ impl PlanarizeReport {
             ));
         }
         if !self.crossing.is_empty() {
-            let shown: Vec<String> = self.crossing.iter().take(8).map(ToString::to_string).collect();
-            let more = if self.crossing.len() > 8 { ", …" } else { "" };
             notes.push(format!(
-                "sides cross now at {} faces that were simple before ({}{more}): take a looser profile or more fairness, or make them planar by `cut face` instead ({})",
+                "sides cross now at {} faces that were simple before ({}): take a looser profile or more fairness, or make them planar by `cut face` instead ({})",
                 self.crossing.len(),
-                shown.join(", "),
+                first_few(&self.crossing, 8),
                 OpFinding::FacesCross.code()
             ));
         }

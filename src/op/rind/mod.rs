@@ -31,6 +31,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Deserializer, de};
 
+use super::report::first_few;
 use super::{OpContext, OpError, OpFinding};
 use crate::check::short;
 use crate::code::Coded;
@@ -148,12 +149,10 @@ impl RindReport {
             ));
         }
         if !self.crossing.is_empty() {
-            let shown: Vec<String> = self.crossing.iter().take(8).map(usize::to_string).collect();
-            let more = if self.crossing.len() > 8 { ", …" } else { "" };
             notes.push(format!(
-                "the shell crosses itself at {} faces ({}{more}): the thickness is more than the shape allows there; take less ({})",
+                "the shell crosses itself at {} faces ({}): the thickness is more than the shape allows there; take less ({})",
                 self.crossing.len(),
-                shown.join(", "),
+                first_few(&self.crossing, 8),
                 OpFinding::ShellCrosses.code()
             ));
         }

@@ -276,6 +276,7 @@ fn place_on_curve(plane: &Plane) -> u64 {
 const CPP: &str = r#"
 #include <voro++/voro++.hh>
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
 #include <vector>
 static double seconds() {
@@ -290,7 +291,7 @@ int main(int, char** argv) {
     while (std::fscanf(file, "%lf", &value) == 1) planes.push_back(value);
     double best = 1e9;
     int vertices = 0;
-    for (int run = 0; run < 9; run++) {
+    for (int run = 0; run < std::atoi(argv[2]); run++) {
         voro::voronoicell cell;
         cell.init(-1, 1, -1, 1, -1, 1);
         double start = seconds();
@@ -322,7 +323,7 @@ fn run_voro(planes: &[Plane]) -> Result<(f64, usize), &'static str> {
     compile.arg("-lvoro++").arg("-o").arg(&program.0);
     output_of(compile).ok_or("no C++ compiler with voro++ (Debian: g++, voro++-dev; or CXXFLAGS)")?;
     let mut run = Command::new(&program.0);
-    run.arg(&numbers.0);
+    run.arg(&numbers.0).arg(CHAIN_RUNS.to_string());
     let output = output_of(run).ok_or("the program failed")?;
     let mut words = output.split_whitespace();
     let seconds = words.next().and_then(|w| w.parse().ok());

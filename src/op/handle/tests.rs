@@ -30,13 +30,7 @@ fn counts(mesh: &Mesh) -> [usize; 3] {
 }
 
 fn solids() -> [Mesh; 5] {
-    [
-        shape::tetrahedron(10.0),
-        shape::cube(10.0),
-        shape::octahedron(10.0),
-        shape::dodecahedron(10.0),
-        shape::icosahedron(10.0),
-    ]
+    shape::Platonic::ALL.map(|solid| shape::platonic(solid, 10.0))
 }
 
 #[test]

@@ -35,13 +35,7 @@ fn opposite_and_beside(mesh: &Mesh) -> [u32; 3] {
 }
 
 fn platonic() -> [Mesh; 5] {
-    [
-        shape::tetrahedron(10.0),
-        shape::cube(10.0),
-        shape::octahedron(10.0),
-        shape::dodecahedron(10.0),
-        shape::icosahedron(10.0),
-    ]
+    shape::Platonic::ALL.map(|solid| shape::platonic(solid, 10.0))
 }
 
 /// A quarter of the faces to punch and a quarter to peel, at random; the last face stays.

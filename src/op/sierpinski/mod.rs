@@ -155,6 +155,7 @@ fn once(coarse: &Mesh) -> Mesh {
         }
         bases.make_at(f, &mut fine);
     }
+    // Building takes the most memory, and needs none of these.
     drop((bases.is_done, links));
     let mut fine = fine.build();
     for (faces, name) in inherited {

@@ -11,15 +11,9 @@ fn run(mesh: &Mesh, rounds: u32) -> (Mesh, SierpinskiReport) {
     (fine, report)
 }
 
-fn solids() -> [Mesh; 6] {
-    [
-        shape::tetrahedron(1.0),
-        shape::cube(1.0),
-        shape::octahedron(1.0),
-        shape::dodecahedron(1.0),
-        shape::icosahedron(1.0),
-        shape::soccer_ball(1.0),
-    ]
+fn solids() -> Vec<Mesh> {
+    let platonic = shape::Platonic::ALL.map(|solid| shape::platonic(solid, 1.0));
+    [&platonic[..], &[shape::soccer_ball(1.0)]].concat()
 }
 
 #[test]

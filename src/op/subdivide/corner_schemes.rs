@@ -60,6 +60,7 @@ pub(super) fn doo_sabin(mesh: &Mesh) -> Mesh {
     for v in mesh.vertices().filter(|&v| is_inner(mesh, v)) {
         fine.face(counter_clockwise(mesh, v).map(|h| across[h].twin()));
     }
+    // Building takes the most memory, and needs none of these.
     drop((corners, along, across));
     let mut fine = fine.build();
     carry_groups(mesh, &mut fine, pairs.into_iter());

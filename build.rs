@@ -1,11 +1,15 @@
-//! Lists the bundled recipes and the meshes that they read, so that the installed program carries them.
+//! Lists the bundled recipes and the meshes that they read, so that the installed program carries
+//! them.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
-const FOLDERS: [(&str, &str); 3] =
-    [("fixtures/recipes", "toml"), ("fixtures/recipes/gallery", "toml"), ("fixtures/meshes", "obj")];
+const FOLDERS: [(&str, &str); 3] = [
+    ("fixtures/recipes", "toml"),
+    ("fixtures/recipes/gallery", "toml"),
+    ("fixtures/meshes", "obj"),
+];
 
 fn main() -> io::Result<()> {
     let root = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").ok_or(io::ErrorKind::NotFound)?);
@@ -14,7 +18,11 @@ fn main() -> io::Result<()> {
         println!("cargo::rerun-if-changed={folder}");
         for path in files(&root.join(folder), extension)? {
             let name = path.strip_prefix(root.join("fixtures")).map_err(io::Error::other)?;
-            let name = name.components().map(|c| c.as_os_str().to_string_lossy()).collect::<Vec<_>>().join("/");
+            let name = name
+                .components()
+                .map(|c| c.as_os_str().to_string_lossy())
+                .collect::<Vec<_>>()
+                .join("/");
             writeln!(table, "    ({name:?}, include_str!({:?})),", path.display().to_string())
                 .map_err(io::Error::other)?;
         }

@@ -1,12 +1,15 @@
-//! Cuts against trimesh, manifold3d and voro++, run in the same call on the same input: `cargo bench --bench cuts`.
+//! Cuts against trimesh, manifold3d and voro++, run in the same call on the same input: `cargo
+//! bench --bench cuts`.
 //!
-//! Three questions: one capped cut of a closed mesh of 1.3 million triangles; a chain of 78 728 vertex truncations of a
-//! cube (nine rounds, every vertex, planes through the points at a third of its edges), with the time per cut on meshes of
-//! a thousand to a million vertices; local cuts on a mesh of a million faces. All times are CPU seconds of the thread or
-//! the process, on the mesh in memory, without files; the best of several runs counts on both sides.
+//! Three questions: one capped cut of a closed mesh of 1.3 million triangles; a chain of 78 728
+//! vertex truncations of a cube (nine rounds, every vertex, planes through the points at a third of
+//! its edges), with the time per cut on meshes of a thousand to a million vertices; local cuts on a
+//! mesh of a million faces. All times are CPU seconds of the thread or the process, on the mesh in
+//! memory, without files; the best of several runs counts on both sides.
 //!
-//! Peers: Python with `trimesh` and `manifold3d` (PyPI); a C++ compiler with `voro++-dev` (Debian; further places for
-//! headers and library in `CXXFLAGS`). A peer that is not there is named, and nothing is compared with it.
+//! Peers: Python with `trimesh` and `manifold3d` (PyPI); a C++ compiler with `voro++-dev` (Debian;
+//! further places for headers and library in `CXXFLAGS`). A peer that is not there is named, and
+//! nothing is compared with it.
 
 #![allow(clippy::print_stdout, reason = "a bench prints")]
 
@@ -19,7 +22,9 @@ use std::process::Command;
 use glam::DVec3;
 use kerfold::geom::Plane;
 use kerfold::mesh::{Mesh, VertexId};
-use kerfold::op::{CutChain, OpContext, Reach, SliceParams, TruncateVertex, slice, truncate_vertices};
+use kerfold::op::{
+    CutChain, OpContext, Reach, SliceParams, TruncateVertex, slice, truncate_vertices,
+};
 use kerfold::select::Selection;
 use kerfold::shape;
 
@@ -27,8 +32,8 @@ const ONE_CUT_BAR: f64 = 25.0;
 const CHAIN_BAR: f64 = 4.0;
 /// The best of so many runs of the chain counts, theirs and ours.
 const CHAIN_RUNS: usize = 9;
-/// A chain's cut may take this many times longer on a large mesh than on a small one before it is no longer called flat:
-/// what the caches of the machine no longer hold costs more to fetch.
+/// A chain's cut may take this many times longer on a large mesh than on a small one before it is
+/// no longer called flat: what the caches of the machine no longer hold costs more to fetch.
 const FLAT_BAR: f64 = 3.0;
 
 /// Geodesic sphere of 20 · 256² triangles.
@@ -51,7 +56,7 @@ fn main() {
     }
 }
 
-// ---- one capped cut --------------------------------------------------------------------------------------------------
+// ---- one capped cut -----------------------------------------------------------------------------
 
 fn one_cut() {
     let mesh = shape::geodesic(FREQUENCY, RADIUS);
@@ -63,7 +68,8 @@ fn one_cut() {
     for _ in 0..7 {
         let mut chain = CutChain::new(mesh.clone());
         let start = thread_seconds();
-        let caps = chain.cut_given(normal, point, Reach::Global).expect("a sphere can be cut").len();
+        let caps =
+            chain.cut_given(normal, point, Reach::Global).expect("a sphere can be cut").len();
         let cut = thread_seconds();
         let half = chain.finish();
         let end = thread_seconds();
@@ -73,7 +79,8 @@ fn one_cut() {
         closed_up = closed_up.min(end - start);
     }
     let whole = best_of(3, || {
-        slice(&mesh, &SliceParams::new(normal, point), &OpContext::default()).expect("a sphere can be cut");
+        slice(&mesh, &SliceParams::new(normal, point), &OpContext::default())
+            .expect("a sphere can be cut");
     });
     println!(
         "  kerfold, in place                    {in_place:.4}   ({} vertices, {} faces left)",
@@ -86,7 +93,8 @@ fn one_cut() {
     for (name, seconds) in &peers {
         match seconds {
             Some(seconds) => println!(
-                "  {name:<12} {seconds:.4}   ratio {:.1} (bar {ONE_CUT_BAR}) {}; with gaps closed {:.1}; slice() {:.1}",
+                "  {name:<12} {seconds:.4}   ratio {:.1} (bar {ONE_CUT_BAR}) {}; with gaps closed \
+                {:.1}; slice() {:.1}",
                 seconds / in_place,
                 verdict(seconds / in_place >= ONE_CUT_BAR),
                 seconds / closed_up,
@@ -97,7 +105,8 @@ fn one_cut() {
     }
 }
 
-/// Reads the mesh as raw numbers and cuts it; prints the least CPU seconds of three cuts, or nothing without the module.
+/// Reads the mesh as raw numbers and cuts it; prints the least CPU seconds of three cuts, or
+/// nothing without the module.
 const PYTHON: &str = r#"
 import sys, time
 import numpy as np
@@ -130,10 +139,16 @@ print(best)
 fn python_cut(mesh: &Mesh) -> [(&'static str, Option<f64>); 2] {
     let numbers = Scratch::new("vertices");
     let corners = Scratch::new("faces");
-    let positions: Vec<u8> =
-        mesh.vertices().flat_map(|v| mesh.position(v).to_array()).flat_map(f64::to_le_bytes).collect();
-    let faces: Vec<u8> =
-        mesh.faces().flat_map(|f| mesh.face_vertices(f)).flat_map(|v| (v.index() as u32).to_le_bytes()).collect();
+    let positions: Vec<u8> = mesh
+        .vertices()
+        .flat_map(|v| mesh.position(v).to_array())
+        .flat_map(f64::to_le_bytes)
+        .collect();
+    let faces: Vec<u8> = mesh
+        .faces()
+        .flat_map(|f| mesh.face_vertices(f))
+        .flat_map(|v| (v.index() as u32).to_le_bytes())
+        .collect();
     std::fs::write(&numbers.0, positions).expect("the temporary folder is writable");
     std::fs::write(&corners.0, faces).expect("the temporary folder is writable");
     ["trimesh", "manifold3d"].map(|module| {
@@ -144,32 +159,44 @@ fn python_cut(mesh: &Mesh) -> [(&'static str, Option<f64>); 2] {
     })
 }
 
-// ---- the chain of truncations ----------------------------------------------------------------------------------------
+// ---- the chain of truncations -------------------------------------------------------------------
 
 /// In which order the corners of a round are cut.
 #[derive(Clone, Copy)]
 enum Order {
     /// As the mesh numbers them.
     Mesh,
-    /// Neighbours after one another: voro++ begins its search for the cut vertex at the place of the last cut, so the order decides its
-    /// time more than anything else.
+    /// Neighbours after one another: voro++ begins its search for the cut vertex at the place of
+    /// the last cut, so the order decides its time more than anything else.
     Curve,
 }
 
 fn chain() {
-    println!("chain of truncations of a cube, every vertex, planes through the points at a third of the edges");
+    println!(
+        "chain of truncations of a cube, every vertex, planes through the points at a third of the \
+        edges"
+    );
     let mut planes: Vec<Plane> = Vec::new();
-    for (order, name) in [(Order::Curve, "rounds along a curve"), (Order::Mesh, "in the order of the mesh")] {
+    for (order, name) in
+        [(Order::Curve, "rounds along a curve"), (Order::Mesh, "in the order of the mesh")]
+    {
         planes.clear();
         let (total, cuts) = own_chain(order, &mut planes);
         println!("  {name}");
-        println!("    kerfold, planes and cuts  {total:.4}   ({:.3} µs a cut)", total / 78_728.0 * 1e6);
-        println!("    kerfold, cuts only        {cuts:.4}   ({:.3} µs a cut)", cuts / 78_728.0 * 1e6);
+        println!(
+            "    kerfold, planes and cuts  {total:.4}   ({:.3} µs a cut)",
+            total / 78_728.0 * 1e6
+        );
+        println!(
+            "    kerfold, cuts only        {cuts:.4}   ({:.3} µs a cut)",
+            cuts / 78_728.0 * 1e6
+        );
         match run_voro(&planes) {
             Ok((seconds, vertices)) => {
                 let ratio = seconds / cuts;
                 println!(
-                    "    voro++, cuts only         {seconds:.4}   ratio {ratio:.1} (bar {CHAIN_BAR}) {}; {vertices} vertices",
+                    "    voro++, cuts only         {seconds:.4}   ratio {ratio:.1} (bar \
+                    {CHAIN_BAR}) {}; {vertices} vertices",
                     verdict(ratio >= CHAIN_BAR)
                 );
             }
@@ -185,7 +212,9 @@ fn chain() {
             }
         }
     });
-    println!("  kerfold, without seeds (the whole mesh is asked) up to 4000 vertices {unseeded:.4}");
+    println!(
+        "  kerfold, without seeds (the whole mesh is asked) up to 4000 vertices {unseeded:.4}"
+    );
     println!("  time per cut by the size of the mesh:");
     let mut per_round: Vec<(usize, f64)> = Vec::new();
     let mut chain = CutChain::new(shape::cube(2.0));
@@ -197,7 +226,11 @@ fn chain() {
         println!("  {vertices:>9} vertices {:>8.3} µs", seconds * 1e6);
     }
     let large = per_round.last().map_or(f64::NAN, |r| r.1);
-    println!("  largest to smallest {:.2} (bar {FLAT_BAR}) {}", large / small, verdict(large / small <= FLAT_BAR));
+    println!(
+        "  largest to smallest {:.2} (bar {FLAT_BAR}) {}",
+        large / small,
+        verdict(large / small <= FLAT_BAR)
+    );
     let rounds = best_of(3, || {
         let params = TruncateVertex { repeat: 7, ..TruncateVertex::new(Selection::all(), 0.25) };
         truncate_vertices(
@@ -207,7 +240,10 @@ fn chain() {
         )
         .expect("something is left");
     });
-    println!("  truncate_vertices, 7 rounds with report {rounds:.4}   ({:.3} µs a cut)", rounds / 8744.0 * 1e6);
+    println!(
+        "  truncate_vertices, 7 rounds with report {rounds:.4}   ({:.3} µs a cut)",
+        rounds / 8744.0 * 1e6
+    );
 }
 
 /// Nine rounds: the least seconds with the planes and of the cuts alone, and the planes.
@@ -217,7 +253,8 @@ fn own_chain(order: Order, planes: &mut Vec<Plane>) -> (f64, f64) {
         planes.clear();
         let mut chain = CutChain::new(shape::cube(2.0));
         let start = thread_seconds();
-        let cutting: f64 = (0..9).map(|_| truncate_round(&mut chain, order, &mut Vec::new(), Some(planes))).sum();
+        let cutting: f64 =
+            (0..9).map(|_| truncate_round(&mut chain, order, &mut Vec::new(), Some(planes))).sum();
         let end = thread_seconds();
         assert_eq!(planes.len(), 78_728);
         assert_eq!(chain.mesh().vertex_count(), 8 * 3_usize.pow(9));
@@ -227,7 +264,8 @@ fn own_chain(order: Order, planes: &mut Vec<Plane>) -> (f64, f64) {
     (total, cuts)
 }
 
-/// All planes from the mesh as it is, then all cuts. Adds (vertices before, seconds per cut) and returns the seconds of the cuts alone.
+/// All planes from the mesh as it is, then all cuts. Adds (vertices before, seconds per cut) and
+/// returns the seconds of the cuts alone.
 fn truncate_round(
     chain: &mut CutChain,
     order: Order,
@@ -236,7 +274,8 @@ fn truncate_round(
 ) -> f64 {
     let start = thread_seconds();
     let mesh = chain.mesh();
-    let mut elements: Vec<(VertexId, Plane)> = mesh.vertices().map(|v| (v, plane_at(mesh, v))).collect();
+    let mut elements: Vec<(VertexId, Plane)> =
+        mesh.vertices().map(|v| (v, plane_at(mesh, v))).collect();
     if matches!(order, Order::Curve) {
         elements.sort_by_key(|(_, plane)| place_on_curve(plane));
     }
@@ -265,14 +304,18 @@ fn plane_at(mesh: &Mesh, v: VertexId) -> Plane {
     Plane::new(outwards, points[0]).expect("three points")
 }
 
-/// A curve through the cube [−1, 1]³ that visits its eighths one after the other, and theirs in turn.
+/// A curve through the cube [−1, 1]³ that visits its eighths one after the other, and theirs in
+/// turn.
 fn place_on_curve(plane: &Plane) -> u64 {
     let cell = ((plane.point() + 1.0) * 512.0).floor();
     let bits = [cell.x, cell.y, cell.z].map(|c| c as u64);
-    (0..10).fold(0, |code, bit| (0..3).fold(code, |code, axis| code | (bits[axis] >> bit & 1) << (3 * bit + axis)))
+    (0..10).fold(0, |code, bit| {
+        (0..3).fold(code, |code, axis| code | (bits[axis] >> bit & 1) << (3 * bit + axis))
+    })
 }
 
-/// Cuts the cube [−1, 1]³ by half-spaces n · x ≤ d read from a file, as often as we do, and prints the least CPU seconds.
+/// Cuts the cube [−1, 1]³ by half-spaces n · x ≤ d read from a file, as often as we do, and prints
+/// the least CPU seconds.
 const CPP: &str = r#"
 #include <voro++/voro++.hh>
 #include <cstdio>
@@ -295,7 +338,8 @@ int main(int, char** argv) {
         voro::voronoicell cell;
         cell.init(-1, 1, -1, 1, -1, 1);
         double start = seconds();
-        // A plane is given to voro++ by a vector and the displacement d of 2 n · x = d for a unit n.
+        // A plane is given to voro++ by a vector and the displacement d of 2 n · x = d for a unit
+        // n.
         for (size_t i = 0; i + 3 < planes.size(); i += 4)
             cell.plane(planes[i], planes[i + 1], planes[i + 2], 2 * planes[i + 3]);
         double spent = seconds() - start;
@@ -321,7 +365,8 @@ fn run_voro(planes: &[Plane]) -> Result<(f64, usize), &'static str> {
     compile.arg("-O3").arg(&source.0);
     compile.args(std::env::var("CXXFLAGS").unwrap_or_default().split_whitespace());
     compile.arg("-lvoro++").arg("-o").arg(&program.0);
-    output_of(compile).ok_or("no C++ compiler with voro++ (Debian: g++, voro++-dev; or CXXFLAGS)")?;
+    output_of(compile)
+        .ok_or("no C++ compiler with voro++ (Debian: g++, voro++-dev; or CXXFLAGS)")?;
     let mut run = Command::new(&program.0);
     run.arg(&numbers.0).arg(CHAIN_RUNS.to_string());
     let output = output_of(run).ok_or("the program failed")?;
@@ -330,7 +375,7 @@ fn run_voro(planes: &[Plane]) -> Result<(f64, usize), &'static str> {
     seconds.zip(words.next().and_then(|w| w.parse().ok())).ok_or("the program printed no time")
 }
 
-// ---- local cuts on a large mesh --------------------------------------------------------------------------------------
+// ---- local cuts on a large mesh -----------------------------------------------------------------
 
 fn local_cuts() {
     println!("local cuts, one corner each, spread over a geodesic sphere; CPU time");
@@ -340,14 +385,18 @@ fn local_cuts() {
         let faces = mesh.face_count();
         let count = 20_000.min(mesh.vertex_count() / 4);
         let step = mesh.vertex_count() / count;
-        let elements: Vec<(VertexId, Plane)> =
-            (0..count).map(|i| VertexId::new(i * step)).map(|v| (v, shallow_plane(&mesh, v))).collect();
+        let elements: Vec<(VertexId, Plane)> = (0..count)
+            .map(|i| VertexId::new(i * step))
+            .map(|v| (v, shallow_plane(&mesh, v)))
+            .collect();
         // The clock of a thread is coarse: short chains are run several times.
         let repeats = 40_000 / count;
         let mut halves = [0.0; 2];
         for _ in 0..repeats {
             let mut chain = CutChain::new(mesh.clone());
-            for (half, elements) in halves.iter_mut().zip([&elements[..count / 2], &elements[count / 2..]]) {
+            for (half, elements) in
+                halves.iter_mut().zip([&elements[..count / 2], &elements[count / 2..]])
+            {
                 let start = thread_seconds();
                 for (v, plane) in elements {
                     chain.cut(plane, Reach::Local(&[*v]));
@@ -358,7 +407,8 @@ fn local_cuts() {
         let mean = (halves[0] + halves[1]) / 2.0;
         first = if first.is_nan() { mean } else { first };
         println!(
-            "  {faces:>9} faces {count:>6} cuts {:>8.3} µs a cut in the first half, {:>8.3} in the second; {:.2} of the smallest {}",
+            "  {faces:>9} faces {count:>6} cuts {:>8.3} µs a cut in the first half, {:>8.3} in the \
+            second; {:.2} of the smallest {}",
             halves[0] * 1e6,
             halves[1] * 1e6,
             mean / first,
@@ -371,11 +421,14 @@ fn local_cuts() {
 fn shallow_plane(mesh: &Mesh, v: VertexId) -> Plane {
     let here = mesh.position(v);
     let normal = here.normalize();
-    let fall = mesh.neighbours(v).map(|u| normal.dot(here - mesh.position(u))).fold(f64::INFINITY, f64::min);
+    let fall = mesh
+        .neighbours(v)
+        .map(|u| normal.dot(here - mesh.position(u)))
+        .fold(f64::INFINITY, f64::min);
     Plane::new(normal, here - normal * (0.25 * fall)).expect("a direction")
 }
 
-// ---- measuring -------------------------------------------------------------------------------------------------------
+// ---- measuring ----------------------------------------------------------------------------------
 
 /// A file in the temporary folder that goes with its owner.
 struct Scratch(PathBuf);

@@ -1,10 +1,13 @@
-//! Dual hulls against qhull, run in the same call on the same planes: `cargo bench --bench dual_hull`.
+//! Dual hulls against qhull, run in the same call on the same planes: `cargo bench --bench
+//! dual_hull`.
 //!
-//! Planes tangent to a sphere and to a 10:3:1 ellipsoid at random points. Prints seconds of both, two ratios, the counts and the
-//! peak memory of our first run. Times are medians. qhull's time is the processor time that it reports for the hull alone, without reading
-//! or writing and without the vertices of the solid; it has one thread. "CPU x" is that time over our processor time in all threads, "wall
-//! x" over our time by the clock on the wall. The bar is compared with "CPU x", which no number of processors can better. Without qhull
-//! (Debian: `qhull-bin`) only our own numbers are printed and the comparison is named as missing.
+//! Planes tangent to a sphere and to a 10:3:1 ellipsoid at random points. Prints seconds of both,
+//! two ratios, the counts and the peak memory of our first run. Times are medians. qhull's time is
+//! the processor time that it reports for the hull alone, without reading or writing and without
+//! the vertices of the solid; it has one thread. "CPU x" is that time over our processor time in
+//! all threads, "wall x" over our time by the clock on the wall. The bar is compared with "CPU x",
+//! which no number of processors can better. Without qhull (Debian: `qhull-bin`) only our own
+//! numbers are printed and the comparison is named as missing.
 
 #![allow(clippy::print_stdout, reason = "a bench prints")]
 
@@ -50,11 +53,13 @@ fn main() {
             let [wall, cpu, megabytes] = ours.numbers;
             let ratio = |own: f64| theirs.map_or("-".to_owned(), |t| format!("{:.1}", t / own));
             let (wall_ratio, cpu_ratio) = (ratio(wall), ratio(cpu));
-            let missed = theirs.is_some_and(|t| t / cpu < bar) || (n == 1_000_000 && megabytes > MOST_MEGABYTES);
+            let missed = theirs.is_some_and(|t| t / cpu < bar)
+                || (n == 1_000_000 && megabytes > MOST_MEGABYTES);
             let theirs = theirs.map_or("-".to_owned(), |t| format!("{t:.3}"));
             let verdict = if missed { "MISSED" } else { "" };
             println!(
-                "{shape:<10} {n:>8} {wall:>9.4} {cpu:>9.4} {theirs:>9} {wall_ratio:>7} {cpu_ratio:>7} {bar:>5} {megabytes:>6.0}  {} {verdict}",
+                "{shape:<10} {n:>8} {wall:>9.4} {cpu:>9.4} {theirs:>9} {wall_ratio:>7} \
+                {cpu_ratio:>7} {bar:>5} {megabytes:>6.0}  {} {verdict}",
                 ours.counts
             );
         }
@@ -69,17 +74,28 @@ struct Ours {
 
 fn own_process(shape: &str, n: usize) -> Ours {
     let program = std::env::current_exe().expect("this program has a path");
-    let output = Command::new(program).args(["--case", shape, &n.to_string()]).output().expect("it runs again");
+    let output = Command::new(program)
+        .args(["--case", shape, &n.to_string()])
+        .output()
+        .expect("it runs again");
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     let words: Vec<&str> = text.split_whitespace().collect();
-    assert!(output.status.success() && words.len() > 3, "the case failed: {}", String::from_utf8_lossy(&output.stderr));
-    Ours { numbers: [0, 1, 2].map(|i| words[i].parse().expect("a number")), counts: words[3..].join(" ") }
+    assert!(
+        output.status.success() && words.len() > 3,
+        "the case failed: {}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    Ours {
+        numbers: [0, 1, 2].map(|i| words[i].parse().expect("a number")),
+        counts: words[3..].join(" "),
+    }
 }
 
 fn run_case(shape: &str, n: usize) {
     let planes = planes(shape, n);
     let repeats = (5_000_000 / n).clamp(5, 201);
-    let (mut wall, mut cpu, mut megabytes, mut polytope) = (Vec::new(), Vec::new(), f64::INFINITY, Polytope::default());
+    let (mut wall, mut cpu, mut megabytes, mut polytope) =
+        (Vec::new(), Vec::new(), f64::INFINITY, Polytope::default());
     for _ in 0..repeats {
         drop(std::mem::take(&mut polytope));
         let (start, cpu_start) = (Instant::now(), process_seconds());
@@ -146,9 +162,11 @@ fn run_qhull(planes: &[HalfSpace]) -> f64 {
 }
 
 fn qhull_seconds(input: &Path) -> f64 {
-    let output = Command::new("qhull").args(["H0,0,0", "s", "TI"]).arg(input).output().expect("qhull runs");
+    let output =
+        Command::new("qhull").args(["H0,0,0", "s", "TI"]).arg(input).output().expect("qhull runs");
     let text = String::from_utf8_lossy(&output.stderr);
     let line = text.lines().find(|line| line.contains("CPU seconds to compute"));
-    let seconds = line.and_then(|line| line.split_whitespace().last()).and_then(|word| word.parse().ok());
+    let seconds =
+        line.and_then(|line| line.split_whitespace().last()).and_then(|word| word.parse().ok());
     seconds.unwrap_or_else(|| panic!("qhull does not tell its time: {text}"))
 }

@@ -1,8 +1,10 @@
-//! Sierpinski polyhedra and Doo–Sabin at a million faces: seconds of processor time, bytes a face at the peak, and whether time is linear.
+//! Sierpinski polyhedra and Doo–Sabin at a million faces: seconds of processor time, bytes a face
+//! at the peak, and whether time is linear.
 //!
-//! Bars: a million faces within a second and 300 bytes a face; from 1e4 to 1e6 faces the time for a face at most doubles. Each case runs in
-//! a process of its own, since the peak of a process never falls. Peer: none; TopMod, the only other program with these operators, is not
-//! packaged anywhere, and its times of an earlier build are no measurement of this run.
+//! Bars: a million faces within a second and 300 bytes a face; from 1e4 to 1e6 faces the time for a
+//! face at most doubles. Each case runs in a process of its own, since the peak of a process never
+//! falls. Peer: none; TopMod, the only other program with these operators, is not packaged
+//! anywhere, and its times of an earlier build are no measurement of this run.
 
 #![allow(clippy::print_stdout, reason = "a bench prints")]
 
@@ -15,7 +17,8 @@ use kerfold::mesh::Mesh;
 use kerfold::op::{OpContext, Scheme, SierpinskiParams, SubdivideParams, sierpinski, subdivide};
 use kerfold::shape;
 
-/// The best of so many runs counts, so that it is not the system handing out memory that is measured.
+/// The best of so many runs counts, so that it is not the system handing out memory that is
+/// measured.
 const RUNS: usize = 3;
 const SECONDS: f64 = 1.0;
 const LINEAR: f64 = 2.0;
@@ -28,7 +31,8 @@ fn sierpinskied(mesh: &Mesh, rounds: u32) -> Mesh {
 }
 
 fn smoothed(mesh: &Mesh, rounds: u32) -> Mesh {
-    subdivide(mesh, &SubdivideParams::new(Scheme::DooSabin, rounds), &OpContext::default()).expect("it fits")
+    subdivide(mesh, &SubdivideParams::new(Scheme::DooSabin, rounds), &OpContext::default())
+        .expect("it fits")
 }
 
 /// One case in this process: faces, seconds, bytes.
@@ -38,7 +42,11 @@ fn case(name: &str, rounds: u32) {
     let (mut seconds, mut faces, mut megabytes) = (f64::INFINITY, 0, f64::INFINITY);
     for _ in 0..RUNS {
         let start_time = thread_seconds();
-        let made = if name == "sierpinski" { sierpinskied(&start, rounds) } else { smoothed(&start, rounds) };
+        let made = if name == "sierpinski" {
+            sierpinskied(&start, rounds)
+        } else {
+            smoothed(&start, rounds)
+        };
         seconds = seconds.min(thread_seconds() - start_time);
         faces = made.face_count();
         // That of the first run.
@@ -49,7 +57,10 @@ fn case(name: &str, rounds: u32) {
 
 fn run(name: &str, rounds: u32) -> [f64; 3] {
     let program = std::env::current_exe().expect("this program");
-    let output = Command::new(program).args(["case", name, &rounds.to_string()]).output().expect("it starts");
+    let output = Command::new(program)
+        .args(["case", name, &rounds.to_string()])
+        .output()
+        .expect("it starts");
     let text = String::from_utf8(output.stdout).expect("text");
     let numbers: Vec<f64> = text.split_whitespace().filter_map(|n| n.parse().ok()).collect();
     numbers.try_into().expect("three numbers")
@@ -71,13 +82,17 @@ fn main() -> ExitCode {
             if faces > 5e5 {
                 let (per_million, per_face) = (seconds / faces * 1e6, bytes / faces);
                 println!(
-                    "{name}: {per_million:.2} s for a million faces (bar {SECONDS}), {per_face:.0} bytes a face (bar {BYTES})"
+                    "{name}: {per_million:.2} s for a million faces (bar {SECONDS}), {per_face:.0} \
+                    bytes a face (bar {BYTES})"
                 );
                 is_missed |= per_million > SECONDS || per_face > BYTES || per_face.is_nan();
             }
         }
         let ratio = shares[shares.len() - 1] / shares[0];
-        println!("{name}: a face takes {ratio:.2} times as long in the largest as in the smallest (bar {LINEAR})");
+        println!(
+            "{name}: a face takes {ratio:.2} times as long in the largest as in the smallest (bar \
+            {LINEAR})"
+        );
         is_missed |= ratio > LINEAR;
     }
     println!("peer: none, see the head of this file");

@@ -1,7 +1,8 @@
 //! Planarizing what people planarize: `cargo bench --bench planarize`.
 //!
-//! Four models, each to the profiles `exact` and `glass`: rounds, movements and CPU seconds, and whether the bar of 30 s for every
-//! one is missed. No peer is known that planarizes from a file without a scene of its own, so none is compared.
+//! Four models, each to the profiles `exact` and `glass`: rounds, movements and CPU seconds, and
+//! whether the bar of 30 s for every one is missed. No peer is known that planarizes from a file
+//! without a scene of its own, so none is compared.
 
 #![allow(clippy::print_stdout, reason = "a bench prints")]
 
@@ -21,13 +22,28 @@ const MOST_SECONDS: f64 = 30.0;
 fn main() {
     println!("peer: none known");
     let models = [
-        ("Catmull–Clark quads over a shaken torus", finer(Scheme::CatmullClark, &shaken_torus(40, 20), 2)),
+        (
+            "Catmull–Clark quads over a shaken torus",
+            finer(Scheme::CatmullClark, &shaken_torus(40, 20), 2),
+        ),
         ("honeycomb level 2", finer(Scheme::Honeycomb, &named("geodesic-4"), 2)),
         ("Doo–Sabin level 3 of a cube", finer(Scheme::DooSabin, &named("cube"), 3)),
-        ("Doo–Sabin level 3 of a geodesic sphere", finer(Scheme::DooSabin, &named("geodesic-4"), 3)),
-        ("façade of 5000 hexagons, shaken", shaken(&hexagonal_facade(100, 50, 1000.0, [90_000.0, 60_000.0]), 10.0)),
-        ("saddle of 5000 hexagons, shaken", shaken(&hexagonal_facade(100, 50, 1000.0, [90_000.0, -60_000.0]), 10.0)),
-        ("5000 hexagons projected onto a dome", dome(&hexagonal_facade(100, 50, 1000.0, [90_000.0, 60_000.0]))),
+        (
+            "Doo–Sabin level 3 of a geodesic sphere",
+            finer(Scheme::DooSabin, &named("geodesic-4"), 3),
+        ),
+        (
+            "façade of 5000 hexagons, shaken",
+            shaken(&hexagonal_facade(100, 50, 1000.0, [90_000.0, 60_000.0]), 10.0),
+        ),
+        (
+            "saddle of 5000 hexagons, shaken",
+            shaken(&hexagonal_facade(100, 50, 1000.0, [90_000.0, -60_000.0]), 10.0),
+        ),
+        (
+            "5000 hexagons projected onto a dome",
+            dome(&hexagonal_facade(100, 50, 1000.0, [90_000.0, 60_000.0])),
+        ),
     ];
     for (name, mesh) in &models {
         for profile in [Profile::Exact, Profile::Glass] {
@@ -44,7 +60,8 @@ fn measure(name: &str, mesh: &Mesh, profile: Profile) {
     let broken = made.faces().filter(|&f| !profile.limits().allow(&planarity(&made, f))).count();
     let verdict = if broken > 0 || seconds > MOST_SECONDS { "MISSED" } else { "kept" };
     println!(
-        "{name}, {profile}: {} faces, {} rounds, {:.2e} mm before, {:.2e} mm after; moved {:.3} mm at most, {:.4} mm on average; \
+        "{name}, {profile}: {} faces, {} rounds, {:.2e} mm before, {:.2e} mm after; moved {:.3} mm \
+        at most, {:.4} mm on average; \
          {broken} faces broken; {seconds:.2} CPU s; bar 30 s {verdict}",
         mesh.face_count(),
         report.rounds,
@@ -56,7 +73,8 @@ fn measure(name: &str, mesh: &Mesh, profile: Profile) {
 }
 
 fn named(name: &str) -> Mesh {
-    solid(&SolidParams { name: name.parse().expect("a name"), edge: None, size: None }).expect("a solid")
+    solid(&SolidParams { name: name.parse().expect("a name"), edge: None, size: None })
+        .expect("a solid")
 }
 
 fn finer(scheme: Scheme, mesh: &Mesh, rounds: u32) -> Mesh {

@@ -1,8 +1,10 @@
-//! Seams of D-forms against their bars: `cargo bench --bench seams` (`-- quick` leaves out 5000 faces).
+//! Seams of D-forms against their bars: `cargo bench --bench seams` (`-- quick` leaves out 5000
+//! faces).
 //!
-//! Counts of matchings against exhaustive search; the proof for Tutte's graph; two pieces without overlap of random convex
-//! 3-valent meshes; the least-weight matching of 100 000 edges, and of a smaller mesh against networkx in the same run (the
-//! same sum, and how many times faster). Times are CPU seconds of one thread. Without networkx the comparison is named as missing.
+//! Counts of matchings against exhaustive search; the proof for Tutte's graph; two pieces without
+//! overlap of random convex 3-valent meshes; the least-weight matching of 100 000 edges, and of a
+//! smaller mesh against networkx in the same run (the same sum, and how many times faster). Times
+//! are CPU seconds of one thread. Without networkx the comparison is named as missing.
 
 #![allow(clippy::print_stdout, reason = "a bench prints")]
 
@@ -16,7 +18,9 @@ use std::process::{Command, Stdio};
 use kerfold::io::{ReadOptions, read_mesh};
 use kerfold::mesh::Mesh;
 use kerfold::progress::Silent;
-use kerfold::seam::{TwoPieceSearch, fold_sum, fold_weight, is_perfect_matching, least_matching, piece_count, table};
+use kerfold::seam::{
+    TwoPieceSearch, fold_sum, fold_weight, is_perfect_matching, least_matching, piece_count, table,
+};
 use kerfold::shape::{SolidParams, random_tangent_polytope, solid};
 use kerfold::unfold::{PiecesMode, Seams, Source, UnfoldParams, unfold};
 
@@ -33,8 +37,13 @@ const COUNTS: [(&str, &[(usize, usize)]); 7] = [
 /// The proof that Tutte's graph has no two-piece seam, in seconds.
 const TUTTE: f64 = 1.0;
 /// Faces, seeds, and what the slowest may take in seconds.
-const TWO_PIECES: [(usize, u64, f64); 5] =
-    [(100, 20, f64::INFINITY), (200, 20, f64::INFINITY), (500, 20, f64::INFINITY), (1000, 20, 1.0), (5000, 3, 30.0)];
+const TWO_PIECES: [(usize, u64, f64); 5] = [
+    (100, 20, f64::INFINITY),
+    (200, 20, f64::INFINITY),
+    (500, 20, f64::INFINITY),
+    (1000, 20, 1.0),
+    (5000, 3, 30.0),
+];
 /// The least-weight matching of 100 000 edges, in seconds.
 const MATCHING: f64 = 5.0;
 
@@ -52,14 +61,16 @@ fn main() {
 fn counts() {
     for (name, wanted) in COUNTS {
         let mesh = named(name);
-        let (rows, seconds) = timed(|| table(&mesh, usize::MAX, &Silent).expect("a 3-valent solid"));
+        let (rows, seconds) =
+            timed(|| table(&mesh, usize::MAX, &Silent).expect("a 3-valent solid"));
         let mut found = BTreeMap::new();
         rows.iter().for_each(|row| *found.entry(row.pieces).or_insert(0) += row.orbit_size);
         let found: Vec<(usize, usize)> = found.into_iter().collect();
         let all: usize = found.iter().map(|&(_, n)| n).sum();
         let list: Vec<String> = found.iter().map(|(pieces, n)| format!("{n}×{pieces}")).collect();
         println!(
-            "counts       {name:<22} {all:>4} matchings, {:>3} up to symmetry, pieces {:<34} {seconds:.4} s{}",
+            "counts       {name:<22} {all:>4} matchings, {:>3} up to symmetry, pieces {:<34} \
+            {seconds:.4} s{}",
             rows.len(),
             list.join(" "),
             verdict(found == wanted)
@@ -70,21 +81,31 @@ fn counts() {
 fn named(name: &str) -> Mesh {
     if name == "tutte" {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/meshes/tutte.obj");
-        return read_mesh(path.as_ref(), &ReadOptions::default()).expect("the fixture is there").mesh;
+        return read_mesh(path.as_ref(), &ReadOptions::default())
+            .expect("the fixture is there")
+            .mesh;
     }
-    solid(&SolidParams { name: name.parse().expect("a name"), edge: None, size: None }).expect("a solid")
+    solid(&SolidParams { name: name.parse().expect("a name"), edge: None, size: None })
+        .expect("a solid")
 }
 
 fn proof() {
     let mesh = named("tutte");
     let (conflicts, seconds) = timed(|| {
         let mut search = TwoPieceSearch::new(&mesh, &Silent).expect("3-valent");
-        assert!(search.next_candidate(&Silent).is_none() && search.is_exhausted(), "a two-piece seam of Tutte's graph");
+        assert!(
+            search.next_candidate(&Silent).is_none() && search.is_exhausted(),
+            "a two-piece seam of Tutte's graph"
+        );
         search.proof().to_string()
     });
-    println!("proof        tutte: {conflicts}: {seconds:.4} s, bar {TUTTE} s{}", verdict(seconds < TUTTE));
+    println!(
+        "proof        tutte: {conflicts}: {seconds:.4} s, bar {TUTTE} s{}",
+        verdict(seconds < TUTTE)
+    );
     let params = UnfoldParams { pieces: PiecesMode::Count(2), ..UnfoldParams::default() };
-    let (refused, seconds) = timed(|| unfold(&mesh, &Seams::Free, &params, &Source::default(), &Silent).is_err());
+    let (refused, seconds) =
+        timed(|| unfold(&mesh, &Seams::Free, &params, &Source::default(), &Silent).is_err());
     println!(
         "proof        tutte: `unfold --pieces 2` refuses: {seconds:.4} s, bar {TUTTE} s{}",
         verdict(refused && seconds < TUTTE)
@@ -96,7 +117,8 @@ fn two_pieces(faces: usize, seeds: u64, bar: f64) {
     let (mut found, mut slowest, mut all, mut above) = (0, 0.0_f64, 0.0, 0.0);
     for seed in 0..seeds {
         let mesh = random_tangent_polytope(faces, seed);
-        let (net, seconds) = timed(|| unfold(&mesh, &Seams::Free, &params, &Source::default(), &Silent));
+        let (net, seconds) =
+            timed(|| unfold(&mesh, &Seams::Free, &params, &Source::default(), &Silent));
         (slowest, all) = (slowest.max(seconds), all + seconds);
         let Ok(net) = net else { continue };
         let folds: Vec<_> = net.folds.iter().map(|f| kerfold::mesh::EdgeId::new(f.id.0)).collect();
@@ -105,7 +127,8 @@ fn two_pieces(faces: usize, seeds: u64, bar: f64) {
         above += fold_sum(&mesh, &folds) / least - 1.0;
     }
     println!(
-        "two pieces   n = {faces:>5}: {found} of {seeds} seeds, slowest {slowest:.3} s, mean {:.3} s, bar {bar} s, fold sum {:.1} % \
+        "two pieces   n = {faces:>5}: {found} of {seeds} seeds, slowest {slowest:.3} s, mean {:.3} \
+        s, bar {bar} s, fold sum {:.1} % \
          above the least matching{}",
         all / seeds as f64,
         100.0 * above / seeds as f64,
@@ -127,7 +150,8 @@ fn matching() {
     }
 }
 
-/// The same small matching by networkx, which is in Python, but the only other one that many people have at hand.
+/// The same small matching by networkx, which is in Python, but the only other one that many people
+/// have at hand.
 fn against_networkx() {
     const PROGRAM: &str = "import sys,time,networkx as n\n\
         g=n.Graph();g.add_weighted_edges_from((int(a),int(b),float(w)) for a,b,w in map(str.split,sys.stdin))\n\
@@ -138,14 +162,19 @@ fn against_networkx() {
     let mut text = String::new();
     for e in mesh.edges() {
         let [a, b] = mesh.edge_vertices(e);
-        writeln!(text, "{} {} {:?}", a.index(), b.index(), fold_weight(&mesh, e)).expect("a string grows");
+        writeln!(text, "{} {} {:?}", a.index(), b.index(), fold_weight(&mesh, e))
+            .expect("a string grows");
     }
     let path = std::env::temp_dir().join(format!("kerfold-bench-seams-{}.txt", std::process::id()));
     std::fs::write(&path, text).expect("the temporary folder is writable");
     let input = std::fs::File::open(&path).expect("just written");
-    let output = Command::new("python3").args(["-c", PROGRAM]).stdin(input).stderr(Stdio::null()).output();
+    let output =
+        Command::new("python3").args(["-c", PROGRAM]).stdin(input).stderr(Stdio::null()).output();
     std::fs::remove_file(&path).expect("the file was there");
-    let told = output.ok().filter(|o| o.status.success()).map(|o| String::from_utf8_lossy(&o.stdout).into_owned());
+    let told = output
+        .ok()
+        .filter(|o| o.status.success())
+        .map(|o| String::from_utf8_lossy(&o.stdout).into_owned());
     let Some(told) = told else {
         println!("peer         networkx (Python) is not installed; no comparison is made");
         return;
@@ -154,7 +183,8 @@ fn against_networkx() {
     let [theirs, their_sum] = [0, 1].map(|i| words[i].parse::<f64>().expect("a number"));
     let sum = fold_sum(&mesh, &folds);
     println!(
-        "peer         networkx {}, {} edges: {theirs:.3} s against {ours:.5} s, {:.0} times; sums {their_sum:.12} and {sum:.12}{}",
+        "peer         networkx {}, {} edges: {theirs:.3} s against {ours:.5} s, {:.0} times; sums \
+        {their_sum:.12} and {sum:.12}{}",
         words[3],
         mesh.edge_count(),
         theirs / ours,

@@ -1,13 +1,16 @@
 //! The unfolder against its bars: `cargo bench --bench unfold [-- --models DIR] [--only WORD]`.
 //!
-//! Prints faces, components, pieces and CPU seconds of one thread for random convex 3-valent meshes, regular solids, and models,
-//! and says `MISSED` where a bar is missed. Every net is proven once more (`unfold::prove`, which shares no code with the
-//! search) outside the time that is measured. No peer is run: Blender's Paper Model, papercraft and mesh_unfolder have no
-//! release that a script can install and call; what they reach is in the design notes, and the bars are above all of it.
+//! Prints faces, components, pieces and CPU seconds of one thread for random convex 3-valent
+//! meshes, regular solids, and models, and says `MISSED` where a bar is missed. Every net is proven
+//! once more (`unfold::prove`, which shares no code with the search) outside the time that is
+//! measured. No peer is run: Blender's Paper Model, papercraft and mesh_unfolder have no release
+//! that a script can install and call; what they reach is in the design notes, and the bars are
+//! above all of it.
 //!
-//! `--models DIR` names a folder with spot.obj, cow.obj, fandisk.obj and teapot.obj (their licences are not all clear, so
-//! only Spot, CC0, is bundled). They are unfolded in full, and decimated to 200 and 1000 triangles by pymeshlab (`python3`,
-//! `pip install pymeshlab`), keeping topology. `--only WORD` runs the rows whose name holds the word.
+//! `--models DIR` names a folder with spot.obj, cow.obj, fandisk.obj and teapot.obj (their licences
+//! are not all clear, so only Spot, CC0, is bundled). They are unfolded in full, and decimated to
+//! 200 and 1000 triangles by pymeshlab (`python3`, `pip install pymeshlab`), keeping topology.
+//! `--only WORD` runs the rows whose name holds the word.
 
 #![allow(clippy::print_stdout, reason = "a bench prints")]
 
@@ -39,9 +42,13 @@ const LONG_PIECES: usize = 3;
 
 fn main() {
     let args: Vec<String> = std::env::args().collect();
-    let after = |flag: &str| args.iter().position(|a| a == flag).and_then(|i| args.get(i + 1)).cloned();
+    let after =
+        |flag: &str| args.iter().position(|a| a == flag).and_then(|i| args.get(i + 1)).cloned();
     let bench = Bench { only: after("--only") };
-    println!("{:<28} {:>6} {:>5} {:>7} {:>9} {:>9}  verdict", "mesh", "faces", "parts", "pieces", "CPU s", "bar s");
+    println!(
+        "{:<28} {:>6} {:>5} {:>7} {:>9} {:>9}  verdict",
+        "mesh", "faces", "parts", "pieces", "CPU s", "bar s"
+    );
     bench.convex();
     bench.solids();
     let fixtures = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/meshes");
@@ -78,20 +85,27 @@ impl Bench {
         for (n, bar) in CONVEX {
             let name = format!("convex-{n} x {SEEDS}");
             if self.is_wanted(&name) {
-                let rows = (0..SEEDS).map(|seed| run(&random_tangent_polytope(n, seed), &[], PiecesMode::Auto, 10));
-                let worst = rows.map(|row| row.unwrap_or_else(|fault| panic!("{name}: {fault}"))).reduce(worse);
+                let rows = (0..SEEDS)
+                    .map(|seed| run(&random_tangent_polytope(n, seed), &[], PiecesMode::Auto, 10));
+                let worst = rows
+                    .map(|row| row.unwrap_or_else(|fault| panic!("{name}: {fault}")))
+                    .reduce(worse);
                 report(&name, &worst.expect("seeds"), bar, 1);
             }
         }
     }
 
     fn solids(&self) {
-        let fixed = Platonic::ALL.map(Platonic::name).into_iter().chain(Archimedean::ALL.map(Archimedean::name));
+        let fixed = Platonic::ALL
+            .map(Platonic::name)
+            .into_iter()
+            .chain(Archimedean::ALL.map(Archimedean::name));
         let families = (3..=20).flat_map(|n| [format!("prism-{n}"), format!("antiprism-{n}")]);
         let names: Vec<String> = fixed.map(str::to_owned).chain(families).collect();
         let mut worst: Option<(String, Row)> = None;
         for name in names.iter().filter(|name| self.is_wanted(name)) {
-            let params = SolidParams { name: name.parse().expect("a solid"), ..SolidParams::default() };
+            let params =
+                SolidParams { name: name.parse().expect("a solid"), ..SolidParams::default() };
             let row = run(&solid(&params).expect("a solid"), &[], PiecesMode::One, 10);
             let row = row.unwrap_or_else(|fault| panic!("{name}: {fault}"));
             if row.seconds >= SOLID || row.pieces > 1 {
@@ -133,7 +147,13 @@ impl Bench {
         self.measure(&format!("{name} full"), path, 10, FULL, usize::MAX);
         // The design promises a number of pieces for these two only.
         let pieces = if ["spot", "fandisk"].contains(&name) { LONG_PIECES } else { usize::MAX };
-        self.measure(&format!("{name} full, effort {LONG_EFFORT}"), path, LONG_EFFORT, LONG, pieces);
+        self.measure(
+            &format!("{name} full, effort {LONG_EFFORT}"),
+            path,
+            LONG_EFFORT,
+            LONG,
+            pieces,
+        );
     }
 
     fn model(&self, name: &str, path: &Path, bar: f64, pieces: usize) {
@@ -173,11 +193,17 @@ fn report(name: &str, row: &Row, bar: f64, most: usize) {
     println!("{name:<28} {faces:>6} {parts:>5} {pieces:>7} {seconds:>9.4} {bar:>9}  {verdict}");
 }
 
-fn run(mesh: &Mesh, split_vertices: &[SplitVertex], pieces: PiecesMode, effort: u32) -> Result<Row, String> {
+fn run(
+    mesh: &Mesh,
+    split_vertices: &[SplitVertex],
+    pieces: PiecesMode,
+    effort: u32,
+) -> Result<Row, String> {
     let params = UnfoldParams { pieces, effort, ..UnfoldParams::default() };
     let source = Source { scale: 1.0, split_vertices };
     let start = thread_seconds();
-    let net = unfold(mesh, &Seams::Free, &params, &source, &Silent).map_err(|fault| fault.to_string())?;
+    let net =
+        unfold(mesh, &Seams::Free, &params, &source, &Silent).map_err(|fault| fault.to_string())?;
     let seconds = thread_seconds() - start;
     let proof = prove(mesh, &net).map_err(|fault| fault.to_string())?;
     assert_eq!(proof.overlaps, 0, "the proof counts overlaps");

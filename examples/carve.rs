@@ -1,4 +1,5 @@
-//! Carves a soccer ball, checks the result, and prints it as OBJ: `cargo run --example carve > carved.obj`.
+//! Carves a soccer ball, checks the result, and prints it as OBJ: `cargo run --example carve >
+//! carved.obj`.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "an example prints")]
 
@@ -11,9 +12,14 @@ use kerfold::shape::{SolidParams, solid};
 use kerfold::units::Length;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let ball = SolidParams { name: "soccer-ball".parse()?, edge: None, size: Some(Length::from_mm(300.0)) };
+    let ball = SolidParams {
+        name: "soccer-ball".parse()?,
+        edge: None,
+        size: Some(Length::from_mm(300.0)),
+    };
     let ball = solid(&ball)?;
-    let (carved, report) = truncate_vertices(&ball, &TruncateVertex::new("all".parse()?, 0.3), &OpContext::default())?;
+    let (carved, report) =
+        truncate_vertices(&ball, &TruncateVertex::new("all".parse()?, 0.3), &OpContext::default())?;
     for note in report.notes("vertex") {
         eprintln!("note: {note}");
     }

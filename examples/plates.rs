@@ -1,4 +1,5 @@
-//! Turns a truncated icosahedron into glass plates and prints its cutting list: `cargo run --example plates`.
+//! Turns a truncated icosahedron into glass plates and prints its cutting list: `cargo run
+//! --example plates`.
 
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
@@ -10,7 +11,11 @@ use kerfold::shape::{SolidParams, solid};
 use kerfold::units::Length;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let model = solid(&SolidParams { name: "soccer-ball".parse()?, edge: None, size: Some(Length::from_mm(4000.0)) })?;
+    let model = solid(&SolidParams {
+        name: "soccer-ball".parse()?,
+        edge: None,
+        size: Some(Length::from_mm(4000.0)),
+    })?;
     let params = PanelParams { gap: Length::from_mm(8.0), ..PanelParams::default() };
     let made = plates(&model, Length::from_mm(10.0), (&params, &Hardware::default()), &Silent)?;
     let list = schedule(&model, &made, &params);

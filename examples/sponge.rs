@@ -10,12 +10,20 @@ use kerfold::shape::{SolidParams, solid};
 use kerfold::units::Length;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let cube = solid(&SolidParams { name: "cube".parse()?, edge: Some(Length::from_mm(90.0)), size: None })?;
+    let cube = solid(&SolidParams {
+        name: "cube".parse()?,
+        edge: Some(Length::from_mm(90.0)),
+        size: None,
+    })?;
     for rounds in 1..=2 {
         let params = MengerParams { rounds, exact: true, ..MengerParams::default() };
         let (sponge, _) = menger(&cube, &params, &OpContext::default())?;
         let share = volume(&sponge) / volume(&cube);
-        println!("round {rounds}: {} faces, genus {}, {share:.6} of the cube", sponge.face_count(), genus(&sponge));
+        println!(
+            "round {rounds}: {} faces, genus {}, {share:.6} of the cube",
+            sponge.face_count(),
+            genus(&sponge)
+        );
     }
     Ok(())
 }

@@ -1,7 +1,9 @@
-//! kerfold carves planar 3-valence meshes, proves that they are so, and unfolds them into sheets that a shop can cut.
+//! kerfold carves planar 3-valence meshes, proves that they are so, and unfolds them into sheets
+//! that a shop can cut.
 //!
-//! A solid or a file becomes a [`Mesh`](mesh::Mesh); operators ([`op`]) carve it and return a new one; [`check`](mod@check) measures it;
-//! [`unfold`](mod@unfold) makes a net, which [`unfold::prove`] checks by code of its own; [`sheet`] lays it out. Each operator has one
+//! A solid or a file becomes a [`Mesh`](mesh::Mesh); operators ([`op`]) carve it and return a new
+//! one; [`check`](mod@check) measures it; [`unfold`](mod@unfold) makes a net, which
+//! [`unfold::prove`] checks by code of its own; [`sheet`] lays it out. Each operator has one
 //! parameter struct, which is also the command line's and the recipe's.
 //!
 //! ```

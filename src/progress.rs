@@ -1,8 +1,11 @@
-//! How long work tells how far it is and learns that it should stop; layer 0, knows nothing but itself.
+//! How long work tells how far it is and learns that it should stop; layer 0, knows nothing but
+//! itself.
 
-/// What a long computation reports to and asks. The command line shows it on a terminal and stops on Ctrl-C.
+/// What a long computation reports to and asks. The command line shows it on a terminal and stops
+/// on Ctrl-C.
 pub trait Progress: Sync {
-    /// Called now and then with the name of the work, the steps done, and the steps in all (0 when unknown).
+    /// Called now and then with the name of the work, the steps done, and the steps in all (0 when
+    /// unknown).
     fn report(&self, work: &str, done: usize, total: usize);
 
     /// Whether the user asked to stop. Work that has a best result so far returns it.

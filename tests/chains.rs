@@ -1,4 +1,5 @@
-//! Random chains of operators that change the genus, with subdivisions and cuts among them: sound after every one.
+//! Random chains of operators that change the genus, with subdivisions and cuts among them: sound
+//! after every one.
 
 use std::path::Path;
 
@@ -6,8 +7,8 @@ use kerfold::io::{ReadOptions, read_mesh};
 use kerfold::measure::genus;
 use kerfold::mesh::{FaceId, Mesh, VertexId, assert_sound};
 use kerfold::op::{
-    HandleParams, MengerParams, OpContext, Operate, RindParams, Scheme, ShellSource, SierpinskiParams, SubdivideParams,
-    Thickness, TruncateEdge, TruncateFace, TruncateVertex, rind,
+    HandleParams, MengerParams, OpContext, Operate, RindParams, Scheme, ShellSource,
+    SierpinskiParams, SubdivideParams, Thickness, TruncateEdge, TruncateFace, TruncateVertex, rind,
 };
 use kerfold::select::Selection;
 use kerfold::shape;
@@ -68,7 +69,13 @@ fn step(dice: &mut Dice, mesh: &Mesh) -> Box<dyn Operate> {
             })
         }
         6 => {
-            let schemes = [Scheme::DooSabin, Scheme::CatmullClark, Scheme::Loop, Scheme::Simplest, Scheme::Dual];
+            let schemes = [
+                Scheme::DooSabin,
+                Scheme::CatmullClark,
+                Scheme::Loop,
+                Scheme::Simplest,
+                Scheme::Dual,
+            ];
             Box::new(SubdivideParams::new(schemes[dice.roll(schemes.len())], 1))
         }
         7 => Box::new(SubdivideParams::new(
@@ -136,7 +143,8 @@ fn patch(mesh: &Mesh, start: FaceId, size: usize) -> Option<Vec<FaceId>> {
         next += 1;
     }
     let mut vertices: Vec<VertexId> = faces.iter().flat_map(|&f| mesh.face_vertices(f)).collect();
-    let mut edges: Vec<_> = faces.iter().flat_map(|&f| mesh.face_half_edges(f)).map(|h| h.edge()).collect();
+    let mut edges: Vec<_> =
+        faces.iter().flat_map(|&f| mesh.face_half_edges(f)).map(|h| h.edge()).collect();
     vertices.sort_unstable();
     vertices.dedup();
     edges.sort_unstable();
@@ -144,10 +152,13 @@ fn patch(mesh: &Mesh, start: FaceId, size: usize) -> Option<Vec<FaceId>> {
     (vertices.len() + faces.len() == edges.len() + 1).then_some(faces)
 }
 
-/// Patches that share no vertex, each a disc, leave one opening each when peeled; punched one by one every face is an opening.
+/// Patches that share no vertex, each a disc, leave one opening each when peeled; punched one by
+/// one every face is an opening.
 #[test]
 fn rinds_of_spot_have_the_genus_of_their_openings() {
-    let spot = read_mesh(Path::new("fixtures/meshes/spot-1000.obj"), &ReadOptions::default()).expect("Spot").mesh;
+    let spot = read_mesh(Path::new("fixtures/meshes/spot-1000.obj"), &ReadOptions::default())
+        .expect("Spot")
+        .mesh;
     let all = faces(&spot);
     let mut dice = Dice(7);
     for _ in 0..40 {
@@ -157,7 +168,8 @@ fn rinds_of_spot_have_the_genus_of_their_openings() {
             let size = 1 + dice.roll(9);
             let start = FaceId::new(dice.one_of(&all) as usize);
             let Some(found) = patch(&spot, start, size) else { continue };
-            let corners: Vec<usize> = found.iter().flat_map(|&f| spot.face_vertices(f)).map(|v| v.index()).collect();
+            let corners: Vec<usize> =
+                found.iter().flat_map(|&f| spot.face_vertices(f)).map(|v| v.index()).collect();
             if corners.iter().all(|&v| !is_used[v]) {
                 corners.into_iter().for_each(|v| is_used[v] = true);
                 patches.push(found);
@@ -165,9 +177,17 @@ fn rinds_of_spot_have_the_genus_of_their_openings() {
         }
         let chosen = Selection::of_ids(patches.iter().flatten().map(|f| f.index() as u32));
         let count = patches.iter().map(Vec::len).sum::<usize>();
-        for (punch, peel, openings) in [(None, chosen.clone(), patches.len()), (chosen, None, count)] {
+        for (punch, peel, openings) in
+            [(None, chosen.clone(), patches.len()), (chosen, None, count)]
+        {
             let thickness = Length::from_mm([0.002, -0.002][dice.roll(2)]);
-            let params = RindParams { thickness, thickness_of: Vec::new(), punch, peel, shell: ShellSource::New };
+            let params = RindParams {
+                thickness,
+                thickness_of: Vec::new(),
+                punch,
+                peel,
+                shell: ShellSource::New,
+            };
             let (made, _, report) = rind(&spot, &params, &OpContext::default()).expect("a rind");
             assert_sound(&made);
             assert_eq!((made.components().len(), genus(&made)), (1, openings - 1), "{report:?}");

@@ -1,4 +1,5 @@
-//! The program as users meet it: exit codes, messages, pipes, and files that are whole or not there.
+//! The program as users meet it: exit codes, messages, pipes, and files that are whole or not
+//! there.
 
 use std::fs;
 use std::io::Write;
@@ -104,13 +105,45 @@ const READERS: &[(&[&str], &str)] = &[
     (&["hull", "IN", "--dual", "--steps", "1,all", "-o", "OUT"], "dual.obj"),
     (&["subdivide", "doo-sabin", "IN", "--rounds", "2", "-o", "OUT"], "out.obj"),
     (&["sierpinski", "IN", "--rounds", "2", "-o", "OUT"], "out.obj"),
-    (&["rind", "IN", "--thickness", "2mm", "--punch", "0", "--peel", "1,2", "-o", "OUT"], "out.obj"),
-    (&["menger", "IN", "--thickness", "1/4", "-o", "OUT"], "out.obj"),
     (
-        &["handle", "IN", "--from", "0", "--to", "1", "--weights", "500mm,500mm", "--segments", "16", "-o", "OUT"],
+        &["rind", "IN", "--thickness", "2mm", "--punch", "0", "--peel", "1,2", "-o", "OUT"],
         "out.obj",
     ),
-    (&["handle", "IN", "--from", "0", "--to", "1", "--also", "2", "--segments", "8", "-o", "OUT"], "hub.obj"),
+    (&["menger", "IN", "--thickness", "1/4", "-o", "OUT"], "out.obj"),
+    (
+        &[
+            "handle",
+            "IN",
+            "--from",
+            "0",
+            "--to",
+            "1",
+            "--weights",
+            "500mm,500mm",
+            "--segments",
+            "16",
+            "-o",
+            "OUT",
+        ],
+        "out.obj",
+    ),
+    (
+        &[
+            "handle",
+            "IN",
+            "--from",
+            "0",
+            "--to",
+            "1",
+            "--also",
+            "2",
+            "--segments",
+            "8",
+            "-o",
+            "OUT",
+        ],
+        "hub.obj",
+    ),
     (&["planarize", "IN", "-o", "OUT"], "out.obj"),
     (&["unfold", "IN", "--sheet", "600x400", "-o", "OUT"], "out"),
     (&["unfold", "IN", "--sheet", "none", "--assembly", "pictures", "-o", "OUT"], "shown"),
@@ -158,7 +191,8 @@ fn good_input_gives_results_on_stdout_and_whole_files() {
             assert!(Path::new(&output).exists(), "{arguments:?}");
         }
     }
-    let leftovers = folder.contents().into_iter().filter(|(p, _)| p.to_string_lossy().contains("tmp-"));
+    let leftovers =
+        folder.contents().into_iter().filter(|(p, _)| p.to_string_lossy().contains("tmp-"));
     assert_eq!(leftovers.count(), 0);
 }
 
@@ -178,7 +212,11 @@ fn bad_input_is_exit_code_2_with_one_line_and_no_file() {
             let ran = run(&fill(arguments, input, &output));
             assert_eq!(ran.code, Some(2), "{arguments:?} {input}");
             assert_eq!(ran.out, "", "{arguments:?} {input}");
-            assert!(ran.err.starts_with("kerfold: ") && ran.err.contains(message), "{arguments:?}: {}", ran.err);
+            assert!(
+                ran.err.starts_with("kerfold: ") && ran.err.contains(message),
+                "{arguments:?}: {}",
+                ran.err
+            );
             assert_eq!(ran.err.lines().count(), 1, "{arguments:?}: {}", ran.err);
         }
     }
@@ -193,8 +231,16 @@ fn planes_that_bound_nothing_are_refused_with_place_and_reason() {
     for (name, text, messages) in [
         ("empty.csv", String::new(), &["there are no half-spaces"][..]),
         ("word.csv", format!("{walls}0, 0, up, 1\n"), &["word.csv:5:7: `up` is not a number"]),
-        ("open.csv", format!("{walls}0,0,1,1\n"), &["the direction (0.0000, 0.0000, -1.0000) open"]),
-        ("apart.csv", format!("# box\n{walls}0,0,1,1\n0,0,-1,-2\n"), &["exclude each other", "on the lines 6, 7"]),
+        (
+            "open.csv",
+            format!("{walls}0,0,1,1\n"),
+            &["the direction (0.0000, 0.0000, -1.0000) open"],
+        ),
+        (
+            "apart.csv",
+            format!("# box\n{walls}0,0,1,1\n0,0,-1,-2\n"),
+            &["exclude each other", "on the lines 6, 7"],
+        ),
         ("flat.csv", format!("{walls}0,0,1,1\n0,0,-1,-1\n"), &["no room", "on the lines 5, 6"]),
     ] {
         let file = folder.path(name);
@@ -220,7 +266,11 @@ fn output_that_cannot_be_written_leaves_everything_as_it_was() {
         assert_eq!(ran.code, Some(2), "{arguments:?}");
         // Notes may come first: what a verb says before its work begins.
         let error = ran.err.lines().find(|line| !line.starts_with("note: ")).unwrap_or_default();
-        assert!(error.starts_with("kerfold: ") && error.contains("wall"), "{arguments:?}: {}", ran.err);
+        assert!(
+            error.starts_with("kerfold: ") && error.contains("wall"),
+            "{arguments:?}: {}",
+            ran.err
+        );
         assert_eq!(folder.contents(), before, "{arguments:?}");
     }
 }
@@ -243,7 +293,8 @@ fn a_dash_is_standard_input_and_output() {
     let made = run(&["solid", "cube", "-o", "-"]);
     assert_eq!(made.code, Some(0));
     assert!(made.err.contains("8 vertices"), "the summary gives way to the mesh: {}", made.err);
-    let cut = piped(&["cut", "vertex", "-", "--select", "all", "--offset", "0.25", "-o", "-"], &made.out);
+    let cut =
+        piped(&["cut", "vertex", "-", "--select", "all", "--offset", "0.25", "-o", "-"], &made.out);
     assert_eq!(cut.code, Some(0), "{}", cut.err);
     let info = piped(&["info", "-", "--json"], &cut.out);
     let told: Value = serde_json::from_str(&info.out).expect("JSON");
@@ -263,7 +314,8 @@ fn json_parses_and_quiet_is_silent() {
         with.push("--json");
         let ran = run(&with);
         assert_eq!(ran.code, Some(0), "{with:?}: {}", ran.err);
-        let value: Value = serde_json::from_str(&ran.out).unwrap_or_else(|e| panic!("{with:?}: {e}\n{}", ran.out));
+        let value: Value =
+            serde_json::from_str(&ran.out).unwrap_or_else(|e| panic!("{with:?}: {e}\n{}", ran.out));
         assert!(value["command"].as_str().is_some_and(|c| c.starts_with("kerfold ")), "{with:?}");
         *with.last_mut().expect("--json") = "--quiet";
         let ran = run(&with);
@@ -286,10 +338,23 @@ fn findings_are_exit_code_1() {
     assert_eq!((ran.code, ran.err.as_str()), (Some(1), ""), "{}", ran.out);
     assert!(ran.out.contains("valence"), "{}", ran.out);
     let page = folder.path("report.html");
-    let ran = run(&["check", &model, "--require", "valence3", "--report", &page, "--json", "--rows", "all"]);
+    let ran = run(&[
+        "check",
+        &model,
+        "--require",
+        "valence3",
+        "--report",
+        &page,
+        "--json",
+        "--rows",
+        "all",
+    ]);
     assert_eq!((ran.code, ran.err.as_str()), (Some(1), ""), "{}", ran.out);
     let told: Value = serde_json::from_str(&ran.out).expect("JSON");
-    assert_eq!(["vertices", "edges"].map(|key| told[key].as_array().map(Vec::len)), [Some(6), Some(12)]);
+    assert_eq!(
+        ["vertices", "edges"].map(|key| told[key].as_array().map(Vec::len)),
+        [Some(6), Some(12)]
+    );
     let page = fs::read_to_string(&page).expect("a page");
     assert!(page.contains("Fail: 6 findings") && page.contains("octahedron.obj"));
 }
@@ -303,18 +368,28 @@ fn what_an_operator_finds_counts_in_a_recipe_as_it_does_in_its_verb() {
     assert!(ran.code == Some(1) && ran.err.contains("(F503)"), "{}", ran.err);
     let recipe = |thickness: &str| {
         let path = folder.path("recipe.toml");
-        let text = format!("[[step]]\nsolid = \"tetrahedron\"\n[[step]]\nmenger = 1\nthickness = {thickness}\n");
+        let text = format!(
+            "[[step]]\nsolid = \"tetrahedron\"\n[[step]]\nmenger = 1\nthickness = {thickness}\n"
+        );
         fs::write(&path, text).expect("a recipe");
         run(&["run", &path, "-o", &folder.path("made"), "--json"])
     };
     for (thickness, code, unclean) in [("0.3", 1, 1), ("0.15", 0, 0)] {
         let ran = recipe(thickness);
         let told: Value = serde_json::from_str(&ran.out).expect("JSON");
-        assert_eq!((ran.code, told["unclean"].as_array().map(Vec::len)), (Some(code), Some(unclean)), "{}", ran.out);
+        assert_eq!(
+            (ran.code, told["unclean"].as_array().map(Vec::len)),
+            (Some(code), Some(unclean)),
+            "{}",
+            ran.out
+        );
     }
     // Kinds of vertices are told before the rounds, and once.
     let ran = run(&["sierpinski", &model, "-o", &sponge]);
-    assert_eq!((ran.code, ran.err.matches("vertices before the first round: 4 convex").count()), (Some(0), 1));
+    assert_eq!(
+        (ran.code, ran.err.matches("vertices before the first round: 4 convex").count()),
+        (Some(0), 1)
+    );
     assert!(ran.err.starts_with("note: vertices before"), "{}", ran.err);
 }
 
@@ -338,8 +413,10 @@ fn verbs() -> Vec<Vec<String>> {
         let help = run(&[of, &["--help"]].concat());
         assert_eq!(help.code, Some(0), "{of:?}");
         let commands = help.out.split("Commands:\n").nth(1).expect("a list of verbs");
-        let lines =
-            commands.lines().take_while(|l| !l.is_empty()).filter(|l| l.starts_with("  ") && !l.starts_with("   "));
+        let lines = commands
+            .lines()
+            .take_while(|l| !l.is_empty())
+            .filter(|l| l.starts_with("  ") && !l.starts_with("   "));
         lines.filter_map(|l| l.split_whitespace().next().map(str::to_owned)).collect()
     };
     let mut all: Vec<Vec<String>> = listed(&[]).into_iter().map(|v| vec![v]).collect();
@@ -404,10 +481,16 @@ fn mistyped_arguments_are_exit_code_2() {
         (&["unfold", "x.obj"], "--output"),
         (&["solid", "dodecahedrn", "-o", "x.obj"], "dodecahedron"),
         (&["render", "fixtures/meshes/cube.obj", "-o", "x.jpg"], ".png"),
-        (&["unfold", "fixtures/meshes/cube.obj", "--animate", "x.gltf", "-o", "x"], "something.glb"),
+        (
+            &["unfold", "fixtures/meshes/cube.obj", "--animate", "x.gltf", "-o", "x"],
+            "something.glb",
+        ),
         (&["unfold", "fixtures/meshes/cube.off", "--joint", "tabs", "-o", "x"], "thickness"),
         (&["check", "fixtures/meshes/cube.obj", "--report", "x.txt"], ".json"),
-        (&["cut", "edge", "fixtures/meshes/cube.obj", "--select", "hamiltonain", "-o", "x.obj"], "hamiltonian"),
+        (
+            &["cut", "edge", "fixtures/meshes/cube.obj", "--select", "hamiltonain", "-o", "x.obj"],
+            "hamiltonian",
+        ),
     ];
     for (arguments, hint) in cases {
         let ran = run(arguments);
@@ -435,7 +518,8 @@ const BAD_RECIPES: &[(&str, &str, &str)] = &[
 fn recipe_errors_name_line_column_and_the_nearest_word() {
     let mut listed: Vec<_> = fs::read_dir("fixtures/bad-recipes").expect("recipes").collect();
     listed.sort_by_key(|e| e.as_ref().expect("an entry").file_name());
-    let listed: Vec<_> = listed.into_iter().map(|e| e.expect("an entry").file_name().into_string()).collect();
+    let listed: Vec<_> =
+        listed.into_iter().map(|e| e.expect("an entry").file_name().into_string()).collect();
     assert_eq!(listed, BAD_RECIPES.iter().map(|r| Ok(r.0.to_owned())).collect::<Vec<_>>());
     let folder = Folder::new("recipes");
     let output = folder.path("out");
@@ -446,7 +530,9 @@ fn recipe_errors_name_line_column_and_the_nearest_word() {
         assert!(ran.err.starts_with(&format!("kerfold: {path}: ")), "{}", ran.err);
         assert!(ran.err.contains(place) && ran.err.contains(advice), "{name}: {}", ran.err);
     }
-    for (path, message) in [("nothing.toml", "cannot be read"), ("fixtures/bad/garbage.bin", "UTF-8")] {
+    for (path, message) in
+        [("nothing.toml", "cannot be read"), ("fixtures/bad/garbage.bin", "UTF-8")]
+    {
         let ran = run(&["run", path, "-o", &output]);
         assert_eq!(ran.code, Some(2));
         assert!(ran.err.contains(message), "{}", ran.err);
@@ -466,7 +552,8 @@ fn animations_are_written_where_they_are_named_or_nothing_is() {
         assert!(fs::read(&file).expect("the animation").starts_with(start), "{name}");
     }
     let recipe = folder.path("recipe.toml");
-    let text = "[[step]]\nsolid = \"cube\"\nsize = \"80mm\"\n\n[[step]]\nunfold = \"one\"\nanimate = \"up.glb\"\n\
+    let text = "[[step]]\nsolid = \"cube\"\nsize = \"80mm\"\n\n[[step]]\nunfold = \"one\"\nanimate \
+    = \"up.glb\"\n\
         assembly = \"pictures\"\njoint = \"tabs\"\nthickness = 3\nsubstitute = \"mitre\"\n";
     fs::write(&recipe, text).expect("a recipe");
     for out in ["first", "second"] {
@@ -474,14 +561,22 @@ fn animations_are_written_where_they_are_named_or_nothing_is() {
         assert_eq!(ran.code, Some(0), "{}", ran.err);
     }
     for name in ["up.glb", "assembly-01.png", "assembly.txt"] {
-        let [first, second] = ["first", "second"].map(|out| fs::read(folder.path(&format!("{out}/{name}"))));
+        let [first, second] =
+            ["first", "second"].map(|out| fs::read(folder.path(&format!("{out}/{name}"))));
         let (first, second) = (first.expect(name), second.expect(name));
         // The command in the file names its folder.
         assert!(first.len() > 100 && (name != "assembly-01.png" || first == second), "{name}");
     }
     fs::write(folder.path("wall"), "a file where a folder should be").expect("a file");
     let before = folder.contents();
-    let ran = run(&["unfold", &model, "--animate", &folder.path("wall/x.glb"), "-o", &folder.path("new")]);
+    let ran = run(&[
+        "unfold",
+        &model,
+        "--animate",
+        &folder.path("wall/x.glb"),
+        "-o",
+        &folder.path("new"),
+    ]);
     assert_eq!(ran.code, Some(2));
     assert!(ran.err.contains("wall"), "{}", ran.err);
     assert_eq!(folder.contents(), before);
@@ -491,12 +586,25 @@ fn animations_are_written_where_they_are_named_or_nothing_is() {
 fn a_gallery_shows_what_works_and_names_what_fails() {
     let folder = Folder::new("gallery");
     let bundled = folder.path("bundled");
-    let ran = run(&["gallery", "--only", "gonen-fig-08,gonen-fig-05", "--width", "64", "-o", &bundled]);
+    let ran =
+        run(&["gallery", "--only", "gonen-fig-08,gonen-fig-05", "--width", "64", "-o", &bundled]);
     assert_eq!((ran.code, ran.err.as_str()), (Some(0), ""));
-    assert!(ran.out.contains("gonen-fig-08-vertex-truncation") && ran.out.contains("pass"), "{}", ran.out);
+    assert!(
+        ran.out.contains("gonen-fig-08-vertex-truncation") && ran.out.contains("pass"),
+        "{}",
+        ran.out
+    );
     let page = fs::read_to_string(folder.path("bundled/index.html")).expect("the page");
-    assert!(page.contains("24 vertices, 36 edges, 14 faces") && page.contains("planar to rounding"), "{page}");
-    assert!(fs::read(folder.path("bundled/gonen-fig-05-global-cut/model.png")).expect("a picture").len() > 100);
+    assert!(
+        page.contains("24 vertices, 36 edges, 14 faces") && page.contains("planar to rounding"),
+        "{page}"
+    );
+    assert!(
+        fs::read(folder.path("bundled/gonen-fig-05-global-cut/model.png"))
+            .expect("a picture")
+            .len()
+            > 100
+    );
     // The recipes lie beside it and run as they are.
     let recipe = folder.path("bundled/recipes/gallery/gonen-fig-05-global-cut.toml");
     assert_eq!(run(&["run", &recipe, "-o", &folder.path("again")]).code, Some(0));
@@ -512,7 +620,11 @@ fn a_gallery_shows_what_works_and_names_what_fails() {
     fs::write(folder.path("own/checked.toml"), open).expect("a recipe");
     let mixed = run(&["gallery", &own, "-o", &folder.path("site")]);
     assert_eq!(mixed.code, Some(2));
-    assert!(mixed.err.contains("1 of 3 recipes failed") && mixed.err.contains("bad: line 2"), "{}", mixed.err);
+    assert!(
+        mixed.err.contains("1 of 3 recipes failed") && mixed.err.contains("bad: line 2"),
+        "{}",
+        mixed.err
+    );
     let page = fs::read_to_string(folder.path("site/index.html")).expect("the page");
     assert!(page.contains("good/model.png") && page.contains("class=\"fail\""), "{page}");
     let unknown = run(&["gallery", "--only", "nothing", "-o", &folder.path("x")]);
@@ -529,22 +641,41 @@ fn the_two_piece_recipe_gives_two_pieces_and_the_same_bytes_twice() {
     let recipe = fs::canonicalize(TWO_PIECES).expect("the recipe");
     let folders = [Folder::new("twice-a"), Folder::new("twice-b")];
     let told = folders.each_ref().map(|folder| {
-        let ran = ran(program().current_dir(&folder.0).args(["--json", "run"]).arg(&recipe).args(["-o", "out"]));
+        let ran = ran(program()
+            .current_dir(&folder.0)
+            .args(["--json", "run"])
+            .arg(&recipe)
+            .args(["-o", "out"]));
         assert_eq!(ran.code, Some(0), "{}", ran.err);
         ran.out
     });
     assert_eq!(told[0], told[1]);
     let told: Value = serde_json::from_str(&told[0]).expect("JSON");
-    assert_eq!((&told["fabrication"]["pieces"], &told["verdict"]), (&Value::from(2), &Value::from("pass")));
+    assert_eq!(
+        (&told["fabrication"]["pieces"], &told["verdict"]),
+        (&Value::from(2), &Value::from("pass"))
+    );
     let [first, second] = folders.each_ref().map(|folder| {
-        let strip = |(path, bytes): (PathBuf, _)| (path.strip_prefix(&folder.0).expect("inside").to_owned(), bytes);
+        let strip = |(path, bytes): (PathBuf, _)| {
+            (path.strip_prefix(&folder.0).expect("inside").to_owned(), bytes)
+        };
         folder.contents().into_iter().map(strip).collect::<Vec<_>>()
     });
     assert_eq!(first, second);
-    for name in ["model.obj", "model.png", "report.json", "pieces.json", "layout.json", "sheet-01.svg", "sheet-01.png"]
-    {
+    for name in [
+        "model.obj",
+        "model.png",
+        "report.json",
+        "pieces.json",
+        "layout.json",
+        "sheet-01.svg",
+        "sheet-01.png",
+    ] {
         let found = first.iter().find(|(path, _)| path == &Path::new("out").join(name));
-        assert!(found.is_some_and(|(_, bytes)| bytes.as_ref().is_some_and(|b| b.len() > 100)), "{name}");
+        assert!(
+            found.is_some_and(|(_, bytes)| bytes.as_ref().is_some_and(|b| b.len() > 100)),
+            "{name}"
+        );
     }
     let text = fs::read_to_string(folders[0].path("out/pieces.json")).expect("pieces");
     let (net, command) = read_pieces_json(&text).expect("our own file");
@@ -559,7 +690,18 @@ fn lint_tells_what_it_finds_and_passes_our_own_sheets() {
     let model = good_model(&folder);
     let out = folder.path("out");
     let formats = "dxf,pdf,svg,lbrn2";
-    let ran = run(&["unfold", &model, "--format", formats, "--material", "ply3", "--tile", "a4", "-o", &out]);
+    let ran = run(&[
+        "unfold",
+        &model,
+        "--format",
+        formats,
+        "--material",
+        "ply3",
+        "--tile",
+        "a4",
+        "-o",
+        &out,
+    ]);
     assert_eq!(ran.code, Some(0), "{}", ran.err);
     assert!(ran.out.contains("min on the machine for Birch plywood 3 mm"), "{}", ran.out);
     let sheets = ["svg", "dxf", "pdf"].map(|ending| folder.path(&format!("out/sheet-01.{ending}")));
@@ -601,7 +743,9 @@ fn seams_are_listed_up_to_symmetry_or_the_best_of_too_many() {
         assert_eq!((ran.code, ran.err.as_str()), (Some(0), ""));
         let value: Value = serde_json::from_str(&ran.out).expect("JSON");
         let rows = value["matchings"].as_array().expect("rows").clone();
-        let columns = rows.iter().map(|r| (r["pieces"].as_u64(), r["seam_cycles"].as_u64(), r["orbit"].as_u64()));
+        let columns = rows
+            .iter()
+            .map(|r| (r["pieces"].as_u64(), r["seam_cycles"].as_u64(), r["orbit"].as_u64()));
         (columns.collect::<Vec<_>>(), value["notes"].as_array().expect("notes").len())
     };
     assert_eq!(told(&[]), (vec![(Some(2), Some(1), Some(30)), (Some(4), Some(3), Some(6))], 0));
@@ -618,16 +762,25 @@ fn seams_are_listed_up_to_symmetry_or_the_best_of_too_many() {
 fn a_d_form_of_a_named_solid_is_two_pieces_that_verify() {
     let folder = Folder::new("dform");
     let out = folder.path("out");
-    let ran = run(&["dform", "dodecahedron", "--size", "18cm", "--rounds", "2", "-o", &out, "--json"]);
+    let ran =
+        run(&["dform", "dodecahedron", "--size", "18cm", "--rounds", "2", "-o", &out, "--json"]);
     assert_eq!(ran.code, Some(0), "{}", ran.err);
     let told: Value = serde_json::from_str(&ran.out).expect("JSON");
     assert_eq!(told["fabrication"]["pieces"], 2);
     let [pieces, model] = ["out/pieces.json", "out/model.obj"].map(|name| folder.path(name));
     let ran = run(&["verify", &pieces, &model]);
     assert_eq!((ran.code, ran.err.as_str()), (Some(0), ""), "{}", ran.out);
-    assert!(ran.out.contains("pass") && ran.out.contains("0 overlaps") && ran.out.contains("1e-9"), "{}", ran.out);
+    assert!(
+        ran.out.contains("pass") && ran.out.contains("0 overlaps") && ran.out.contains("1e-9"),
+        "{}",
+        ran.out
+    );
     let misspelt = run(&["dform", "dodecahedrn", "-o", &out]);
-    assert!(misspelt.code == Some(2) && misspelt.err.contains("did you mean `dodecahedron`?"), "{}", misspelt.err);
+    assert!(
+        misspelt.code == Some(2) && misspelt.err.contains("did you mean `dodecahedron`?"),
+        "{}",
+        misspelt.err
+    );
 }
 
 #[test]
@@ -659,11 +812,16 @@ fn verify_finds_what_is_wrong_and_trusts_no_proof() {
         let ran = verify(&changed);
         assert_eq!((ran.code, ran.err.as_str()), (Some(1), ""), "{from}");
         let told: Value = serde_json::from_str(&ran.out).expect("JSON");
-        assert_eq!((&told["verdict"], told["findings"].as_array().map(Vec::len)), (&Value::from("fail"), Some(1)));
+        assert_eq!(
+            (&told["verdict"], told["findings"].as_array().map(Vec::len)),
+            (&Value::from("fail"), Some(1))
+        );
     }
-    for (text, message) in
-        [("", "line 1"), ("{}", "is missing"), (&good.replace("\"scale\": 1.0", "\"scale\": 0"), "scale")]
-    {
+    for (text, message) in [
+        ("", "line 1"),
+        ("{}", "is missing"),
+        (&good.replace("\"scale\": 1.0", "\"scale\": 0"), "scale"),
+    ] {
         let ran = verify(text);
         assert_eq!((ran.code, ran.out.as_str()), (Some(2), ""), "{}", ran.err);
         assert!(ran.err.contains(message), "{}", ran.err);
@@ -714,13 +872,20 @@ fn nest_lays_anybodys_pieces_out_and_twice_gives_the_same() {
         .collect();
     assert_eq!(placed.len(), 24);
     let copies = placed.iter().filter(|p| p["source"]["id"] == "disc" && p["source"]["file"] == 1);
-    assert_eq!(copies.filter(|p| p["rotation"].as_f64().expect("degrees") % 90.0 == 0.0).count(), 10);
+    assert_eq!(
+        copies.filter(|p| p["rotation"].as_f64().expect("degrees") % 90.0 == 0.0).count(),
+        10
+    );
     let (net, _) =
-        read_pieces_json(&fs::read_to_string(format!("{first}/pieces.json")).expect("pieces")).expect("ours");
+        read_pieces_json(&fs::read_to_string(format!("{first}/pieces.json")).expect("pieces"))
+            .expect("ours");
     assert_eq!((net.pieces.len(), net.pieces[0].holes.len()), (24, 1));
     assert_eq!(nest(&second).code, Some(0));
-    let bytes =
-        |folder: &str| fs::read_to_string(format!("{folder}/layout.json")).expect("a layout").replace("/two", "/one");
+    let bytes = |folder: &str| {
+        fs::read_to_string(format!("{folder}/layout.json"))
+            .expect("a layout")
+            .replace("/two", "/one")
+    };
     assert_eq!(bytes(&first), bytes(&second));
 }
 
@@ -729,10 +894,21 @@ fn nest_takes_back_what_unfold_writes_with_its_folds_and_seams() {
     let folder = Folder::new("nest-unfolded");
     let (model, out, again) = (good_model(&folder), folder.path("out"), folder.path("again"));
     assert_eq!(run(&["unfold", &model, "--sheet", "none", "-o", &out]).code, Some(0));
-    let ran =
-        run(&["nest", &format!("{out}/pieces.json"), "--quantity", "2", "--sheet", "900x900", "--json", "-o", &again]);
+    let ran = run(&[
+        "nest",
+        &format!("{out}/pieces.json"),
+        "--quantity",
+        "2",
+        "--sheet",
+        "900x900",
+        "--json",
+        "-o",
+        &again,
+    ]);
     assert_eq!(ran.code, Some(0), "{}", ran.err);
-    let read = |path: String| read_pieces_json(&fs::read_to_string(path).expect("a file")).expect("ours").0;
+    let read = |path: String| {
+        read_pieces_json(&fs::read_to_string(path).expect("a file")).expect("ours").0
+    };
     let (one, two) = (read(format!("{out}/pieces.json")), read(format!("{again}/pieces.json")));
     assert_eq!((two.folds.len(), two.seams.len()), (2 * one.folds.len(), 2 * one.seams.len()));
 }
@@ -772,13 +948,17 @@ fn shared_lines_are_cut_once_from_flags_and_recipes_alike() {
     let folder = Folder::new("nest-common-line");
     let square = "{\"pieces\": [{\"outline\": [[0,0],[50,0],[50,50],[0,50]], \"quantity\": 4}]}";
     fs::write(folder.path("parts.json"), square).expect("a file");
-    let (recipe, out, again) = (folder.path("recipe.toml"), folder.path("out"), folder.path("again"));
+    let (recipe, out, again) =
+        (folder.path("recipe.toml"), folder.path("out"), folder.path("again"));
     let sheet = ["--sheet", "110x110", "--margin", "5", "--part-files", "on"];
-    let ran = run(&[&["nest", &folder.path("parts.json"), "--common-line", "-o", &out][..], &sheet].concat());
+    let ran =
+        run(&[&["nest", &folder.path("parts.json"), "--common-line", "-o", &out][..], &sheet]
+            .concat());
     // Two by two: twelve lines instead of sixteen.
     assert!(ran.code == Some(0) && ran.out.contains("600 mm to cut"), "{} {}", ran.out, ran.err);
     assert!(ran.err.contains("200 mm of cuts are shared"), "{}", ran.err);
-    let text = "[[step]]\nnest = \"parts.json\"\ncommon_line = \"on\"\nsheet = \"110x110\"\nmargin = \"5mm\"\npart_files = \"on\"\n";
+    let text = "[[step]]\nnest = \"parts.json\"\ncommon_line = \"on\"\nsheet = \"110x110\"\nmargin \
+    = \"5mm\"\npart_files = \"on\"\n";
     fs::write(&recipe, text).expect("a recipe");
     assert_eq!(run(&["run", &recipe, "-o", &again]).code, Some(0));
     let cuts = |folder: &str, name: &str| {
@@ -798,7 +978,8 @@ fn recipes_nest_pieces_too() {
     let recipe = folder.path("recipe.toml");
     fs::write(
         &recipe,
-        "[[step]]\nnest = \"parts.json\"\nquantity = 2\nsheet = \"300x200\"\nguillotine = \"on\"\nnest_effort = 1\n",
+        "[[step]]\nnest = \"parts.json\"\nquantity = 2\nsheet = \"300x200\"\nguillotine = \
+        \"on\"\nnest_effort = 1\n",
     )
     .expect("a recipe");
     let ran = run(&["run", &recipe, "-o", &folder.path("out")]);
@@ -812,19 +993,32 @@ fn recipes_nest_pieces_too() {
 fn codes_stand_behind_errors_and_are_explained() {
     let missing = run(&["info", "nothing-here.obj"]);
     assert!(missing.code == Some(2) && missing.err.ends_with(" (E101)\n"), "{}", missing.err);
-    let refused = run(&["cut", "vertex", "fixtures/meshes/spot.obj", "--select", "valense=4", "-o", "-"]);
-    assert!(refused.code == Some(2) && refused.err.contains("kerfold explain E292"), "{}", refused.err);
+    let refused =
+        run(&["cut", "vertex", "fixtures/meshes/spot.obj", "--select", "valense=4", "-o", "-"]);
+    assert!(
+        refused.code == Some(2) && refused.err.contains("kerfold explain E292"),
+        "{}",
+        refused.err
+    );
     let told = run(&["explain", "E101", "planarity"]);
     assert_eq!((told.code, told.err.as_str()), (Some(0), ""));
     assert!(told.out.starts_with("E101 File is missing\nThere is no file"), "{}", told.out);
     assert!(told.out.contains("\n\nF104 planarity\n"), "{}", told.out);
     let listed = run(&["explain"]);
-    assert!(listed.out.lines().count() > 250 && listed.out.contains("\nF201 open-contour\n"), "{}", listed.out);
+    assert!(
+        listed.out.lines().count() > 250 && listed.out.contains("\nF201 open-contour\n"),
+        "{}",
+        listed.out
+    );
     let json: Value = serde_json::from_str(&run(&["explain", "e101", "--json"]).out).expect("JSON");
     assert_eq!(json["pages"][0]["title"], "File is missing");
     let unknown = run(&["explain", "E199"]);
     assert_eq!((unknown.code, unknown.out.as_str()), (Some(2), ""));
-    assert!(unknown.err.contains("did you mean `E201`?") && unknown.err.ends_with(" (E010)\n"), "{}", unknown.err);
+    assert!(
+        unknown.err.contains("did you mean `E201`?") && unknown.err.ends_with(" (E010)\n"),
+        "{}",
+        unknown.err
+    );
     assert_eq!(run(&["explain", "E101", "--quiet"]).out, "");
 }
 
@@ -835,13 +1029,16 @@ fn findings_carry_their_codes_in_text_and_json() {
     fs::write(&bent, "v 0 0 0\nv 10 0 0\nv 10 10 5\nv 0 10 0\nf 1 2 3 4\n").expect("a file");
     let text = run(&["check", &bent, "--require", "closed"]);
     assert!(
-        text.code == Some(1) && text.out.contains("\nF104 planarity  ") && text.out.contains("\nF106 closed     "),
+        text.code == Some(1)
+            && text.out.contains("\nF104 planarity  ")
+            && text.out.contains("\nF106 closed     "),
         "{}",
         text.out
     );
     let report = folder.path("report.json");
     assert_eq!(run(&["check", &bent, "--report", &report]).code, Some(1));
-    let report: Value = serde_json::from_str(&fs::read_to_string(report).expect("a report")).expect("JSON");
+    let report: Value =
+        serde_json::from_str(&fs::read_to_string(report).expect("a report")).expect("JSON");
     assert_eq!(
         (&report["findings"][0]["check"], &report["findings"][0]["code"]),
         (&"planarity".into(), &"F104".into())

@@ -1,4 +1,5 @@
-//! The pages say nothing that is not there: links lead to files, names in the glossary are in the source.
+//! The pages say nothing that is not there: links lead to files, names in the glossary are in the
+//! source.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -14,20 +15,30 @@ fn read(path: &Path) -> String {
 
 /// The files below a folder with an ending, in a stable order.
 fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
-    let entries = fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
-    let mut entries: Vec<PathBuf> = entries.map(|entry| entry.expect("a readable entry").path()).collect();
+    let entries =
+        fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    let mut entries: Vec<PathBuf> =
+        entries.map(|entry| entry.expect("a readable entry").path()).collect();
     entries.sort();
     let inside = |entry: PathBuf| if entry.is_dir() { files(&entry, ending) } else { vec![entry] };
-    entries.into_iter().flat_map(inside).filter(|file| file.extension().is_some_and(|e| e == ending)).collect()
+    entries
+        .into_iter()
+        .flat_map(inside)
+        .filter(|file| file.extension().is_some_and(|e| e == ending))
+        .collect()
 }
 
 /// The pages: everything in `docs`, and those at the top that exist.
 fn pages() -> Vec<PathBuf> {
     let top = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md"].map(|name| root().join(name));
-    files(&root().join("docs"), "md").into_iter().chain(top.into_iter().filter(|page| page.exists())).collect()
+    files(&root().join("docs"), "md")
+        .into_iter()
+        .chain(top.into_iter().filter(|page| page.exists()))
+        .collect()
 }
 
-/// The targets of all links `[…](target)` and pictures of a page with their lines; code blocks and code in backticks left out.
+/// The targets of all links `[…](target)` and pictures of a page with their lines; code blocks and
+/// code in backticks left out.
 fn links(page: &str) -> Vec<(usize, String)> {
     let mut found = Vec::new();
     let mut is_code = false;
@@ -41,7 +52,10 @@ fn links(page: &str) -> Vec<(usize, String)> {
         let prose: String = line.split('`').step_by(2).collect::<Vec<_>>().join("`");
         for part in prose.split("](").skip(1) {
             if let Some((target, _)) = part.split_once(')') {
-                found.push((number + 1, target.split_whitespace().next().unwrap_or_default().to_owned()));
+                found.push((
+                    number + 1,
+                    target.split_whitespace().next().unwrap_or_default().to_owned(),
+                ));
             }
         }
     }
@@ -57,14 +71,23 @@ fn broken(page: &str, folder: &Path) -> Vec<(usize, String)> {
             return !headings(page).contains(anchor);
         }
         let path = folder.join(file);
-        !path.exists() || (!anchor.is_empty() && file.ends_with(".md") && !headings(&read(&path)).contains(anchor))
+        !path.exists()
+            || (!anchor.is_empty()
+                && file.ends_with(".md")
+                && !headings(&read(&path)).contains(anchor))
     };
-    links(page).into_iter().filter(|(_, target)| !is_outside(target) && leads_nowhere(target)).collect()
+    links(page)
+        .into_iter()
+        .filter(|(_, target)| !is_outside(target) && leads_nowhere(target))
+        .collect()
 }
 
 /// The anchors of a page's headings, as they are commonly made: small letters, digits and hyphens.
 fn headings(page: &str) -> BTreeSet<String> {
-    let titles = page.lines().filter(|line| line.starts_with('#')).map(|line| line.trim_start_matches('#').trim());
+    let titles = page
+        .lines()
+        .filter(|line| line.starts_with('#'))
+        .map(|line| line.trim_start_matches('#').trim());
     let anchor = |title: &str| -> String {
         let kept = title.to_lowercase().replace(' ', "-");
         kept.chars().filter(|c| c.is_alphanumeric() || *c == '-' || *c == '_').collect()
@@ -72,9 +95,11 @@ fn headings(page: &str) -> BTreeSet<String> {
     titles.map(anchor).collect()
 }
 
-/// The identifiers that a page shows as `**`name`**`, without arguments and paths: `Mesh::plane()` gives `Mesh` and `plane`.
+/// The identifiers that a page shows as `**`name`**`, without arguments and paths: `Mesh::plane()`
+/// gives `Mesh` and `plane`.
 fn bold_names(page: &str) -> BTreeSet<String> {
-    let marked = page.split("**`").skip(1).filter_map(|part| part.split_once("`**")).map(|(name, _)| name);
+    let marked =
+        page.split("**`").skip(1).filter_map(|part| part.split_once("`**")).map(|(name, _)| name);
     let words = marked.flat_map(|name| name.split(|c: char| !c.is_alphanumeric() && c != '_'));
     words.filter(|word| word.starts_with(|c: char| c.is_alphabetic())).map(str::to_owned).collect()
 }
@@ -85,7 +110,9 @@ fn missing(names: BTreeSet<String>, words: &BTreeSet<String>) -> Vec<String> {
 }
 
 fn words_of(text: &str) -> impl Iterator<Item = String> + '_ {
-    text.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|word| !word.is_empty()).map(str::to_owned)
+    text.split(|c: char| !c.is_alphanumeric() && c != '_')
+        .filter(|word| !word.is_empty())
+        .map(str::to_owned)
 }
 
 #[test]
@@ -96,7 +123,11 @@ fn every_link_leads_to_a_file() {
     for page in pages {
         let folder = page.parent().expect("a page lies in a folder").to_owned();
         let lost = broken(&read(&page), &folder);
-        faults.extend(lost.iter().map(|(line, target)| format!("{}:{line}: {target} does not exist", page.display())));
+        faults.extend(
+            lost.iter().map(|(line, target)| {
+                format!("{}:{line}: {target} does not exist", page.display())
+            }),
+        );
     }
     assert!(faults.is_empty(), "correct these links:\n{}", faults.join("\n"));
 }
@@ -105,19 +136,28 @@ fn every_link_leads_to_a_file() {
 fn every_name_of_the_glossary_is_in_the_source() {
     let names = bold_names(&read(&root().join("docs/glossary.md")));
     assert!(names.len() > 20, "the names of the glossary were not found");
-    let source: Vec<String> = files(&root().join("src"), "rs").iter().map(|file| read(file)).collect();
+    let source: Vec<String> =
+        files(&root().join("src"), "rs").iter().map(|file| read(file)).collect();
     let words: BTreeSet<String> = source.iter().flat_map(|text| words_of(text)).collect();
     let lost = missing(names, &words);
-    assert!(lost.is_empty(), "docs/glossary.md names what src does not have (any more): {}", lost.join(", "));
+    assert!(
+        lost.is_empty(),
+        "docs/glossary.md names what src does not have (any more): {}",
+        lost.join(", ")
+    );
 }
 
 #[test]
 fn planted_mistakes_are_found() {
-    let page = "# A page\n[good](Cargo.toml) [bad](no/such.md)\n```\n[code](nowhere)\n```\n`[code](nowhere)` [web](https://x.y) \
+    let page = "# A page\n[good](Cargo.toml) \
+    [bad](no/such.md)\n```\n[code](nowhere)\n```\n`[code](nowhere)` [web](https://x.y) \
                 [there](#a-page) [gone](#not-here)";
     assert_eq!(broken(page, &root()), [(2, "no/such.md".to_owned()), (6, "#not-here".to_owned())]);
     let names = bold_names("**`Mesh::plane()`**, **bold**, `code`, **`no_such_name`**");
-    assert_eq!(names.iter().map(String::as_str).collect::<Vec<_>>(), ["Mesh", "no_such_name", "plane"]);
+    assert_eq!(
+        names.iter().map(String::as_str).collect::<Vec<_>>(),
+        ["Mesh", "no_such_name", "plane"]
+    );
     let words = words_of("pub fn plane(mesh: &Mesh)").collect();
     assert_eq!(missing(names, &words), ["no_such_name"]);
 }

@@ -1,5 +1,5 @@
-//! Every error and finding has a code, each code one page, each page two sentences. The codes are read off the source, so that
-//! no list can be forgotten.
+//! Every error and finding has a code, each code one page, each page two sentences. The codes are
+//! read off the source, so that no list can be forgotten.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -10,19 +10,28 @@ use kerfold::op::OpError;
 use kerfold::recipe::{StepError, StepFailure};
 
 fn source_files(folder: &Path) -> Vec<PathBuf> {
-    let entries = fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    let entries =
+        fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
     let mut entries: Vec<PathBuf> = entries.map(|entry| entry.expect("an entry").path()).collect();
     entries.sort();
     let inside = |entry: PathBuf| if entry.is_dir() { source_files(&entry) } else { vec![entry] };
-    entries.into_iter().flat_map(inside).filter(|file| file.extension().is_some_and(|e| e == "rs")).collect()
+    entries
+        .into_iter()
+        .flat_map(inside)
+        .filter(|file| file.extension().is_some_and(|e| e == "rs"))
+        .collect()
 }
 
 /// The source outside the room of codes itself, with the path of each file.
 fn source() -> Vec<(String, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let files = source_files(&root.join("src"));
-    let shown =
-        |file: &Path| file.strip_prefix(root).expect("a file of this package").to_string_lossy().replace('\\', "/");
+    let shown = |file: &Path| {
+        file.strip_prefix(root)
+            .expect("a file of this package")
+            .to_string_lossy()
+            .replace('\\', "/")
+    };
     let read = |file: PathBuf| (shown(&file), fs::read_to_string(&file).expect("a source file"));
     files.into_iter().map(read).filter(|(path, _)| !path.starts_with("src/code/")).collect()
 }
@@ -30,7 +39,11 @@ fn source() -> Vec<(String, String)> {
 /// The codes of all `codes!(…)` tables of a text, each with the type it stands in.
 fn codes_in(text: &str) -> Vec<(Code, String)> {
     let mut found = Vec::new();
-    for table in text.split("codes!(").skip(1).filter_map(|rest| rest.split_once(");").map(|(table, _)| table)) {
+    for table in text
+        .split("codes!(")
+        .skip(1)
+        .filter_map(|rest| rest.split_once(");").map(|(table, _)| table))
+    {
         let make = if table.starts_with("finding") { Code::finding } else { Code::error };
         let mut words = table.split_whitespace().skip(1).filter(|word| *word != "struct");
         let of = words.next().unwrap_or_default().to_owned();
@@ -56,11 +69,13 @@ fn error_types(text: &str) -> BTreeSet<String> {
     names
 }
 
-/// The number of sentences of a page: ends that a blank or the end of the text follows, code in backticks left out.
+/// The number of sentences of a page: ends that a blank or the end of the text follows, code in
+/// backticks left out.
 fn sentences(text: &str) -> usize {
     let prose: String = text.split('`').step_by(2).collect::<Vec<_>>().join("x");
-    let ends =
-        |(i, c): (usize, char)| ".!?".contains(c) && prose[i + c.len_utf8()..].chars().next().is_none_or(|c| c == ' ');
+    let ends = |(i, c): (usize, char)| {
+        ".!?".contains(c) && prose[i + c.len_utf8()..].chars().next().is_none_or(|c| c == ' ')
+    };
     prose.char_indices().filter(|&end| ends(end)).count()
 }
 
@@ -70,7 +85,10 @@ fn every_code_is_given_once_and_has_a_page_and_every_page_a_code() {
     for (path, text) in source() {
         for (code, of) in codes_in(&text) {
             if let Some(other) = given.insert(code, of.clone()) {
-                panic!("{path}: {code} of {of} belongs to {other} already; take the next free number of its range");
+                panic!(
+                    "{path}: {code} of {of} belongs to {other} already; take the next free number \
+                    of its range"
+                );
             }
         }
     }
@@ -90,9 +108,14 @@ fn every_error_type_has_a_table() {
         let with_codes: BTreeSet<String> = codes_in(&text).into_iter().map(|(_, of)| of).collect();
         let lacking: Vec<String> = error_types(&text)
             .into_iter()
-            .filter(|name| !with_codes.contains(name) && !text.contains(&format!("impl Coded for {name} ")))
+            .filter(|name| {
+                !with_codes.contains(name) && !text.contains(&format!("impl Coded for {name} "))
+            })
             .collect();
-        assert!(lacking.is_empty(), "{path}: give codes to {lacking:?} with codes!(…), see src/code/mod.rs");
+        assert!(
+            lacking.is_empty(),
+            "{path}: give codes to {lacking:?} with codes!(…), see src/code/mod.rs"
+        );
     }
 }
 
@@ -100,7 +123,12 @@ fn every_error_type_has_a_table() {
 fn every_page_is_a_title_and_two_sentences() {
     for page in pages() {
         assert_eq!(sentences(page.text), 2, "{}: {}", page.code, page.text);
-        assert!(page.text.ends_with('.') || page.text.ends_with("`."), "{}: {}", page.code, page.text);
+        assert!(
+            page.text.ends_with('.') || page.text.ends_with("`."),
+            "{}: {}",
+            page.code,
+            page.text
+        );
         assert!(page.title.chars().count() <= 45, "{}: {}", page.code, page.title);
     }
 }
@@ -114,9 +142,11 @@ fn an_error_shows_the_code_of_its_innermost_cause() {
 
 #[test]
 fn planted_mistakes_are_found() {
-    let text = "#[derive(Debug, thiserror::Error)]\n#[error(\"{0}\")]\npub struct Alone(String);\n\n#[derive(thiserror::Error)]\n\
+    let text = "#[derive(Debug, thiserror::Error)]\n#[error(\"{0}\")]\npub struct \
+    Alone(String);\n\n#[derive(thiserror::Error)]\n\
                 pub(super) enum Some { A }\ncodes!(error Some {\n    A = 7,\n    B = 12,\n} through { C.0 });\ncodes!(finding struct Gap = 3);";
-    let found: Vec<(String, String)> = codes_in(text).into_iter().map(|(code, of)| (code.to_string(), of)).collect();
+    let found: Vec<(String, String)> =
+        codes_in(text).into_iter().map(|(code, of)| (code.to_string(), of)).collect();
     let expected = [("E007", "Some"), ("E012", "Some"), ("F003", "Gap")];
     assert_eq!(found, expected.map(|(code, of)| (code.to_owned(), of.to_owned())));
     assert_eq!(error_types(text), ["Alone", "Some"].map(str::to_owned).into());

@@ -14,7 +14,10 @@ fn output(name: &str) -> String {
     if !path.exists() {
         // `cargo test --test examples` alone does not build them.
         let release = (!cfg!(debug_assertions)).then_some("--release");
-        let built = Command::new(env!("CARGO")).args(["build", "--quiet", "--examples"]).args(release).status();
+        let built = Command::new(env!("CARGO"))
+            .args(["build", "--quiet", "--examples"])
+            .args(release)
+            .status();
         assert!(built.expect("cargo").success(), "the examples do not build");
     }
     let done = Command::new(&path).output().unwrap_or_else(|e| panic!("{}: {e}", path.display()));
@@ -32,7 +35,11 @@ fn carve_prints_a_mesh_with_three_edges_at_every_vertex() {
 #[test]
 fn two_pieces_prints_a_sheet() {
     let text = output("two_pieces");
-    assert!(text.starts_with("<?xml") || text.starts_with("<svg"), "{}", &text[..text.len().min(80)]);
+    assert!(
+        text.starts_with("<?xml") || text.starts_with("<svg"),
+        "{}",
+        &text[..text.len().min(80)]
+    );
     assert!(text.contains("P01") && text.contains("P02") && !text.contains("P03"));
 }
 

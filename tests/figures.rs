@@ -1,4 +1,5 @@
-//! The figures of the papers as recipes: every one is read, and those that are quick are carried out and keep what their captions promise.
+//! The figures of the papers as recipes: every one is read, and those that are quick are carried
+//! out and keep what their captions promise.
 
 use std::path::{Path, PathBuf};
 
@@ -9,7 +10,8 @@ use kerfold::unfold::prove;
 
 const FOLDER: &str = "fixtures/recipes/gallery";
 
-/// Recipes that take a moment even without optimisation; components, and the genus summed over them.
+/// Recipes that take a moment even without optimisation; components, and the genus summed over
+/// them.
 const QUICK: &[(&str, usize, usize)] = &[
     ("sierpinski-fig-01-b-cube", 1, 125),
     ("sierpinski-fig-11-a1-tetrahedron", 1, 3),
@@ -63,18 +65,21 @@ fn every_recipe_is_read_and_has_a_name() {
 fn quick_recipes_keep_what_their_captions_promise() {
     for &(name, components, expected) in QUICK {
         let recipe = read(&Path::new(FOLDER).join(format!("{name}.toml")));
-        let job = Job::run(&recipe, Path::new(FOLDER), &Silent).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let job =
+            Job::run(&recipe, Path::new(FOLDER), &Silent).unwrap_or_else(|e| panic!("{name}: {e}"));
         let mesh = job.mesh().expect("a mesh");
         assert!(mesh.faults().is_empty(), "{name}: {:?}", mesh.faults().first());
         assert_eq!((mesh.components().len(), genus(mesh)), (components, expected), "{name}");
         assert!(volume(mesh) > 0.0, "{name}");
         let report = job.report().expect("a report");
-        let findings: Vec<&str> = report.findings.iter().take(3).map(|f| f.message.as_str()).collect();
+        let findings: Vec<&str> =
+            report.findings.iter().take(3).map(|f| f.message.as_str()).collect();
         assert!(job.is_check_asked && findings.is_empty(), "{name}: {findings:?}");
     }
 }
 
-/// Objects of genus above 0 on their way to card and plywood: pieces without overlap, proved once more, and the same surface again.
+/// Objects of genus above 0 on their way to card and plywood: pieces without overlap, proved once
+/// more, and the same surface again.
 #[test]
 fn what_is_fabricated_is_planar_and_comes_apart() {
     for (name, expected) in [
@@ -84,7 +89,8 @@ fn what_is_fabricated_is_planar_and_comes_apart() {
         ("fabricated-honeycomb-planar", 0),
     ] {
         let recipe = read(&Path::new(FOLDER).join(format!("{name}.toml")));
-        let job = Job::run(&recipe, Path::new(FOLDER), &Silent).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let job =
+            Job::run(&recipe, Path::new(FOLDER), &Silent).unwrap_or_else(|e| panic!("{name}: {e}"));
         let mesh = job.mesh().expect("a mesh");
         assert_eq!(genus(mesh), expected, "{name}");
         assert!(job.report().expect("a report").findings.is_empty(), "{name}");
@@ -94,9 +100,13 @@ fn what_is_fabricated_is_planar_and_comes_apart() {
     }
     let name = "fabricated-menger-lamp";
     let recipe = read(&Path::new(FOLDER).join(format!("{name}.toml")));
-    let job = Job::run(&recipe, Path::new(FOLDER), &Silent).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let job =
+        Job::run(&recipe, Path::new(FOLDER), &Silent).unwrap_or_else(|e| panic!("{name}: {e}"));
     let mesh = job.mesh().expect("a mesh");
     let (panelled, _) = job.panelled.as_ref().expect("plates");
     assert_eq!((genus(mesh), panelled.fabrication.net.pieces.len()), (11, mesh.face_count()));
-    assert!(job.report().expect("a report").findings.is_empty() && !panelled.fabrication.sheets.drawings.is_empty());
+    assert!(
+        job.report().expect("a report").findings.is_empty()
+            && !panelled.fabrication.sheets.drawings.is_empty()
+    );
 }

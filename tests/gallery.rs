@@ -1,4 +1,5 @@
-//! The bundled recipes: each gives what its figure predicts, and the page of the gallery in the documentation tells just that.
+//! The bundled recipes: each gives what its figure predicts, and the page of the gallery in the
+//! documentation tells just that.
 
 use std::collections::BTreeSet;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -38,7 +39,8 @@ fn recipes() -> Vec<GalleryRecipe> {
 
 /// An exhibit, a hash of all its files, and the picture of the model.
 fn built(recipe: &GalleryRecipe) -> (Exhibit, u64, Vec<u8>) {
-    let (exhibit, outputs) = exhibit(recipe, Some(WIDTH), &Silent).unwrap_or_else(|e| panic!("{e}"));
+    let (exhibit, outputs) =
+        exhibit(recipe, Some(WIDTH), &Silent).unwrap_or_else(|e| panic!("{e}"));
     let mut hasher = DefaultHasher::new();
     outputs.hash(&mut hasher);
     let picture = outputs.into_iter().find(|(name, _)| name == "model.png").map(|(_, bytes)| bytes);
@@ -54,17 +56,19 @@ fn recipes_are_all_bundled_under_one_name_each() {
     let recipes = recipes();
     let names: BTreeSet<&str> = recipes.iter().map(|r| r.name.as_str()).collect();
     assert_eq!(names.len(), recipes.len(), "two recipes of one name");
-    let on_disk = ["fixtures/recipes", "fixtures/recipes/gallery"]
-        .iter()
-        .flat_map(|folder| std::fs::read_dir(folder).expect("recipes").map(|entry| entry.expect("an entry").path()));
-    let on_disk: Vec<PathBuf> = on_disk.filter(|path| path.extension().is_some_and(|e| e == "toml")).collect();
+    let on_disk = ["fixtures/recipes", "fixtures/recipes/gallery"].iter().flat_map(|folder| {
+        std::fs::read_dir(folder).expect("recipes").map(|entry| entry.expect("an entry").path())
+    });
+    let on_disk: Vec<PathBuf> =
+        on_disk.filter(|path| path.extension().is_some_and(|e| e == "toml")).collect();
     assert_eq!(on_disk.len(), recipes.len());
     for recipe in &recipes {
         assert!(recipe.text.starts_with('#'), "{} does not say what it shows", recipe.name);
     }
 }
 
-/// The findings that the text predicts (none), and the figures of the page; every fourth recipe is built twice, to the same bytes.
+/// The findings that the text predicts (none), and the figures of the page; every fourth recipe is
+/// built twice, to the same bytes.
 #[test]
 fn every_recipe_gives_what_it_predicts_and_the_page_says_so() {
     let recipes = recipes();
@@ -80,7 +84,10 @@ fn every_recipe_gives_what_it_predicts_and_the_page_says_so() {
     let told = std::fs::read_to_string(PAGE).expect("the page of the gallery");
     let made = page(&first);
     for (told, made) in told.lines().zip(made.lines()) {
-        assert_eq!(told, made, "write the page anew: cargo test --release --test gallery -- --ignored");
+        assert_eq!(
+            told, made,
+            "write the page anew: cargo test --release --test gallery -- --ignored"
+        );
     }
     assert_eq!(told.lines().count(), made.lines().count());
 }
@@ -108,7 +115,8 @@ fn write_the_page() {
     std::fs::create_dir_all(PICTURES).expect("a folder");
     let exhibits = side_by_side(&recipes, &Silent, &|recipe, _| {
         let (exhibit, _, picture) = built(recipe);
-        std::fs::write(Path::new(PICTURES).join(format!("{}.png", recipe.name)), picture).expect("a picture");
+        std::fs::write(Path::new(PICTURES).join(format!("{}.png", recipe.name)), picture)
+            .expect("a picture");
         exhibit
     });
     std::fs::write(PAGE, page(&exhibits)).expect("the page");

@@ -1,4 +1,5 @@
-//! The guide is a test: its commands are read out of the page and run one after the other, and say what the page shows.
+//! The guide is a test: its commands are read out of the page and run one after the other, and say
+//! what the page shows.
 
 use std::path::Path;
 use std::process::Command;
@@ -18,8 +19,12 @@ fn shown(page: &str) -> Vec<Shown> {
     for line in page.lines() {
         match (is_inside, line.strip_prefix("$ ")) {
             _ if line.starts_with("```") => is_inside = line == "```console",
-            (true, Some(command)) => all.push(Shown { command: command.to_owned(), output: Vec::new() }),
-            (true, None) => all.last_mut().expect("a block begins with a command").output.push(line.to_owned()),
+            (true, Some(command)) => {
+                all.push(Shown { command: command.to_owned(), output: Vec::new() })
+            }
+            (true, None) => {
+                all.last_mut().expect("a block begins with a command").output.push(line.to_owned())
+            }
             (false, _) => {}
         }
     }
@@ -46,7 +51,9 @@ fn is_like(shown: &str, line: &str) -> bool {
     let Some(mut rest) = line.strip_prefix(first) else { return false };
     let mut is_open = false;
     for part in parts {
-        let Some(at) = (if part.is_empty() { Some(rest.len()) } else { rest.find(part) }) else { return false };
+        let Some(at) = (if part.is_empty() { Some(rest.len()) } else { rest.find(part) }) else {
+            return false;
+        };
         (rest, is_open) = (&rest[at + part.len()..], part.is_empty());
     }
     is_open || rest.is_empty()
@@ -56,7 +63,9 @@ fn is_like(shown: &str, line: &str) -> bool {
 fn agrees(shown: &[String], lines: &[&str]) -> bool {
     match (shown.split_first(), lines.split_first()) {
         (None, None) => true,
-        (Some((first, more)), _) if first == "…" => (0..=lines.len()).any(|skip| agrees(more, &lines[skip..])),
+        (Some((first, more)), _) if first == "…" => {
+            (0..=lines.len()).any(|skip| agrees(more, &lines[skip..]))
+        }
         (Some((first, more)), Some((line, rest))) => is_like(first, line) && agrees(more, rest),
         _ => false,
     }
@@ -66,9 +75,16 @@ fn run(command: &str, folder: &Path) -> String {
     let words = words(command);
     let (program, arguments) = words.split_first().expect("a command");
     assert_eq!(program, "kerfold", "{command}");
-    let done =
-        Command::new(env!("CARGO_BIN_EXE_kerfold")).args(arguments).current_dir(folder).output().expect("kerfold");
-    assert!(done.status.code().is_some_and(|code| code < 2), "{command}: {}", String::from_utf8_lossy(&done.stderr));
+    let done = Command::new(env!("CARGO_BIN_EXE_kerfold"))
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .expect("kerfold");
+    assert!(
+        done.status.code().is_some_and(|code| code < 2),
+        "{command}: {}",
+        String::from_utf8_lossy(&done.stderr)
+    );
     String::from_utf8_lossy(&done.stderr).into_owned() + &String::from_utf8_lossy(&done.stdout)
 }
 

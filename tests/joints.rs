@@ -1,5 +1,5 @@
-//! Joints on whole models, looked at by code that shares nothing with the one that made them: only the lines that are
-//! drawn are read.
+//! Joints on whole models, looked at by code that shares nothing with the one that made them: only
+//! the lines that are drawn are read.
 
 use glam::DVec2;
 use kerfold::net::Net;
@@ -7,18 +7,26 @@ use kerfold::progress::Silent;
 use kerfold::recipe::{FabricateParams, fabricate};
 use kerfold::shape::{SolidParams, solid};
 use kerfold::sheet::{
-    Angles, Drawing, Joint, LayerKind, MarkKind, SheetParams, SheetSet, SheetSize, lay_out, smallest_box,
+    Angles, Drawing, Joint, LayerKind, MarkKind, SheetParams, SheetSet, SheetSize, lay_out,
+    smallest_box,
 };
 use kerfold::unfold::{Seams, Source, UnfoldParams, unfold};
 use kerfold::units::Length;
 
-const JOINTS: [Joint; 6] = [Joint::None, Joint::Flaps, Joint::Rivets, Joint::Stitch, Joint::Fingers, Joint::Tabs];
+const JOINTS: [Joint; 6] =
+    [Joint::None, Joint::Flaps, Joint::Rivets, Joint::Stitch, Joint::Fingers, Joint::Tabs];
 
 fn net(name: &str, size: f64, pieces: &str) -> Net {
-    let params = SolidParams { name: name.parse().expect("a solid"), edge: None, size: Some(Length::from_mm(size)) };
+    let params = SolidParams {
+        name: name.parse().expect("a solid"),
+        edge: None,
+        size: Some(Length::from_mm(size)),
+    };
     let mesh = solid(&params).expect("a solid");
-    let unfolding = UnfoldParams { pieces: pieces.parse().expect("a mode"), ..UnfoldParams::default() };
-    unfold(&mesh, &Seams::Free, &unfolding, &Source { scale: 1.0, split_vertices: &[] }, &Silent).expect("a net")
+    let unfolding =
+        UnfoldParams { pieces: pieces.parse().expect("a mode"), ..UnfoldParams::default() };
+    unfold(&mesh, &Seams::Free, &unfolding, &Source { scale: 1.0, split_vertices: &[] }, &Silent)
+        .expect("a net")
 }
 
 fn sheets(net: &Net, joint: Joint, kerf: f64) -> SheetSet {
@@ -45,9 +53,9 @@ fn cross([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
 
 /// By counting crossings of a ray.
 fn inside(polygon: &[[DVec2; 2]], p: DVec2) -> bool {
-    let crossed = polygon
-        .iter()
-        .filter(|[a, b]| (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x));
+    let crossed = polygon.iter().filter(|[a, b]| {
+        (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)
+    });
     crossed.count() % 2 == 1
 }
 
@@ -59,7 +67,9 @@ fn lines(drawing: &Drawing, wanted: impl Fn(MarkKind) -> bool) -> Vec<(String, L
     marks
         .map(|mark| {
             let segments = mark.strokes.iter().flat_map(|stroke| {
-                let last = stroke.closed.then(|| [stroke.points[stroke.points.len() - 1], stroke.points[0]]);
+                let last = stroke
+                    .closed
+                    .then(|| [stroke.points[stroke.points.len() - 1], stroke.points[0]]);
                 stroke.points.windows(2).map(|w| [w[0], w[1]]).chain(last).collect::<Vec<_>>()
             });
             (mark.id.clone(), segments.collect())
@@ -100,7 +110,10 @@ fn assert_sheet(what: &str, drawing: &Drawing) {
         let own = outlines.iter().filter(|(piece, _)| id.starts_with(&format!("{piece}-")));
         let own: Vec<_> = own.collect();
         assert_eq!(own.len(), 1, "{what}: {id}");
-        assert!(hole.iter().all(|s| inside(&own[0].1, s[0])), "{what}: {id} is outside of its piece");
+        assert!(
+            hole.iter().all(|s| inside(&own[0].1, s[0])),
+            "{what}: {id} is outside of its piece"
+        );
         for (other, lines) in holes.iter().filter(|(other, _)| other != id) {
             assert!(!inside(lines, hole[0][0]), "{what}: {id} is inside of {other}");
         }
@@ -111,18 +124,25 @@ fn assert_sheet(what: &str, drawing: &Drawing) {
         }
     }
     // Lettering is on a piece and crosses neither cut nor fold.
-    let scores: Lines = lines(drawing, |k| k.layer() == LayerKind::Score).into_iter().flat_map(|l| l.1).collect();
+    let scores: Lines =
+        lines(drawing, |k| k.layer() == LayerKind::Score).into_iter().flat_map(|l| l.1).collect();
     for (id, text) in lines(drawing, |k| k.layer() == LayerKind::Engrave) {
         assert_no_cross(&format!("{what} {id}"), &text, &cuts);
         assert_no_cross(&format!("{what} {id}"), &text, &scores);
-        assert!(outlines.iter().any(|(_, o)| text.iter().all(|s| inside(o, s[0]))), "{what}: {id} is on no piece");
+        assert!(
+            outlines.iter().any(|(_, o)| text.iter().all(|s| inside(o, s[0]))),
+            "{what}: {id} is on no piece"
+        );
         assert!(!holes.iter().any(|(_, h)| inside(h, text[0][0])), "{what}: {id} is in a hole");
     }
     // Folds stay inside of their pieces.
     for (id, fold) in lines(drawing, |k| k.layer() == LayerKind::Score) {
         for [a, b] in fold {
             let within = |t: f64| outlines.iter().any(|(_, o)| inside(o, a.lerp(b, t)));
-            assert!([1e-6, 0.5, 1.0 - 1e-6].into_iter().all(within), "{what}: {id} leaves its piece");
+            assert!(
+                [1e-6, 0.5, 1.0 - 1e-6].into_iter().all(within),
+                "{what}: {id} leaves its piece"
+            );
         }
     }
 }
@@ -155,7 +175,8 @@ fn every_seam_has_its_number_on_both_sides_or_the_report_counts_it() {
     for joint in JOINTS {
         let net = net("dodecahedron", 180.0, "2");
         let set = sheets(&net, joint, 0.1);
-        let marks = set.drawings.iter().flat_map(|d| d.marks().filter(|m| m.kind == MarkKind::SeamNumber));
+        let marks =
+            set.drawings.iter().flat_map(|d| d.marks().filter(|m| m.kind == MarkKind::SeamNumber));
         let ids: Vec<String> = marks.map(|m| m.id.clone()).collect();
         let sides = 2 * set.assembly.stretches.len();
         assert_eq!(ids.len() + set.report.unnumbered_sides, sides, "{joint:?}");
@@ -175,27 +196,37 @@ fn plates_of_a_cube_have_a_tab_for_every_slot() {
     let net = net("cube", 100.0, "faces");
     let set = sheets(&net, Joint::Tabs, 0.0);
     assert_eq!((set.report.joints.tabbed, set.report.joints.fallbacks.len()), (12, 0));
-    let slots: usize = set.drawings.iter().flat_map(|d| d.marks()).filter(|m| m.kind == MarkKind::Hole).count();
-    // Tabs are the sides of the outlines as long as a tab that lie on the edges of the square; slots are 9 × 3 mm.
+    let slots: usize =
+        set.drawings.iter().flat_map(|d| d.marks()).filter(|m| m.kind == MarkKind::Hole).count();
+    // Tabs are the sides of the outlines as long as a tab that lie on the edges of the square;
+    // slots are 9 × 3 mm.
     let mut tops = 0;
-    for mark in set.drawings.iter().flat_map(|d| d.marks()).filter(|m| m.kind == MarkKind::Outline) {
+    for mark in set.drawings.iter().flat_map(|d| d.marks()).filter(|m| m.kind == MarkKind::Outline)
+    {
         let p = &mark.strokes[0].points;
-        tops += (0..p.len()).filter(|&i| (p[i].distance(p[(i + 1) % p.len()]) - 9.0).abs() < 1e-6).count();
+        tops += (0..p.len())
+            .filter(|&i| (p[i].distance(p[(i + 1) % p.len()]) - 9.0).abs() < 1e-6)
+            .count();
     }
     assert!(slots >= 12);
-    // Between two tabs the edge is as long as a tab, too: on every one of the 12 edges one less than tabs.
+    // Between two tabs the edge is as long as a tab, too: on every one of the 12 edges one less
+    // than tabs.
     assert_eq!(tops, 2 * slots - 12);
 }
 
 #[test]
 fn flaps_count_when_a_piece_is_divided_for_the_sheet() {
-    let params =
-        SolidParams { name: "dodecahedron".parse().expect("a solid"), edge: None, size: Some(Length::from_mm(180.0)) };
+    let params = SolidParams {
+        name: "dodecahedron".parse().expect("a solid"),
+        edge: None,
+        size: Some(Length::from_mm(180.0)),
+    };
     let mesh = solid(&params).expect("a solid");
     let source = Source { scale: 1.0, split_vertices: &[] };
     let made = |sheet: &SheetParams| {
         let choice = FabricateParams::default();
-        fabricate(&mesh, None, (&UnfoldParams::default(), &choice, sheet), &source, &Silent).expect("pieces on sheets")
+        fabricate(&mesh, None, (&UnfoldParams::default(), &choice, sheet), &source, &Silent)
+            .expect("pieces on sheets")
     };
     let none = made(&SheetParams { sheet: SheetSize::None, ..SheetParams::default() });
     let bare = smallest_box(&none.net.pieces[0].outline);

@@ -1,8 +1,10 @@
-//! The house rules that a compiler does not check, read off the source text: layers, doors, one writer of links, no
-//! printing and no panics by habit. `docs/architecture.md` says why; this file says what.
+//! The house rules that a compiler does not check, read off the source text: layers, doors, one
+//! writer of links, no printing and no panics by habit. `docs/architecture.md` says why; this file
+//! says what.
 //!
-//! Comments, strings, `#[cfg(test)]` items and files named `tests.rs` are left out. A rule without a test is a wish, and a
-//! test that cannot fail is one too: at the end every rule is fed a planted violation.
+//! Comments, strings, `#[cfg(test)]` items and files named `tests.rs` are left out. A rule without
+//! a test is a wish, and a test that cannot fail is one too: at the end every rule is fed a planted
+//! violation.
 
 use std::fmt;
 
@@ -11,7 +13,7 @@ use source::{Source, read, root, sources};
 #[path = "layers/source.rs"]
 mod source;
 
-// ---- the tables ------------------------------------------------------------------------------------------------------
+// ---- the tables ---------------------------------------------------------------------------------
 
 /// A module with its layer and the modules it may use.
 struct Room {
@@ -24,8 +26,8 @@ const fn room(layer: u8, module: &'static str, may_use: &'static [&'static str])
     Room { layer, module, may_use }
 }
 
-/// Layers. The rule: a module uses only modules that stand above it in this table, and of those only the ones in its row.
-/// So all arrows point downwards in the house, from layer 5 to layer 0.
+/// Layers. The rule: a module uses only modules that stand above it in this table, and of those
+/// only the ones in its row. So all arrows point downwards in the house, from layer 5 to layer 0.
 const ROOMS: &[Room] = &[
     room(0, "code", &[]),
     room(0, "geom", &[]),
@@ -48,8 +50,8 @@ const ROOMS: &[Room] = &[
         4,
         "io",
         &[
-            "geom", "units", "progress", "mesh", "net", "measure", "seam", "select", "check", "unfold", "panel",
-            "sheet", "lint", "bloom",
+            "geom", "units", "progress", "mesh", "net", "measure", "seam", "select", "check",
+            "unfold", "panel", "sheet", "lint", "bloom",
         ],
     ),
     room(4, "picture", &["geom", "units", "mesh", "measure", "net", "sheet"]),
@@ -57,8 +59,8 @@ const ROOMS: &[Room] = &[
         4,
         "recipe",
         &[
-            "geom", "units", "progress", "mesh", "net", "measure", "shape", "seam", "select", "check", "op", "unfold",
-            "panel", "sheet", "lint", "bloom", "io", "picture",
+            "geom", "units", "progress", "mesh", "net", "measure", "shape", "seam", "select",
+            "check", "op", "unfold", "panel", "sheet", "lint", "bloom", "io", "picture",
         ],
     ),
     room(4, "gallery", &["progress", "measure", "check", "io", "picture", "recipe"]),
@@ -66,17 +68,20 @@ const ROOMS: &[Room] = &[
         5,
         "cli",
         &[
-            "geom", "units", "progress", "mesh", "net", "measure", "shape", "seam", "select", "check", "op", "unfold",
-            "panel", "sheet", "lint", "bloom", "io", "picture", "recipe", "gallery",
+            "geom", "units", "progress", "mesh", "net", "measure", "shape", "seam", "select",
+            "check", "op", "unfold", "panel", "sheet", "lint", "bloom", "io", "picture", "recipe",
+            "gallery",
         ],
     ),
 ];
 
-/// What every module may use besides: codes of errors are a common vocabulary, as glam's vectors are. It uses nothing itself.
+/// What every module may use besides: codes of errors are a common vocabulary, as glam's vectors
+/// are. It uses nothing itself.
 const EVERYWHERE: &[&str] = &["code"];
 
-/// Doors. The rule: an outside crate enters the house only through the files whose path begins with one of these.
-/// `src/` means everywhere. A new dependency needs a row here, and a reason in `docs/architecture.md`.
+/// Doors. The rule: an outside crate enters the house only through the files whose path begins with
+/// one of these. `src/` means everywhere. A new dependency needs a row here, and a reason in
+/// `docs/architecture.md`.
 const DOORS: &[(&str, &[&str])] = &[
     ("glam", &["src/"]),
     ("serde", &["src/"]),
@@ -102,37 +107,52 @@ const DOORS: &[(&str, &[&str])] = &[
     ("mimalloc", &["src/main.rs"]),
 ];
 
-/// What parameter structs anywhere may take from clap. The rule: whatever builds or runs a command line stays in `src/cli`.
+/// What parameter structs anywhere may take from clap. The rule: whatever builds or runs a command
+/// line stays in `src/cli`.
 const CLAP_EVERYWHERE: &[&str] = &["Args", "ValueEnum", "value_parser", "builder"];
-/// The recipe reader asks the parameter structs for their field names, so that recipe and command line cannot part.
+/// The recipe reader asks the parameter structs for their field names, so that recipe and command
+/// line cannot part.
 const CLAP_COMMANDS: &[&str] = &["src/cli/", "src/main.rs", "src/recipe/keys.rs"];
 
-/// The rule: half-edge links are written in one file, so that every mesh stays manifold by construction.
+/// The rule: half-edge links are written in one file, so that every mesh stays manifold by
+/// construction.
 const WRITER_OF_LINKS: &str = "src/mesh/store/links.rs";
 const LINKS: &[&str] = &["next", "prev", "origin"];
 
-/// The rule: the library neither prints nor exits nor panics by habit. A macro or call, and the only places that may have it.
+/// The rule: the library neither prints nor exits nor panics by habit. A macro or call, and the
+/// only places that may have it.
 const FORBIDDEN: &[(&str, &[&str], &str)] = &[
     ("println!", PRINTERS, "return data and let src/cli print it"),
     ("print!", PRINTERS, "return data and let src/cli print it"),
     ("eprintln!", PRINTERS, "return an error or report through `Progress`"),
     ("eprint!", PRINTERS, "return an error or report through `Progress`"),
     ("dbg!", &[], "remove it"),
-    (".unwrap()", &[], "return an error, or `expect(\"the invariant\")` where only our own bug could fail"),
+    (
+        ".unwrap()",
+        &[],
+        "return an error, or `expect(\"the invariant\")` where only our own bug could fail",
+    ),
     ("todo!", &[], "write the code, or return an error that says what is missing"),
     ("unimplemented!", &[], "write the code, or return an error that says what is missing"),
     ("process::exit", PRINTERS, "return an error; the exit code is decided in src/cli"),
 ];
 const PRINTERS: &[&str] = &["src/cli/", "src/main.rs"];
 
-// ---- the tests -------------------------------------------------------------------------------------------------------
+// ---- the tests ----------------------------------------------------------------------------------
 
 #[test]
 fn the_table_of_layers_points_downwards() {
     for (i, room) in ROOMS.iter().enumerate() {
         for used in room.may_use {
-            let j = ROOMS.iter().position(|r| r.module == *used).unwrap_or_else(|| panic!("{used} is no module"));
-            assert!(j < i && ROOMS[j].layer <= room.layer, "{} may not use {used}, which stands below it", room.module);
+            let j = ROOMS
+                .iter()
+                .position(|r| r.module == *used)
+                .unwrap_or_else(|| panic!("{used} is no module"));
+            assert!(
+                j < i && ROOMS[j].layer <= room.layer,
+                "{} may not use {used}, which stands below it",
+                room.module
+            );
         }
     }
 }
@@ -154,7 +174,10 @@ fn every_module_has_a_row() {
 fn every_dependency_has_a_door() {
     for name in dependencies(&read(&root().join("Cargo.toml"))) {
         let known = DOORS.iter().any(|(door, _)| *door == name);
-        assert!(known, "add `{name}` to DOORS in tests/layers.rs and its reason to docs/architecture.md");
+        assert!(
+            known,
+            "add `{name}` to DOORS in tests/layers.rs and its reason to docs/architecture.md"
+        );
     }
 }
 
@@ -173,7 +196,10 @@ fn links_are_written_in_one_file() {
     let store = read(&root().join("src/mesh/store.rs"));
     let fields = store.split("struct HalfEdge {").nth(1).and_then(|rest| rest.split('}').next());
     let fields = fields.expect("src/mesh/store.rs defines HalfEdge");
-    assert!(!fields.contains("pub"), "the fields of HalfEdge stay private, else every module could write links");
+    assert!(
+        !fields.contains("pub"),
+        "the fields of HalfEdge stay private, else every module could write links"
+    );
     hold(link_faults);
 }
 
@@ -186,14 +212,24 @@ fn the_library_does_not_print_exit_or_unwrap() {
 fn planted_violations_are_found() {
     let layer = |path: &str, text: &str| faults_of(layer_faults, path, text);
     assert_eq!(layer("src/geom/plane.rs", "\nuse crate::mesh::Mesh;"), ["src/geom/plane.rs:2"]);
-    assert_eq!(layer("src/sheet/place.rs", "use crate::{geom::Plane, net::{Net, Piece},\n mesh::Mesh};").len(), 1);
+    assert_eq!(
+        layer("src/sheet/place.rs", "use crate::{geom::Plane, net::{Net, Piece},\n mesh::Mesh};")
+            .len(),
+        1
+    );
     assert_eq!(layer("src/sheet/place.rs", "fn f() -> usize { crate::op::slice() }").len(), 1);
     assert_eq!(layer("src/seam/graph.rs", "use super::super::select::Selection;").len(), 1);
     assert_eq!(layer("src/io/obj.rs", "use crate::nowhere::X;").len(), 1);
-    assert_eq!(layer("src/net/mod.rs", "fn f() -> impl Iterator + use<'_> { g(); crate::io::h() }").len(), 1);
-    assert_eq!(layer("src/op/slice.rs", "use crate::{geom, mesh::Mesh}; use super::cutter::Cutter;").len(), 0);
-    let in_test =
-        "fn f() { \"crate::cli::x\"; } // crate::cli\n#[cfg(test)]\nmod tests { use crate::cli::run; fn g() {} }";
+    assert_eq!(
+        layer("src/net/mod.rs", "fn f() -> impl Iterator + use<'_> { g(); crate::io::h() }").len(),
+        1
+    );
+    assert_eq!(
+        layer("src/op/slice.rs", "use crate::{geom, mesh::Mesh}; use super::cutter::Cutter;").len(),
+        0
+    );
+    let in_test = "fn f() { \"crate::cli::x\"; } // crate::cli\n#[cfg(test)]\nmod tests \
+    { use crate::cli::run; fn g() {} }";
     assert_eq!(layer("src/geom/plane.rs", in_test).len(), 0);
     let after_test = "#[cfg(test)]\nmod tests { fn g() {} }\nuse crate::cli::run;";
     assert_eq!(layer("src/geom/plane.rs", after_test), ["src/geom/plane.rs:3"]);
@@ -205,23 +241,40 @@ fn planted_violations_are_found() {
     assert_eq!(door("src/op/slice.rs", "#[derive(clap::Parser)] struct P;").len(), 1);
     assert_eq!(door("src/op/slice.rs", "use clap::{Args, Subcommand};").len(), 1);
     assert_eq!(door("src/cli/mod.rs", "use clap::{Args, Subcommand};").len(), 0);
-    assert_eq!(door("src/io/mod.rs", "mod svg; pub use svg::write_svg; use super::svg::X;").len(), 0);
+    assert_eq!(
+        door("src/io/mod.rs", "mod svg; pub use svg::write_svg; use super::svg::X;").len(),
+        0
+    );
     assert_eq!(door("src/sheet/draw.rs", "use svg::Document;").len(), 1);
 
     let link = |path: &str, text: &str| faults_of(link_faults, path, text);
     assert_eq!(link("src/mesh/walk.rs", "self.half_edges[3]\n.next = h;"), ["src/mesh/walk.rs:2"]);
-    assert_eq!(link("src/mesh/build.rs", "let h = HalfEdge { next, prev, origin, face };").len(), 1);
+    assert_eq!(
+        link("src/mesh/build.rs", "let h = HalfEdge { next, prev, origin, face };").len(),
+        1
+    );
     assert_eq!(link("src/mesh/walk.rs", "if a.next == b { let c = a.prev; }").len(), 0);
     assert_eq!(link(WRITER_OF_LINKS, "a.next = b;").len(), 0);
 
     let habit = |path: &str, text: &str| faults_of(habit_faults, path, text);
-    assert_eq!(habit("src/op/slice.rs", "x.unwrap(); todo!(); println!(\"x\"); std::process::exit(1);").len(), 4);
-    assert_eq!(habit("src/op/slice.rs", "x.unwrap_or(1); // x.unwrap()\nlet s = r#\"println!(\" todo!\"#;").len(), 0);
+    assert_eq!(
+        habit("src/op/slice.rs", "x.unwrap(); todo!(); println!(\"x\"); std::process::exit(1);")
+            .len(),
+        4
+    );
+    assert_eq!(
+        habit(
+            "src/op/slice.rs",
+            "x.unwrap_or(1); // x.unwrap()\nlet s = r#\"println!(\" todo!\"#;"
+        )
+        .len(),
+        0
+    );
     assert_eq!(habit("src/cli/mod.rs", "println!(\"x\");").len(), 0);
     assert_eq!(habit("src/cli/mod.rs", "x.unwrap();").len(), 1);
 }
 
-// ---- the rules -------------------------------------------------------------------------------------------------------
+// ---- the rules ----------------------------------------------------------------------------------
 
 /// A broken rule, with its place and what to do.
 struct Fault {
@@ -245,13 +298,21 @@ fn layer_faults(source: &Source) -> Vec<Fault> {
             continue;
         }
         let advice = match (find_room(module), find_room(&used)) {
-            (None, _) => format!("add `{module}` to ROOMS in tests/layers.rs and to docs/architecture.md"),
-            (_, None) => format!("`{used}` is no module of the table; use it by its own module, or add a row to ROOMS"),
-            (Some(room), Some(_)) if room.may_use.contains(&used.as_str()) || EVERYWHERE.contains(&used.as_str()) => {
+            (None, _) => {
+                format!("add `{module}` to ROOMS in tests/layers.rs and to docs/architecture.md")
+            }
+            (_, None) => format!(
+                "`{used}` is no module of the table; use it by its own module, or add a row to \
+                ROOMS"
+            ),
+            (Some(room), Some(_))
+                if room.may_use.contains(&used.as_str()) || EVERYWHERE.contains(&used.as_str()) =>
+            {
                 continue;
             }
             (Some(room), Some(other)) => format!(
-                "`{module}` (layer {}) may not use `{used}` (layer {}); it may use {}: move the shared part down, or hand \
+                "`{module}` (layer {}) may not use `{used}` (layer {}); it may use {}: move the \
+                shared part down, or hand \
                  the value in from above",
                 room.layer,
                 other.layer,
@@ -266,17 +327,25 @@ fn layer_faults(source: &Source) -> Vec<Fault> {
 fn door_faults(source: &Source) -> Vec<Fault> {
     let mut faults = Vec::new();
     for path in source.paths() {
-        let Some((name, places)) = DOORS.iter().find(|(name, _)| *name == path.segments[0]) else { continue };
+        let Some((name, places)) = DOORS.iter().find(|(name, _)| *name == path.segments[0]) else {
+            continue;
+        };
         // `mod svg;` makes `svg::` a module of this file, not the crate.
         if source.declares(name) {
             continue;
         }
         if !is_in(&source.path, places) {
-            faults.push(source.fault(path.line, format!("`{name}` comes in only through {}: call that", list(places))));
+            faults.push(source.fault(
+                path.line,
+                format!("`{name}` comes in only through {}: call that", list(places)),
+            ));
         } else if *name == "clap" && !is_in(&source.path, CLAP_COMMANDS) {
             let item = path.segments.get(1).map_or("", String::as_str);
             if !CLAP_EVERYWHERE.contains(&item) {
-                let advice = format!("`clap::{item}` belongs in src/cli; here only {} are used", list(CLAP_EVERYWHERE));
+                let advice = format!(
+                    "`clap::{item}` belongs in src/cli; here only {} are used",
+                    list(CLAP_EVERYWHERE)
+                );
                 faults.push(source.fault(path.line, advice));
             }
         }
@@ -284,7 +353,8 @@ fn door_faults(source: &Source) -> Vec<Fault> {
     faults
 }
 
-/// Only `src/mesh` is looked at: the fields are private to the store, so elsewhere the compiler holds the rule.
+/// Only `src/mesh` is looked at: the fields are private to the store, so elsewhere the compiler
+/// holds the rule.
 fn link_faults(source: &Source) -> Vec<Fault> {
     if source.path == WRITER_OF_LINKS || !source.path.starts_with("src/mesh/") {
         return Vec::new();
@@ -293,15 +363,21 @@ fn link_faults(source: &Source) -> Vec<Fault> {
     let mut faults = Vec::new();
     for i in 0..source.tokens.len() {
         let assigned = LINKS.iter().find(|link| {
-            source.reads(i, &[".", link, "="]) && !source.reads(i + 3, &["="]) && !source.reads(i + 3, &[">"])
+            source.reads(i, &[".", link, "="])
+                && !source.reads(i + 3, &["="])
+                && !source.reads(i + 3, &[">"])
         });
         if let Some(link) = assigned {
-            let advice =
-                format!("`.{link}` is assigned only in {WRITER_OF_LINKS}: compose the operators there instead");
+            let advice = format!(
+                "`.{link}` is assigned only in {WRITER_OF_LINKS}: compose the operators there \
+                instead"
+            );
             faults.push(source.fault(source.tokens[i].line, advice));
         }
         if source.reads(i, &["HalfEdge", "{"]) && !is_definition(i) {
-            let advice = format!("half-edges are made only in {WRITER_OF_LINKS}: compose the operators there instead");
+            let advice = format!(
+                "half-edges are made only in {WRITER_OF_LINKS}: compose the operators there instead"
+            );
             faults.push(source.fault(source.tokens[i].line, advice));
         }
     }
@@ -317,7 +393,8 @@ fn habit_faults(source: &Source) -> Vec<Fault> {
             continue;
         }
         for i in (0..source.tokens.len()).filter(|&i| source.reads(i, &wanted)) {
-            faults.push(source.fault(source.tokens[i].line, format!("no `{habit}` here: {advice}")));
+            faults
+                .push(source.fault(source.tokens[i].line, format!("no `{habit}` here: {advice}")));
         }
     }
     faults
@@ -338,7 +415,8 @@ fn list(names: &[&str]) -> String {
 /// The names of the normal dependencies, as code writes them.
 fn dependencies(manifest: &str) -> Vec<String> {
     let section = manifest.lines().skip_while(|line| line.trim() != "[dependencies]").skip(1);
-    let names = section.take_while(|line| !line.starts_with('[')).filter_map(|line| line.split_once('='));
+    let names =
+        section.take_while(|line| !line.starts_with('[')).filter_map(|line| line.split_once('='));
     names.map(|(name, _)| name.trim().trim_end_matches(".workspace").replace('-', "_")).collect()
 }
 
@@ -347,11 +425,15 @@ fn dependencies(manifest: &str) -> Vec<String> {
 fn hold(rule: fn(&Source) -> Vec<Fault>) {
     let sources = sources();
     assert!(sources.len() > 20, "the source was not found");
-    let faults: Vec<String> = sources.iter().flat_map(rule).map(|fault| fault.to_string()).collect();
+    let faults: Vec<String> =
+        sources.iter().flat_map(rule).map(|fault| fault.to_string()).collect();
     assert!(faults.is_empty(), "{} faults:\n{}", faults.len(), faults.join("\n"));
 }
 
 /// The places of the faults that a rule finds in a text.
 fn faults_of(rule: fn(&Source) -> Vec<Fault>, path: &str, text: &str) -> Vec<String> {
-    rule(&Source::new(path, text)).into_iter().map(|fault| format!("{}:{}", fault.path, fault.line)).collect()
+    rule(&Source::new(path, text))
+        .into_iter()
+        .map(|fault| format!("{}:{}", fault.path, fault.line))
+        .collect()
 }

@@ -1,4 +1,5 @@
-//! Planted faults are found where they are, sound drawings pass, and so does all that we write ourselves.
+//! Planted faults are found where they are, sound drawings pass, and so does all that we write
+//! ourselves.
 
 use std::path::Path;
 
@@ -11,7 +12,8 @@ use kerfold::net::{MeshCounts, Net, Piece, PieceId, Proof};
 use kerfold::progress::Silent;
 use kerfold::recipe::{Job, Recipe, material, with_material};
 use kerfold::sheet::{
-    CommonLine, NestParams, Paper, Preset, ScoreStyle, SheetFormat, SheetParams, SheetSize, kerf_coupon, lay_out,
+    CommonLine, NestParams, Paper, Preset, ScoreStyle, SheetFormat, SheetParams, SheetSize,
+    kerf_coupon, lay_out,
 };
 use kerfold::units::Length;
 
@@ -62,7 +64,11 @@ fn every_planted_fault_is_found_in_its_place_and_nothing_else() {
         let findings = found(name, &params);
         assert_eq!(findings.len(), 1, "{name}: {findings:?}");
         let finding = &findings[0];
-        assert_eq!((finding.check, finding.element.as_str()), (check, element), "{name}: {finding:?}");
+        assert_eq!(
+            (finding.check, finding.element.as_str()),
+            (check, element),
+            "{name}: {finding:?}"
+        );
         if let Some(at) = at {
             let distance = finding.at.expect("a place").distance(DVec2::from(at));
             assert!(distance < 0.02, "{name}: {finding:?}");
@@ -88,7 +94,8 @@ fn limits_move_with_the_parameters() {
     assert_eq!(found("11-thin-web.dxf", &kerf).len(), 1);
     let tabs = LintParams { tabs: Some(Length::from_mm(0.6)), ..LintParams::default() };
     assert_eq!(found("02-gap.dxf", &tabs), []);
-    let sheet = LintParams { sheet: Some("150x90".parse().expect("a size")), ..LintParams::default() };
+    let sheet =
+        LintParams { sheet: Some("150x90".parse().expect("a size")), ..LintParams::default() };
     assert_eq!(found("good.svg", &sheet).len(), 1);
     assert_eq!(found("good.dxf", &sheet), []);
 }
@@ -99,7 +106,8 @@ fn assert_clean(name: &str, drawings: &[kerfold::sheet::Drawing], params: &Sheet
         for drawing in drawings {
             let bytes = sheet_bytes(drawing, format, params, "kerfold");
             let place = format!("{name} {} {}", drawing.file_stem(), format.extension());
-            let (_, pages) = read_artwork(Path::new("x"), &bytes).unwrap_or_else(|e| panic!("{place}: {e}"));
+            let (_, pages) =
+                read_artwork(Path::new("x"), &bytes).unwrap_or_else(|e| panic!("{place}: {e}"));
             let limit = kerfold::lint::SheetLimit { width: drawing.width, height: drawing.height };
             let limits = LintParams { sheet: Some(limit), ..LintParams::default() };
             assert_eq!(pages.len(), 1, "{place}");
@@ -113,11 +121,17 @@ fn assert_clean(name: &str, drawings: &[kerfold::sheet::Drawing], params: &Sheet
 /// The first drawing, cut up onto sheets of paper.
 fn assert_tiles_clean(name: &str, drawings: &[kerfold::sheet::Drawing], params: &SheetParams) {
     if let Some(drawing) = drawings.first() {
-        let bytes = write_tiles(drawing, Paper::A4, params.style(), "kerfold").expect("known letters");
+        let bytes =
+            write_tiles(drawing, Paper::A4, params.style(), "kerfold").expect("known letters");
         let (_, pages) = read_artwork(Path::new("x"), &bytes).expect("a PDF");
         assert!(pages.len() > 1);
         for (i, page) in pages.iter().enumerate() {
-            assert_eq!(lint(page, &LintParams::default()).findings, [], "{name} on A4, page {}", i + 1);
+            assert_eq!(
+                lint(page, &LintParams::default()).findings,
+                [],
+                "{name} on A4, page {}",
+                i + 1
+            );
         }
     }
 }
@@ -126,11 +140,15 @@ fn assert_tiles_clean(name: &str, drawings: &[kerfold::sheet::Drawing], params: 
 fn sheets_with_shared_lines_pass() {
     let ring = |i: usize| -> Vec<DVec2> {
         let corners = [3, 4, 6][i % 3];
-        let corner = |k: usize| DVec2::from_angle(i as f64 + k as f64 * std::f64::consts::TAU / corners as f64) * 25.0;
+        let corner = |k: usize| {
+            DVec2::from_angle(i as f64 + k as f64 * std::f64::consts::TAU / corners as f64) * 25.0
+        };
         (0..corners).map(corner).collect()
     };
-    let polygon = |corners: &[[f64; 2]]| corners.iter().map(|&c| DVec2::from(c)).collect::<Vec<_>>();
-    let ell = polygon(&[[0.0, 0.0], [80.0, 0.0], [80.0, 30.0], [30.0, 30.0], [30.0, 80.0], [0.0, 80.0]]);
+    let polygon =
+        |corners: &[[f64; 2]]| corners.iter().map(|&c| DVec2::from(c)).collect::<Vec<_>>();
+    let ell =
+        polygon(&[[0.0, 0.0], [80.0, 0.0], [80.0, 30.0], [30.0, 30.0], [30.0, 80.0], [0.0, 80.0]]);
     let triangle = polygon(&[[0.0, 0.0], [60.0, 0.0], [0.0, 40.0]]);
     let bar = polygon(&[[0.0, 0.0], [150.0, 0.0], [150.0, 20.0], [0.0, 20.0]]);
     let mixed = |i: usize| [&ell, &triangle, &bar, &triangle][i % 4].clone();
@@ -141,7 +159,12 @@ fn sheets_with_shared_lines_pass() {
 }
 
 fn assert_shared_lines_pass(shape: &dyn Fn(usize) -> Vec<DVec2>) {
-    let piece = |i: usize| Piece { id: PieceId(i), outline: shape(i), holes: Vec::new(), faces: Vec::new() };
+    let piece = |i: usize| Piece {
+        id: PieceId(i),
+        outline: shape(i),
+        holes: Vec::new(),
+        faces: Vec::new(),
+    };
     let net = Net {
         scale: 1.0,
         counts: MeshCounts::default(),
@@ -152,7 +175,8 @@ fn assert_shared_lines_pass(shape: &dyn Fn(usize) -> Vec<DVec2>) {
         proof: Proof::default(),
     };
     let nest = NestParams { common_line: CommonLine::On, ..NestParams::default() };
-    let params = SheetParams { nest, sheet: SheetSize::of_mm(240.0, 160.0), ..SheetParams::default() };
+    let params =
+        SheetParams { nest, sheet: SheetSize::of_mm(240.0, 160.0), ..SheetParams::default() };
     let set = lay_out(&net, &params).expect("all fit");
     assert!(set.report.shared_length > 300.0, "{}", set.report.shared_length);
     assert_clean("shared lines", &set.drawings, &params);
@@ -161,13 +185,15 @@ fn assert_shared_lines_pass(shape: &dyn Fn(usize) -> Vec<DVec2>) {
 #[test]
 fn nothing_is_found_in_what_we_write_ourselves() {
     let folder = Path::new("fixtures/recipes");
-    let mut names: Vec<_> = std::fs::read_dir(folder).expect("recipes").map(|e| e.expect("an entry").path()).collect();
+    let mut names: Vec<_> =
+        std::fs::read_dir(folder).expect("recipes").map(|e| e.expect("an entry").path()).collect();
     names.retain(|path| path.is_file());
     names.sort();
     for path in names {
         let text = std::fs::read_to_string(&path).expect("a recipe");
         let recipe = Recipe::parse(&text).expect("a recipe");
-        let job = Job::run(&recipe, folder, &Silent).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+        let job = Job::run(&recipe, folder, &Silent)
+            .unwrap_or_else(|e| panic!("{}: {e}", path.display()));
         if let Some((fabrication, params)) = &job.fabrication {
             let name = path.display().to_string();
             assert_clean(&name, &fabrication.sheets.drawings, params);
@@ -178,13 +204,19 @@ fn nothing_is_found_in_what_we_write_ourselves() {
 
 #[test]
 fn every_preset_score_and_coupon_is_clean() {
-    let text = "[[step]]\nsolid = \"truncated-cube\"\nsize = \"120mm\"\n[[step]]\nunfold = \"auto\"";
+    let text =
+        "[[step]]\nsolid = \"truncated-cube\"\nsize = \"120mm\"\n[[step]]\nunfold = \"auto\"";
     let recipe = Recipe::parse(text).expect("a recipe");
     let job = Job::run(&recipe, Path::new(""), &Silent).expect("a solid");
     let net = &job.fabrication.as_ref().expect("pieces").0.net;
-    let base =
-        SheetParams { kerf: Length::from_mm(0.2), sheet: SheetSize::of_mm(700.0, 500.0), ..SheetParams::default() };
-    for preset in [Preset::Boxes, Preset::Lightburn, Preset::Ponoko, Preset::Glowforge, Preset::Epilog] {
+    let base = SheetParams {
+        kerf: Length::from_mm(0.2),
+        sheet: SheetSize::of_mm(700.0, 500.0),
+        ..SheetParams::default()
+    };
+    for preset in
+        [Preset::Boxes, Preset::Lightburn, Preset::Ponoko, Preset::Glowforge, Preset::Epilog]
+    {
         let params = SheetParams { preset, score: ScoreStyle::Valleys, ..base.clone() };
         let set = kerfold::sheet::lay_out(net, &params).expect("fits");
         assert_clean(&format!("{preset:?}"), &set.drawings, &params);
@@ -207,7 +239,11 @@ fn files_that_cannot_be_followed_say_why() {
         ("x.svg", &b""[..], "empty"),
         ("x.txt", b"hello", "neither SVG, DXF nor PDF"),
         ("x.svg", b"<svg xmlns='http://www.w3.org/2000/svg'><g>", "no sound SVG"),
-        ("x.svg", b"<svg xmlns='http://www.w3.org/2000/svg'><g id='a'><use href='#a'/></g></svg>", "nested"),
+        (
+            "x.svg",
+            b"<svg xmlns='http://www.w3.org/2000/svg'><g id='a'><use href='#a'/></g></svg>",
+            "nested",
+        ),
         ("x.dxf", b"  0\nSECTION\n  2\nENTITIES\n", "breaks off"),
         ("x.dxf", b"  0\nSECTION\nzero\nENTITIES\n", "line 3"),
         ("x.dxf", b"AutoCAD Binary DXF\r\n\x1a\0", "binary DXF"),

@@ -2,7 +2,10 @@
 
 use std::path::Path;
 
-use kerfold::io::{MeshFormat, ReadMesh, ReadNote, ReadOptions, WriteOptions, mesh_bytes, read_mesh, read_mesh_bytes};
+use kerfold::io::{
+    MeshFormat, ReadMesh, ReadNote, ReadOptions, WriteOptions, mesh_bytes, read_mesh,
+    read_mesh_bytes,
+};
 use kerfold::measure;
 use kerfold::mesh::assert_sound;
 use kerfold::units::Length;
@@ -16,12 +19,15 @@ fn read(path: &Path) -> ReadMesh {
 #[test]
 fn the_cube_is_the_same_in_every_format() {
     let folder = Path::new("fixtures/meshes");
-    let files = ["cube.obj", "cube.off", "cube-ascii.ply", "cube-little-endian.ply", "cube-big-endian.ply"];
+    let files =
+        ["cube.obj", "cube.off", "cube-ascii.ply", "cube-little-endian.ply", "cube-big-endian.ply"];
     let reference = read(&folder.join("cube.obj"));
     for name in files {
         let cube = read(&folder.join(name));
         assert!(cube.notes.is_empty() && cube.scale == 1.0);
-        let corners = |read: &ReadMesh| -> Vec<_> { read.mesh.faces().map(|f| read.mesh.face_positions(f)).collect() };
+        let corners = |read: &ReadMesh| -> Vec<_> {
+            read.mesh.faces().map(|f| read.mesh.face_positions(f)).collect()
+        };
         assert_eq!(corners(&cube), corners(&reference), "{name}");
     }
     for name in ["cube-ascii.stl", "cube-binary.stl"] {
@@ -39,9 +45,13 @@ fn the_cube_is_the_same_in_every_format() {
 fn spot_comes_back_digit_by_digit() {
     let path = Path::new("fixtures/meshes/spot.obj");
     let spot = read(path);
-    assert_eq!((spot.mesh.vertex_count(), spot.mesh.face_count(), spot.mesh.is_closed()), (2930, 5856, true));
+    assert_eq!(
+        (spot.mesh.vertex_count(), spot.mesh.face_count(), spot.mesh.is_closed()),
+        (2930, 5856, true)
+    );
     assert!(spot.notes.is_empty(), "{:?}", spot.notes);
-    let written = mesh_bytes(MeshFormat::Obj, &spot.mesh, &WriteOptions::default()).expect("written");
+    let written =
+        mesh_bytes(MeshFormat::Obj, &spot.mesh, &WriteOptions::default()).expect("written");
     let original = std::fs::read(path).expect("the file");
     assert!(statements(&written) == statements(&original), "positions or faces have changed");
 }
@@ -49,7 +59,9 @@ fn spot_comes_back_digit_by_digit() {
 /// The numbers of all `v` and `f` lines in their order, as bits; texture coordinates are left out.
 fn statements(text: &[u8]) -> Vec<Vec<u64>> {
     let text = std::str::from_utf8(text).expect("text");
-    let number = |word: &str| word.split('/').next().and_then(|n| n.parse::<f64>().ok()).expect("a number").to_bits();
+    let number = |word: &str| {
+        word.split('/').next().and_then(|n| n.parse::<f64>().ok()).expect("a number").to_bits()
+    };
     let lines = text.lines().filter(|line| line.starts_with("v ") || line.starts_with("f "));
     lines.map(|line| line.split_whitespace().skip(1).map(number).collect()).collect()
 }
@@ -70,7 +82,9 @@ fn the_collection_of_real_models_is_read() {
     if !folder.is_dir() {
         return;
     }
-    for (name, vertices, faces) in [("cow", 2903, 5804), ("fandisk", 6475, 12946), ("spot", 2930, 5856)] {
+    for (name, vertices, faces) in
+        [("cow", 2903, 5804), ("fandisk", 6475, 12946), ("spot", 2930, 5856)]
+    {
         let model = read(&folder.join(format!("{name}.obj")));
         assert_eq!(
             (model.mesh.vertex_count() - model.splits.len(), model.mesh.face_count()),
@@ -82,12 +96,23 @@ fn the_collection_of_real_models_is_read() {
     let teapot = read(&folder.join("teapot.obj"));
     assert_eq!(teapot.mesh.face_count(), 6320);
     assert!(!teapot.mesh.is_closed());
-    assert!(teapot.notes.iter().any(|n| matches!(n, ReadNote::CoincidentRims { .. })), "{:?}", teapot.notes);
+    assert!(
+        teapot.notes.iter().any(|n| matches!(n, ReadNote::CoincidentRims { .. })),
+        "{:?}",
+        teapot.notes
+    );
 }
 
 #[test]
 fn a_name_without_extension_is_told_by_its_content() {
-    for name in ["cube.obj", "cube.off", "cube-ascii.ply", "cube-big-endian.ply", "cube-ascii.stl", "cube-binary.stl"] {
+    for name in [
+        "cube.obj",
+        "cube.off",
+        "cube-ascii.ply",
+        "cube-big-endian.ply",
+        "cube-ascii.stl",
+        "cube-binary.stl",
+    ] {
         let bytes = std::fs::read(Path::new("fixtures/meshes").join(name)).expect("a fixture");
         let cube = read_mesh_bytes(Path::new("cube"), &bytes, &ReadOptions::default()).expect(name);
         assert!(cube.mesh.is_closed(), "{name}");

@@ -10,7 +10,8 @@ struct Folder(PathBuf);
 
 impl Folder {
     fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("kerfold-panels-{name}-{}", std::process::id()));
+        let path =
+            std::env::temp_dir().join(format!("kerfold-panels-{name}-{}", std::process::id()));
         let _ = fs::remove_dir_all(&path);
         fs::create_dir_all(&path).expect("a folder for the test");
         Self(path)
@@ -38,7 +39,10 @@ impl Drop for Folder {
 }
 
 fn kerfold(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_kerfold")).args(arguments).output().expect("the program starts")
+    Command::new(env!("CARGO_BIN_EXE_kerfold"))
+        .args(arguments)
+        .output()
+        .expect("the program starts")
 }
 
 fn stderr(output: &Output) -> String {
@@ -50,15 +54,33 @@ fn a_soccer_ball_gives_schedule_sheets_map_and_solids() {
     let folder = Folder::new("ball");
     let model = folder.solid("soccer-ball");
     let out = folder.path("out");
-    let ran = kerfold(&["panels", &model, "--thickness", "3mm", "--gap", "0.5mm", "--sheet", "300x200", "-o", &out]);
+    let ran = kerfold(&[
+        "panels",
+        &model,
+        "--thickness",
+        "3mm",
+        "--gap",
+        "0.5mm",
+        "--sheet",
+        "300x200",
+        "-o",
+        &out,
+    ]);
     assert_eq!(ran.status.code(), Some(0), "{}", stderr(&ran));
     let json: Value = serde_json::from_str(&folder.read("out/panels.json")).expect("JSON");
     let list = |key: &str| json[key].as_array().expect(key).clone();
-    assert_eq!((list("panels").len(), list("edges").len(), list("nodes").len(), list("groups").len()), (32, 90, 60, 2));
+    assert_eq!(
+        (list("panels").len(), list("edges").len(), list("nodes").len(), list("groups").len()),
+        (32, 90, 60, 2)
+    );
     assert!(list("panels").iter().all(|p| p["sheet"].as_str().is_some_and(|s| s.starts_with('S'))));
     let mass: f64 = list("panels").iter().filter_map(|p| p["mass"].as_f64()).sum();
-    assert!((mass - json["totals"]["mass_kg"].as_f64().expect("a mass")).abs() < 1e-12 && mass > 0.1);
-    for (name, rows) in [("panels.csv", 32), ("edges.csv", 90), ("nodes.csv", 60), ("cutting-list.csv", 2)] {
+    assert!(
+        (mass - json["totals"]["mass_kg"].as_f64().expect("a mass")).abs() < 1e-12 && mass > 0.1
+    );
+    for (name, rows) in
+        [("panels.csv", 32), ("edges.csv", 90), ("nodes.csv", 60), ("cutting-list.csv", 2)]
+    {
         let text = folder.read(&format!("out/{name}"));
         let lines: Vec<&str> = text.split_terminator("\r\n").collect();
         assert_eq!(lines.len(), rows + 1, "{name}");
@@ -67,17 +89,26 @@ fn a_soccer_ball_gives_schedule_sheets_map_and_solids() {
         assert!(lines[1].contains("kerfold panels"), "{name}");
     }
     let step = folder.read("out/plates.step");
-    assert_eq!((step.matches("MANIFOLD_SOLID_BREP('P").count(), step.matches("=PRODUCT('P").count()), (32, 32));
+    assert_eq!(
+        (step.matches("MANIFOLD_SOLID_BREP('P").count(), step.matches("=PRODUCT('P").count()),
+        (32, 32)
+    );
     assert_eq!(folder.read("out/plates.obj").lines().filter(|l| l.starts_with("g P")).count(), 32);
     assert!(fs::read(folder.path("out/plates.glb")).expect("a file").starts_with(b"glTF"));
     let stl = fs::read(folder.path("out/plates.stl")).expect("a file");
     // 12 pentagons and 20 hexagons: twice n − 2 for front and back, 2n for the sides.
     assert_eq!((stl.len() - 84) / 50, 12 * (2 * 3 + 10) + 20 * (2 * 4 + 12));
     let map = folder.read("out/assembly-map.svg");
-    assert!((1..=32).all(|i| map.contains(&format!("class=\"P{i:02}\""))), "every panel is on the map");
+    assert!(
+        (1..=32).all(|i| map.contains(&format!("class=\"P{i:02}\""))),
+        "every panel is on the map"
+    );
     assert!(fs::read(folder.path("out/assembly-map.pdf")).expect("a file").starts_with(b"%PDF-"));
     let sheet = folder.read("out/sheet-01.svg");
-    assert!(sheet.contains("id=\"P01\"") && sheet.contains("number"), "panels are named, edges numbered");
+    assert!(
+        sheet.contains("id=\"P01\"") && sheet.contains("number"),
+        "panels are named, edges numbered"
+    );
 }
 
 #[test]
@@ -86,7 +117,13 @@ fn an_octahedron_is_a_finding_when_three_edges_are_required() {
     let model = folder.solid("octahedron");
     let panels = |extra: &[&str]| {
         let out = folder.path("out");
-        kerfold(&[&["panels", &model, "--thickness", "3mm", "--solids", "none", "--json", "-o", &out], extra].concat())
+        kerfold(
+            &[
+                &["panels", &model, "--thickness", "3mm", "--solids", "none", "--json", "-o", &out],
+                extra,
+            ]
+            .concat(),
+        )
     };
     assert_eq!(panels(&[]).status.code(), Some(0));
     let ran = panels(&["--require", "valence3"]);
@@ -101,8 +138,10 @@ fn an_octahedron_is_a_finding_when_three_edges_are_required() {
     // One vertex moved off all planes of symmetry.
     let text = folder.read("octahedron.obj");
     let first = text.lines().find(|l| l.starts_with("v ")).expect("a vertex");
-    let shift = |(word, by): (&str, f64)| format!("{}", word.parse::<f64>().expect("a number") + by);
-    let moved: Vec<String> = first.split_whitespace().skip(1).zip([6.0, 9.0, -4.0]).map(shift).collect();
+    let shift =
+        |(word, by): (&str, f64)| format!("{}", word.parse::<f64>().expect("a number") + by);
+    let moved: Vec<String> =
+        first.split_whitespace().skip(1).zip([6.0, 9.0, -4.0]).map(shift).collect();
     fs::write(&model, text.replacen(first, &format!("v {}", moved.join(" ")), 1)).expect("a file");
     let ran = panels(&["--require", "conical"]);
     assert_eq!(ran.status.code(), Some(1), "{}", stderr(&ran));
@@ -137,13 +176,23 @@ fn what_cannot_be_made_is_told_and_nothing_is_written() {
 #[test]
 fn the_recipe_step_writes_the_same_bytes_as_the_verb() {
     let folder = Folder::new("recipe");
-    let recipe = "[[step]]\nsolid = \"dodecahedron\"\nsize = \"120mm\"\n[[step]]\npanels = \"mid\"\nthickness = 4\n\
-                  edges = \"30-140:finger\"\nfinger_width = \"12mm\"\nsolids = [\"obj\"]\nrequire = [\"valence3\"]\n";
+    let recipe = "[[step]]\nsolid = \"dodecahedron\"\nsize = \"120mm\"\n[[step]]\npanels = \
+    \"mid\"\nthickness = 4\n\
+                  edges = \"30-140:finger\"\nfinger_width = \"12mm\"\nsolids = [\"obj\"]\nrequire \
+                  = [\"valence3\"]\n";
     fs::write(folder.path("recipe.toml"), recipe).expect("a file");
     let ran = kerfold(&["run", &folder.path("recipe.toml"), "-o", &folder.path("run")]);
     assert_eq!(ran.status.code(), Some(0), "{}", stderr(&ran));
-    let verb =
-        ["panels", &folder.path("run/model.obj"), "--side", "mid", "--thickness", "4", "--edges", "30-140:finger"];
+    let verb = [
+        "panels",
+        &folder.path("run/model.obj"),
+        "--side",
+        "mid",
+        "--thickness",
+        "4",
+        "--edges",
+        "30-140:finger",
+    ];
     let more = ["--finger-width", "12mm", "--solids", "obj", "-o", &folder.path("verb")];
     let ran = kerfold(&[&verb[..], &more[..]].concat());
     assert_eq!(ran.status.code(), Some(0), "{}", stderr(&ran));
@@ -152,10 +201,17 @@ fn the_recipe_step_writes_the_same_bytes_as_the_verb() {
         let text = folder.read(name);
         text.lines().filter(|l| !l.contains("kerfold ")).map(str::to_owned).collect::<Vec<_>>()
     };
-    for name in
-        ["panels.json", "panels.csv", "edges.csv", "plates.obj", "pieces.json", "sheet-01.svg", "assembly-map.svg"]
-    {
-        let (run, verb) = (without_command(&format!("run/{name}")), without_command(&format!("verb/{name}")));
+    for name in [
+        "panels.json",
+        "panels.csv",
+        "edges.csv",
+        "plates.obj",
+        "pieces.json",
+        "sheet-01.svg",
+        "assembly-map.svg",
+    ] {
+        let (run, verb) =
+            (without_command(&format!("run/{name}")), without_command(&format!("verb/{name}")));
         assert!(run.len() > 5, "{name}");
         assert_eq!(run, verb, "{name}");
     }

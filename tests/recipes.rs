@@ -1,4 +1,5 @@
-//! Every recipe of the fixtures runs, with the pieces that its figure shows, and its pieces are proved once more.
+//! Every recipe of the fixtures runs, with the pieces that its figure shows, and its pieces are
+//! proved once more.
 
 use std::path::Path;
 
@@ -21,8 +22,12 @@ const RECIPES: &[(&str, usize, usize)] = &[
 ];
 
 /// Recipes that end with a model: its genus.
-const MODELS: &[(&str, usize)] =
-    &[("cup.toml", 1), ("menger-cube.toml", 81), ("peeled-ball.toml", 11), ("sierpinski-tetrahedron.toml", 15)];
+const MODELS: &[(&str, usize)] = &[
+    ("cup.toml", 1),
+    ("menger-cube.toml", 81),
+    ("peeled-ball.toml", 11),
+    ("sierpinski-tetrahedron.toml", 15),
+];
 
 fn run(name: &str) -> Job {
     let folder = Path::new("fixtures/recipes");
@@ -39,7 +44,8 @@ fn every_recipe_gives_its_pieces_without_overlap() {
         .filter(|name| name.ends_with(".toml"))
         .collect();
     listed.sort();
-    let mut known: Vec<&str> = RECIPES.iter().map(|r| r.0).chain(MODELS.iter().map(|m| m.0)).collect();
+    let mut known: Vec<&str> =
+        RECIPES.iter().map(|r| r.0).chain(MODELS.iter().map(|m| m.0)).collect();
     known.sort_unstable();
     assert_eq!(listed, known);
     for &(name, pieces, genus) in RECIPES {
@@ -59,22 +65,30 @@ fn models_have_their_genus() {
     for &(name, genus) in MODELS {
         let job = run(name);
         let mesh = job.mesh().expect("a mesh");
-        assert!(mesh.faults().is_empty() && mesh.is_closed() && mesh.components().len() == 1, "{name}");
+        assert!(
+            mesh.faults().is_empty() && mesh.is_closed() && mesh.components().len() == 1,
+            "{name}"
+        );
         assert_eq!(kerfold::measure::genus(mesh), genus, "{name}");
         assert!(kerfold::measure::volume(mesh) > 0.0, "{name}");
     }
 }
 
-/// Every vertex is on the seams of a D-form and has one fold, but where one more cut has opened the ring.
+/// Every vertex is on the seams of a D-form and has one fold, but where one more cut has opened the
+/// ring.
 #[test]
 fn the_one_piece_d_form_is_a_ring_along_one_seam() {
     let job = run("one-piece-d-form-torus.toml");
     let mesh = job.mesh().expect("a mesh");
     let (fabrication, _) = job.fabrication.as_ref().expect("pieces");
     let net = &fabrication.net;
-    // One fold less than a perfect matching: the cut that opened the ring. Seams run with the model on both sides.
+    // One fold less than a perfect matching: the cut that opened the ring. Seams run with the model
+    // on both sides.
     assert_eq!(net.folds.len(), mesh.vertex_count() / 2 - 1);
-    assert!(net.seams.iter().all(|s| s.sides.iter().all(|side| side.piece.0 == 0)), "the piece meets only itself");
+    assert!(
+        net.seams.iter().all(|s| s.sides.iter().all(|side| side.piece.0 == 0)),
+        "the piece meets only itself"
+    );
     let mut folds = vec![0; mesh.vertex_slots()];
     net.folds.iter().flat_map(|f| f.edge).for_each(|v| folds[v] += 1);
     assert_eq!(folds.iter().filter(|&&n| n == 0).count(), 2, "the ends of the one more cut");

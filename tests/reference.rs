@@ -1,4 +1,5 @@
-//! `docs/reference.md` is what the program itself says, and its table of files is what the program writes.
+//! `docs/reference.md` is what the program itself says, and its table of files is what the program
+//! writes.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -13,13 +14,19 @@ fn page() -> PathBuf {
 fn the_reference_is_that_of_the_program() {
     let written = fs::read_to_string(page()).expect("docs/reference.md");
     let made = kerfold::cli::reference();
-    if let Some((line, (old, new))) = written.lines().zip(made.lines()).enumerate().find(|(_, (old, new))| old != new) {
+    if let Some((line, (old, new))) =
+        written.lines().zip(made.lines()).enumerate().find(|(_, (old, new))| old != new)
+    {
         panic!(
-            "docs/reference.md:{}: is\n{old}\nbut the program says\n{new}\nwrite it anew: cargo test --test reference -- --ignored",
+            "docs/reference.md:{}: is\n{old}\nbut the program says\n{new}\nwrite it anew: cargo \
+            test --test reference -- --ignored",
             line + 1
         );
     }
-    assert!(written == made, "one of the two is longer; write it anew: cargo test --test reference -- --ignored");
+    assert!(
+        written == made,
+        "one of the two is longer; write it anew: cargo test --test reference -- --ignored"
+    );
 }
 
 /// Not a test but the writer of the page.
@@ -29,7 +36,8 @@ fn write_the_reference() {
     fs::write(page(), kerfold::cli::reference()).expect("docs/reference.md can be written");
 }
 
-/// The flags and verbs that a text names: words after `kerfold` and words that begin with two hyphens, in code.
+/// The flags and verbs that a text names: words after `kerfold` and words that begin with two
+/// hyphens, in code.
 fn called(text: &str) -> (BTreeSet<&str>, BTreeSet<&str>) {
     let (mut flags, mut verbs) = (BTreeSet::new(), BTreeSet::new());
     for code in text.split('`').skip(1).step_by(2) {
@@ -39,7 +47,11 @@ fn called(text: &str) -> (BTreeSet<&str>, BTreeSet<&str>) {
                 flags.insert(word.split('=').next().unwrap_or(word));
             }
             if word == "kerfold" {
-                verbs.extend(words.peek().filter(|verb| verb.chars().all(|c| c.is_ascii_lowercase() || c == '-')));
+                verbs.extend(
+                    words
+                        .peek()
+                        .filter(|verb| verb.chars().all(|c| c.is_ascii_lowercase() || c == '-')),
+                );
             }
         }
     }
@@ -53,12 +65,17 @@ fn the_pages_of_errors_name_options_and_verbs_that_exist() {
     let text = pages.join("\n");
     let (flags, verbs) = called(&text);
     assert!(flags.len() > 40 && verbs.len() > 10, "the pages were not read");
-    let is_known = |flag: &&&str| [" ", "`", "["].iter().any(|end| made.contains(&format!("{flag}{end}")));
+    let is_known =
+        |flag: &&&str| [" ", "`", "["].iter().any(|end| made.contains(&format!("{flag}{end}")));
     let unknown: Vec<_> = flags.iter().filter(|flag| !is_known(flag)).collect();
     assert!(unknown.is_empty(), "docs/errors.md names options that no verb has: {unknown:?}");
-    let unknown: Vec<_> = verbs.iter().filter(|verb| !made.contains(&format!("\n### kerfold {verb}"))).collect();
+    let unknown: Vec<_> =
+        verbs.iter().filter(|verb| !made.contains(&format!("\n### kerfold {verb}"))).collect();
     assert!(unknown.is_empty(), "docs/errors.md names verbs that there are not: {unknown:?}");
-    assert_eq!(called("`kerfold fly --wings 2` --no `-o`"), (BTreeSet::from(["--wings"]), BTreeSet::from(["fly"])));
+    assert_eq!(
+        called("`kerfold fly --wings 2` --no `-o`"),
+        (BTreeSet::from(["--wings"]), BTreeSet::from(["fly"]))
+    );
 }
 
 /// The names in the table of files.
@@ -93,8 +110,16 @@ fn general(name: &str) -> String {
 }
 
 fn run(arguments: &[&str]) {
-    let ran = Command::new(env!("CARGO_BIN_EXE_kerfold")).args(arguments).output().expect("the program starts");
-    assert_eq!(ran.status.code(), Some(0), "{arguments:?}: {}", String::from_utf8_lossy(&ran.stderr));
+    let ran = Command::new(env!("CARGO_BIN_EXE_kerfold"))
+        .args(arguments)
+        .output()
+        .expect("the program starts");
+    assert_eq!(
+        ran.status.code(),
+        Some(0),
+        "{arguments:?}: {}",
+        String::from_utf8_lossy(&ran.stderr)
+    );
 }
 
 #[test]
@@ -106,14 +131,34 @@ fn the_files_of_the_table_are_those_that_are_written() {
     let (model, recipe) = (path("cube.obj"), path("recipe.toml"));
     run(&["solid", "cube", "--size", "60mm", "-o", &model]);
     let formats = "svg,dxf,pdf,lbrn2";
-    let unfold =
-        ["unfold", &model, "--assembly", "pictures", "--format", formats, "--tile", "a4", "--part-files", "on"];
+    let unfold = [
+        "unfold",
+        &model,
+        "--assembly",
+        "pictures",
+        "--format",
+        formats,
+        "--tile",
+        "a4",
+        "--part-files",
+        "on",
+    ];
     run(&[&unfold[..], &["-o", &path("unfolded")]].concat());
-    run(&["panels", &model, "--thickness", "3mm", "--solids", "step,obj,glb,stl", "-o", &path("panels")]);
+    run(&[
+        "panels",
+        &model,
+        "--thickness",
+        "3mm",
+        "--solids",
+        "step,obj,glb,stl",
+        "-o",
+        &path("panels"),
+    ]);
     run(&["dform", "tetrahedron", "--rounds", "1", "-o", &path("dform")]);
     run(&["nest", &path("unfolded/pieces.json"), "-o", &path("nested")]);
     run(&["man", "-o", &path("manual")]);
-    let steps = "[[step]]\nsolid = \"cube\"\n\n[[step]]\nhull = \"dual\"\nsteps = \"1,all\"\n\n[[step]]\ncheck = \"glass\"\n\n\
+    let steps = "[[step]]\nsolid = \"cube\"\n\n[[step]]\nhull = \"dual\"\nsteps = \
+    \"1,all\"\n\n[[step]]\ncheck = \"glass\"\n\n\
                  [[step]]\nrender = \"iso\"\nwidth = 64\n\n[[step]]\nunfold = \"auto\"\n";
     fs::write(&recipe, steps).expect("a recipe");
     run(&["run", &recipe, "-o", &path("made")]);
@@ -125,5 +170,9 @@ fn the_files_of_the_table_are_those_that_are_written() {
         }
     }
     let _ = fs::remove_dir_all(&folder);
-    assert_eq!(written, listed(), "mend the table of src/cli/reference/files.rs, then write docs/reference.md anew");
+    assert_eq!(
+        written,
+        listed(),
+        "mend the table of src/cli/reference/files.rs, then write docs/reference.md anew"
+    );
 }

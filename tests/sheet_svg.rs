@@ -1,4 +1,5 @@
-//! The SVG of a small two-piece net: compared with a golden file, read by an XML parser, judged by the contract.
+//! The SVG of a small two-piece net: compared with a golden file, read by an XML parser, judged by
+//! the contract.
 //!
 //! `KERFOLD_BLESS=1 cargo test --test sheet_svg` rewrites the golden files.
 
@@ -9,13 +10,20 @@ use glam::DVec2;
 use kerfold::io::layout_json::write_layout_json;
 use kerfold::io::svg::write_svg;
 use kerfold::net::{
-    EdgeLabel, FlatFace, Fold, FoldKind, MeshCounts, Net, Piece, PieceId, Proof, Seam, SeamSide, Segment,
+    EdgeLabel, FlatFace, Fold, FoldKind, MeshCounts, Net, Piece, PieceId, Proof, Seam, SeamSide,
+    Segment,
 };
 use kerfold::sheet::{Preset, ScoreStyle, SheetParams, SheetSet, lay_out};
 use kerfold::units::Length;
 
-const PRESETS: [Preset; 6] =
-    [Preset::RedCut, Preset::Boxes, Preset::Lightburn, Preset::Ponoko, Preset::Glowforge, Preset::Epilog];
+const PRESETS: [Preset; 6] = [
+    Preset::RedCut,
+    Preset::Boxes,
+    Preset::Lightburn,
+    Preset::Ponoko,
+    Preset::Glowforge,
+    Preset::Epilog,
+];
 
 const COMMAND: &str = "kerfold nest \"a&b\".json --kerf 0.2mm <x> \u{1}-- \u{1b}[0m";
 
@@ -23,10 +31,16 @@ fn points<const N: usize>(corners: [(f64, f64); N]) -> Vec<DVec2> {
     corners.map(DVec2::from).to_vec()
 }
 
-/// A strip of two squares with a fold, and a frame of four quadrilaterals around a hole; one seam joins them.
+/// A strip of two squares with a fold, and a frame of four quadrilaterals around a hole; one seam
+/// joins them.
 fn small_net() -> Net {
-    let strip = points([(0.0, 0.0), (30.0, 0.0), (60.0, 0.0), (60.0, 30.0), (30.0, 30.0), (0.0, 30.0)]);
-    let face = |face, vertices: &[usize], polygon: Vec<DVec2>| FlatFace { face, vertices: vertices.to_vec(), polygon };
+    let strip =
+        points([(0.0, 0.0), (30.0, 0.0), (60.0, 0.0), (60.0, 30.0), (30.0, 30.0), (0.0, 30.0)]);
+    let face = |face, vertices: &[usize], polygon: Vec<DVec2>| FlatFace {
+        face,
+        vertices: vertices.to_vec(),
+        polygon,
+    };
     let left = face(0, &[0, 1, 4, 5], vec![strip[0], strip[1], strip[4], strip[5]]);
     let right = face(1, &[1, 2, 3, 4], vec![strip[1], strip[2], strip[3], strip[4]]);
     let outer = points([(0.0, 0.0), (30.0, 0.0), (30.0, 30.0), (0.0, 30.0)]);
@@ -34,7 +48,11 @@ fn small_net() -> Net {
     let names = [3, 2, 6, 7];
     let ring = |i: usize| {
         let j = (i + 1) % 4;
-        face(2 + i, &[names[i], names[j], 10 + j, 10 + i], vec![outer[i], outer[j], inner[j], inner[i]])
+        face(
+            2 + i,
+            &[names[i], names[j], 10 + j, 10 + i],
+            vec![outer[i], outer[j], inner[j], inner[i]],
+        )
     };
     let fold = |id, edge, piece, faces, segment: Segment, kind| {
         let fold_angle = if kind == FoldKind::Mountain { 30.0 } else { -30.0 };
@@ -43,7 +61,14 @@ fn small_net() -> Net {
     let mut folds = vec![fold(4, [1, 4], 0, [0, 1], [strip[1], strip[4]], FoldKind::Mountain)];
     for i in 0..4 {
         let kind = if i % 2 == 0 { FoldKind::Valley } else { FoldKind::Mountain };
-        folds.push(fold(20 + i, [names[i], 10 + i], 1, [2 + i, 2 + (i + 3) % 4], [outer[i], inner[i]], kind));
+        folds.push(fold(
+            20 + i,
+            [names[i], 10 + i],
+            1,
+            [2 + i, 2 + (i + 3) % 4],
+            [outer[i], inner[i]],
+            kind,
+        ));
     }
     let side = |piece, face, segment| SeamSide { piece: PieceId(piece), face, segment };
     let sides = [side(0, 1, [strip[2], strip[3]]), side(1, 2, [outer[1], outer[0]])];
@@ -58,7 +83,15 @@ fn small_net() -> Net {
         },
     ];
     let counts = MeshCounts { vertices: 14, edges: 20, faces: 6 };
-    Net { scale: 1.0, counts, pieces, folds, seams: vec![seam], rims: vec![], proof: Proof::default() }
+    Net {
+        scale: 1.0,
+        counts,
+        pieces,
+        folds,
+        seams: vec![seam],
+        rims: vec![],
+        proof: Proof::default(),
+    }
 }
 
 fn laid_out(params: &SheetParams) -> SheetSet {
@@ -72,8 +105,12 @@ fn with_kerf() -> SheetParams {
 /// What differs between a text and a golden file, in a sentence.
 fn difference(found: &str, golden: &str) -> Option<String> {
     let mut lines = found.lines().zip(golden.lines()).enumerate();
-    let line = lines.find(|(_, (a, b))| a != b).map(|(i, (a, b))| format!("line {}: `{a}` instead of `{b}`", i + 1));
-    line.or_else(|| (found != golden).then(|| format!("{} bytes instead of {}", found.len(), golden.len())))
+    let line = lines
+        .find(|(_, (a, b))| a != b)
+        .map(|(i, (a, b))| format!("line {}: `{a}` instead of `{b}`", i + 1));
+    line.or_else(|| {
+        (found != golden).then(|| format!("{} bytes instead of {}", found.len(), golden.len()))
+    })
 }
 
 fn assert_golden(name: &str, found: &str) {
@@ -81,7 +118,8 @@ fn assert_golden(name: &str, found: &str) {
     if std::env::var_os("KERFOLD_BLESS").is_some() {
         std::fs::write(&path, found).expect("the golden file can be written");
     }
-    let golden = std::fs::read_to_string(&path).expect("the golden file exists; KERFOLD_BLESS=1 writes it");
+    let golden =
+        std::fs::read_to_string(&path).expect("the golden file exists; KERFOLD_BLESS=1 writes it");
     assert_eq!(difference(found, &golden), None, "{name}; KERFOLD_BLESS=1 rewrites it");
 }
 
@@ -119,10 +157,15 @@ fn assert_contract(text: &str) {
     assert_eq!(root.attribute("width"), Some("600mm"));
     assert_eq!(root.attribute("height"), Some("400mm"));
     assert_eq!(root.attribute("viewBox"), Some("0 0 600 400"));
-    let metadata = root.children().find(|n| n.has_tag_name("metadata")).and_then(|n| n.text()).expect("metadata");
+    let metadata = root
+        .children()
+        .find(|n| n.has_tag_name("metadata"))
+        .and_then(|n| n.text())
+        .expect("metadata");
     assert_eq!(metadata, COMMAND.replace(['\u{1}', '\u{1b}'], "\u{fffd}"));
     let inkscape = "http://www.inkscape.org/namespaces/inkscape";
-    let layers: Vec<_> = root.children().filter(|n| n.attribute((inkscape, "groupmode")) == Some("layer")).collect();
+    let layers: Vec<_> =
+        root.children().filter(|n| n.attribute((inkscape, "groupmode")) == Some("layer")).collect();
     let names: Vec<_> = layers.iter().filter_map(|n| n.attribute((inkscape, "label"))).collect();
     assert_eq!(names, ["engrave", "score", "cut-inner", "cut-outer", "info"]);
     let mut ids = BTreeSet::new();
@@ -136,7 +179,17 @@ fn assert_contract(text: &str) {
             assert_path(data, node.attribute("class").expect("a class"));
         }
     }
-    for id in ["P01", "P02", "P02-hole-1", "E004", "E020", "P01-name", "E016-number-1", "E016-number-2", "reference"] {
+    for id in [
+        "P01",
+        "P02",
+        "P02-hole-1",
+        "E004",
+        "E020",
+        "P01-name",
+        "E016-number-1",
+        "E016-number-2",
+        "reference",
+    ] {
         assert!(ids.contains(id), "{id}");
     }
 }
@@ -147,7 +200,10 @@ fn assert_path(data: &str, class: &str) {
     }
     for number in data.split([' ', ',']).filter(|t| !matches!(*t, "M" | "L" | "Z")) {
         assert!(number.parse::<f64>().is_ok_and(|x| (0.0..=600.0).contains(&x)), "{number}");
-        assert!(!number.starts_with("-0") && number.split_once('.').is_none_or(|(_, d)| d.len() <= 4), "{number}");
+        assert!(
+            !number.starts_with("-0") && number.split_once('.').is_none_or(|(_, d)| d.len() <= 4),
+            "{number}"
+        );
     }
 }
 
@@ -160,12 +216,16 @@ fn y_is_turned_over_and_nothing_else() {
     let set = laid_out(&SheetParams::default());
     let text = write_svg(&set.drawings[0], Preset::RedCut, "");
     let document = roxmltree::Document::parse(&text).expect("well-formed XML");
-    let data = document.descendants().find(|n| n.attribute("id") == Some("P01")).and_then(|n| n.attribute("d"));
+    let data = document
+        .descendants()
+        .find(|n| n.attribute("id") == Some("P01"))
+        .and_then(|n| n.attribute("d"));
     let placed = set.layout.sheets[0].placed[0];
     let outline = placed.apply_all(&small_net().pieces[0].outline);
     let corner = |x: f64, y: f64| format!("{},{}", short(x), short(400.0 - y));
     let mut expected: Vec<String> = outline.iter().map(|p| corner(p.x, p.y)).collect();
-    let found: Vec<&str> = data.expect("a path").trim_matches(|c| " MZ".contains(c)).split(" L ").collect();
+    let found: Vec<&str> =
+        data.expect("a path").trim_matches(|c| " MZ".contains(c)).split(" L ").collect();
     // Where the contour begins is the machine's business.
     let first = expected.iter().position(|p| p == found[0]).expect("it begins at a corner");
     expected.rotate_left(first);

@@ -1,8 +1,9 @@
-//! All vertices, edges or faces of the Platonic solids and the soccer ball cut off, compared with an intersection of
-//! half-spaces found by brute force.
+//! All vertices, edges or faces of the Platonic solids and the soccer ball cut off, compared with
+//! an intersection of half-spaces found by brute force.
 //!
-//! Nothing of the cutting code is used on the other side: the planes are computed here by the formulas of
-//! `docs/operators.md` 2, the vertices are all triples of planes that no other plane cuts away.
+//! Nothing of the cutting code is used on the other side: the planes are computed here by the
+//! formulas of `docs/operators.md` 2, the vertices are all triples of planes that no other plane
+//! cuts away.
 
 use std::collections::BTreeMap;
 
@@ -11,8 +12,8 @@ use kerfold::geom::{Plane, fit_plane};
 use kerfold::measure::{face_diameter, volume};
 use kerfold::mesh::{FaceId, Mesh, assert_sound};
 use kerfold::op::{
-    CutReport, OpContext, OpError, Scope, TruncateEdge, TruncateFace, TruncateVertex, truncate_edges, truncate_faces,
-    truncate_vertices,
+    CutReport, OpContext, OpError, Scope, TruncateEdge, TruncateFace, TruncateVertex,
+    truncate_edges, truncate_faces, truncate_vertices,
 };
 use kerfold::select::Selection;
 use kerfold::shape;
@@ -40,7 +41,7 @@ struct Facts {
     volume: f64,
 }
 
-// ---- the planes, by the book ---------------------------------------------------------------------------------------
+// ---- the planes, by the book --------------------------------------------------------------------
 
 fn mean(points: &[DVec3]) -> DVec3 {
     points.iter().sum::<DVec3>() / points.len() as f64
@@ -79,8 +80,12 @@ fn slicing_planes(mesh: &Mesh, kind: Kind, t: f64) -> Vec<HalfSpace> {
             .edges()
             .map(|e| {
                 let [a, b] = mesh.edge_vertices(e);
-                let from = |v, other| mesh.neighbours(v).filter(move |&u| u != other).map(move |u| (v, u));
-                let points = from(a, b).chain(from(b, a)).map(|(v, u)| at(v) + t * (at(u) - at(v))).collect();
+                let from =
+                    |v, other| mesh.neighbours(v).filter(move |&u| u != other).map(move |u| (v, u));
+                let points = from(a, b)
+                    .chain(from(b, a))
+                    .map(|(v, u)| at(v) + t * (at(u) - at(v)))
+                    .collect();
                 plane(points, mesh.edge_faces(e).map(normal).to_vec())
             })
             .collect(),
@@ -88,15 +93,21 @@ fn slicing_planes(mesh: &Mesh, kind: Kind, t: f64) -> Vec<HalfSpace> {
             .faces()
             .map(|f| {
                 let corners: Vec<_> = mesh.face_vertices(f).collect();
-                let leaving = |&v: &_| mesh.neighbours(v).filter(|u| !corners.contains(u)).map(move |u| (v, u));
-                let points = corners.iter().flat_map(leaving).map(|(v, u)| at(v) + t * (at(u) - at(v))).collect();
+                let leaving = |&v: &_| {
+                    mesh.neighbours(v).filter(|u| !corners.contains(u)).map(move |u| (v, u))
+                };
+                let points = corners
+                    .iter()
+                    .flat_map(leaving)
+                    .map(|(v, u)| at(v) + t * (at(u) - at(v)))
+                    .collect();
                 plane(points, vec![normal(f)])
             })
             .collect(),
     }
 }
 
-// ---- the intersection, by brute force ------------------------------------------------------------------------------
+// ---- the intersection, by brute force -----------------------------------------------------------
 
 fn brute_force(planes: &[HalfSpace], size: f64) -> Option<Facts> {
     let tolerance = 1e-9 * size;
@@ -119,13 +130,15 @@ fn brute_force(planes: &[HalfSpace], size: f64) -> Option<Facts> {
     facts_of_hull(planes, &corners, tolerance)
 }
 
-/// The faces of the solid with these corners are the sets of corners on one plane that span an area.
+/// The faces of the solid with these corners are the sets of corners on one plane that span an
+/// area.
 fn facts_of_hull(planes: &[HalfSpace], corners: &[DVec3], tolerance: f64) -> Option<Facts> {
     let mut faces: Vec<Vec<usize>> = Vec::new();
     let mut volume = 0.0;
     for plane in planes {
-        let on: Vec<usize> =
-            (0..corners.len()).filter(|&i| (plane.n.dot(corners[i]) - plane.d).abs() <= tolerance).collect();
+        let on: Vec<usize> = (0..corners.len())
+            .filter(|&i| (plane.n.dot(corners[i]) - plane.d).abs() <= tolerance)
+            .collect();
         let area = area(plane.n, &on.iter().map(|&i| corners[i]).collect::<Vec<_>>());
         if on.len() >= 3 && area > tolerance * tolerance && !faces.contains(&on) {
             volume += area * plane.d / 3.0;
@@ -173,12 +186,14 @@ fn histogram(values: impl IntoIterator<Item = usize>) -> BTreeMap<usize, usize> 
     histogram
 }
 
-// ---- the cuts ------------------------------------------------------------------------------------------------------
+// ---- the cuts -----------------------------------------------------------------------------------
 
 fn truncate(mesh: &Mesh, kind: Kind, t: f64) -> Result<(Mesh, CutReport), OpError> {
     let context = OpContext::default();
     match kind {
-        Kind::Vertex => truncate_vertices(mesh, &TruncateVertex::new(Selection::all(), t), &context),
+        Kind::Vertex => {
+            truncate_vertices(mesh, &TruncateVertex::new(Selection::all(), t), &context)
+        }
         Kind::Edge => truncate_edges(mesh, &TruncateEdge::new(Selection::all(), t), &context),
         Kind::Face => truncate_faces(mesh, &TruncateFace::new(Selection::all(), t), &context),
     }
@@ -201,7 +216,8 @@ fn assert_convex_and_planar(mesh: &Mesh, size: f64, name: &str) {
         let diameter = face_diameter(mesh, f);
         assert!(deviation <= 1e-12 * diameter, "{name}: {f} deviates {deviation:e} of {diameter}");
         let newell = Plane::newell(&corners).expect("a face has an area");
-        let highest = mesh.vertices().map(|v| newell.signed_distance(mesh.position(v))).fold(0.0, f64::max);
+        let highest =
+            mesh.vertices().map(|v| newell.signed_distance(mesh.position(v))).fold(0.0, f64::max);
         assert!(highest <= 1e-9 * size, "{name}: a vertex lies {highest:e} above {f}");
     }
 }
@@ -232,7 +248,12 @@ fn check(name: &str, mesh: &Mesh, kind: Kind, t: f64) -> String {
             assert_convex_and_planar(&cut, size, &title);
             let found = facts(&cut);
             let difference = (found.volume - expected.volume).abs();
-            assert!(difference <= 1e-9 * volume(mesh), "{title}: volume {} for {}", found.volume, expected.volume);
+            assert!(
+                difference <= 1e-9 * volume(mesh),
+                "{title}: volume {} for {}",
+                found.volume,
+                expected.volume
+            );
             let expected = Facts { volume: found.volume, ..expected };
             assert_eq!(found, expected, "{title}");
             let other = cut.vertices().filter(|&v| cut.valence(v) != 3).count();
@@ -259,12 +280,16 @@ fn cutting_everything_off_is_the_intersection_of_half_spaces() {
             }
         }
     }
-    println!("solid         element offset    V     E     F  vertices by valence\n{}", table.join("\n"));
+    println!(
+        "solid         element offset    V     E     F  vertices by valence\n{}",
+        table.join("\n")
+    );
 }
 
 #[test]
 fn known_counts() {
-    let counts = |mesh: &Mesh, kind, t| facts(&truncate(mesh, kind, t).expect("something is left").0).counts;
+    let counts =
+        |mesh: &Mesh, kind, t| facts(&truncate(mesh, kind, t).expect("something is left").0).counts;
     assert_eq!(counts(&shape::icosahedron(1.0), Kind::Face, 0.25), [12, 30, 20]);
     assert_eq!(counts(&shape::cube(1.0), Kind::Vertex, 0.25), [24, 36, 14]);
     assert_eq!(counts(&shape::cube(1.0), Kind::Vertex, 0.5), [12, 24, 14]);
@@ -284,7 +309,11 @@ fn size_and_place_do_not_matter() {
                 let mut moved = mesh.clone();
                 moved.clear_planes();
                 for v in mesh.vertices() {
-                    moved.set_position(v, mesh.position(v) * scale + DVec3::new(shift, -shift, 2.0 * shift), true);
+                    moved.set_position(
+                        v,
+                        mesh.position(v) * scale + DVec3::new(shift, -shift, 2.0 * shift),
+                        true,
+                    );
                 }
                 let (cut, _) = truncate(&moved, kind, t).expect("something is left");
                 assert_sound(&cut);
@@ -300,11 +329,13 @@ fn size_and_place_do_not_matter() {
     }
 }
 
-/// The plane of the paper at a third of the edges, round after round, in millimetres at the origin and 37 m away: neighbours meet from the third
-/// round on, which the report says, and faces stay planar whether or not. All vertices for four rounds, one corner for ten.
+/// The plane of the paper at a third of the edges, round after round, in millimetres at the origin
+/// and 37 m away: neighbours meet from the third round on, which the report says, and faces stay
+/// planar whether or not. All vertices for four rounds, one corner for ten.
 #[test]
 fn the_papers_plane_at_a_third_overcuts_from_the_third_round_on() {
-    let runs = (1..=4).map(|repeat| ("all", repeat, Scope::Global)).chain([("0", 10, Scope::Local)]);
+    let runs =
+        (1..=4).map(|repeat| ("all", repeat, Scope::Global)).chain([("0", 10, Scope::Local)]);
     for (select, repeat, scope) in runs {
         for shift in [DVec3::ZERO, DVec3::new(37_000.0, -37_000.0, 37_000.0)] {
             let mut mesh = shape::cube(100.0);
@@ -314,18 +345,32 @@ fn the_papers_plane_at_a_third_overcuts_from_the_third_round_on() {
             }
             let select: Selection = select.parse().expect("a selection");
             let params = TruncateVertex { repeat, scope, ..TruncateVertex::new(select, 1.0 / 3.0) };
-            let (cut, report) = truncate_vertices(&mesh, &params, &OpContext::default()).expect("something is left");
+            let (cut, report) = truncate_vertices(&mesh, &params, &OpContext::default())
+                .expect("something is left");
             assert_sound(&cut);
-            assert_eq!(report.overcut.is_empty(), repeat < 3, "round {repeat}: {} overcut", report.overcut.len());
+            assert_eq!(
+                report.overcut.is_empty(),
+                repeat < 3,
+                "round {repeat}: {} overcut",
+                report.overcut.len()
+            );
             // A corner cut off becomes a triangle of its own, unless another cut meets it.
             let caps = cut.faces().filter(|&f| cut.face_vertices(f).count() == 3).count();
-            assert_eq!(caps == 8 * 3_usize.pow(repeat - 1), repeat < 3, "round {repeat}: {caps} triangles");
+            assert_eq!(
+                caps == 8 * 3_usize.pow(repeat - 1),
+                repeat < 3,
+                "round {repeat}: {caps} triangles"
+            );
             let diameter = kerfold::measure::size(&cut).length();
             for f in cut.faces() {
                 let corners = cut.face_positions(f);
                 let plane = fit_plane(&corners).expect("a plane");
-                let off = corners.iter().map(|&p| plane.signed_distance(p).abs()).fold(0.0, f64::max);
-                assert!(off <= 1e-12 * diameter, "round {repeat} at {shift}: {f} is {off:e} off its plane");
+                let off =
+                    corners.iter().map(|&p| plane.signed_distance(p).abs()).fold(0.0, f64::max);
+                assert!(
+                    off <= 1e-12 * diameter,
+                    "round {repeat} at {shift}: {f} is {off:e} off its plane"
+                );
             }
         }
     }

@@ -1,5 +1,5 @@
-//! What all benches measure with: processor seconds to the microsecond, and peak memory. Processor time is a fairer figure than
-//! the clock on the wall where other programs run.
+//! What all benches measure with: processor seconds to the microsecond, and peak memory. Processor
+//! time is a fairer figure than the clock on the wall where other programs run.
 
 #![allow(dead_code, reason = "each bench needs its part")]
 
@@ -21,7 +21,9 @@ pub fn process_seconds() -> f64 {
 pub fn peak_megabytes() -> f64 {
     let text = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = text.lines().find(|line| line.starts_with("VmHWM:"));
-    let kilobytes = line.and_then(|line| line.split_whitespace().nth(1)).and_then(|word| word.parse::<f64>().ok());
+    let kilobytes = line
+        .and_then(|line| line.split_whitespace().nth(1))
+        .and_then(|word| word.parse::<f64>().ok());
     kilobytes.map_or(f64::NAN, |k| k / 1024.0)
 }
 

@@ -1,9 +1,11 @@
-//! Nesting on four sets of pieces: `cargo bench --bench nesting` (all bars, about half an hour of CPU time), or
-//! `cargo bench --bench nesting -- --quick` (one seed, ten seconds each), or with the names of sets.
+//! Nesting on four sets of pieces: `cargo bench --bench nesting` (all bars, about half an hour of
+//! CPU time), or `cargo bench --bench nesting -- --quick` (one seed, ten seconds each), or with the
+//! names of sets.
 //!
-//! `eff` is the number of sheets less one plus the used part of the last. Bars are medians of five seeds. spyrrow (PyPI), which
-//! packs one endless strip without sheets and so has it easier, is asked in the same run; without it that is said. Sheets have
-//! no margin and the spacing is 0.01 mm for both. Last, ten thousand small pieces with default effort.
+//! `eff` is the number of sheets less one plus the used part of the last. Bars are medians of five
+//! seeds. spyrrow (PyPI), which packs one endless strip without sheets and so has it easier, is
+//! asked in the same run; without it that is said. Sheets have no margin and the spacing is 0.01 mm
+//! for both. Last, ten thousand small pieces with default effort.
 
 #![allow(clippy::print_stdout, reason = "a bench prints")]
 
@@ -53,14 +55,16 @@ fn main() {
         }
         let set = set(name, 1);
         let seeds = if is_quick { &SEEDS[..1] } else { &SEEDS[..] };
-        let mut runs: Vec<(f64, usize, f64)> = seeds.iter().map(|&seed| run(&set, effort, seed)).collect();
+        let mut runs: Vec<(f64, usize, f64)> =
+            seeds.iter().map(|&seed| run(&set, effort, seed)).collect();
         runs.sort_by(|a, b| a.0.total_cmp(&b.0));
         let (eff, sheets, _) = runs[runs.len() / 2];
         let cpu = runs.iter().map(|r| r.2).sum::<f64>() / runs.len() as f64;
         let all: Vec<String> = runs.iter().map(|r| format!("{:.3}", r.0)).collect();
         let missed = if sheets > most_sheets || eff > bar { "MISSED" } else { "" };
         println!(
-            "{name:<4} {:>6.2} {effort:>7} {cpu:>8.1} {sheets:>7} {eff:>7.3} {bar:>8.2}  {} {missed}",
+            "{name:<4} {:>6.2} {effort:>7} {cpu:>8.1} {sheets:>7} {eff:>7.3} {bar:>8.2}  {} \
+            {missed}",
             set.bound,
             all.join(" ")
         );
@@ -70,7 +74,8 @@ fn main() {
     }
     if names.is_empty() {
         let program = std::env::current_exe().expect("this program has a path");
-        let output = Command::new(program).args(["--many", "10000"]).output().expect("it runs again");
+        let output =
+            Command::new(program).args(["--many", "10000"]).output().expect("it runs again");
         print!("{}", String::from_utf8_lossy(&output.stdout));
     }
 }
@@ -117,14 +122,16 @@ fn laid(set: &Set, nest: NestParams) -> SheetSet {
 /// So many copies of a convex piece or two, small ones, on sheets of 600 × 400 mm.
 fn many(count: usize) {
     let mut set = set("a", 1);
-    let pieces: Vec<Vec<DVec2>> =
-        (0..count).map(|i| set.pieces[i % set.pieces.len()].iter().map(|&p| p * 0.25).collect()).collect();
+    let pieces: Vec<Vec<DVec2>> = (0..count)
+        .map(|i| set.pieces[i % set.pieces.len()].iter().map(|&p| p * 0.25).collect())
+        .collect();
     set.pieces = pieces;
     let bound = set.pieces.iter().map(|p| area(p)).sum::<f64>() / (set.sheet.x * set.sheet.y);
     let before = process_seconds();
     let result = laid(&set, NestParams::default());
     println!(
-        "{count} small pieces: {:.1} CPU s (bar 120), {:.0} MB (bar 2000), {} sheets, bound {bound:.2}",
+        "{count} small pieces: {:.1} CPU s (bar 120), {:.0} MB (bar 2000), {} sheets, bound \
+        {bound:.2}",
         process_seconds() - before,
         peak_megabytes(),
         result.layout.sheets.len()
@@ -144,16 +151,25 @@ c = spyrrow.StripPackingConfig(early_termination=False, total_computation_time=q
 s = spyrrow.StripPackingInstance('x', q['across'], items).solve(c)
 print('eff %.3f, %.1f CPU s' % (s.width / q['along'], resource.getrusage(resource.RUSAGE_SELF).ru_utime))
 ";
-    let pieces: Vec<Vec<[f64; 2]>> = set.pieces.iter().map(|p| p.iter().map(|q| q.to_array()).collect()).collect();
+    let pieces: Vec<Vec<[f64; 2]>> =
+        set.pieces.iter().map(|p| p.iter().map(|q| q.to_array()).collect()).collect();
     let (along, across) = (set.sheet.max_element(), set.sheet.min_element());
     let question = format!(
-        "{{\"pieces\": {pieces:?}, \"seconds\": {seconds}, \"spacing\": {SPACING}, \"along\": {along}, \"across\": {across}}}"
+        "{{\"pieces\": {pieces:?}, \"seconds\": {seconds}, \"spacing\": \
+        {SPACING}, \"along\": {along}, \"across\": {across}}}"
     );
-    let python = Command::new("python3").args(["-c", SCRIPT]).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
-    let Ok(mut python) = python else { return "python3 is not installed; no comparison is made".to_owned() };
+    let python = Command::new("python3")
+        .args(["-c", SCRIPT])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn();
+    let Ok(mut python) = python else {
+        return "python3 is not installed; no comparison is made".to_owned();
+    };
     if let Some(mut input) = python.stdin.take() {
         let _ = input.write_all(question.as_bytes());
     }
-    let output = python.wait_with_output().map(|o| String::from_utf8_lossy(&o.stdout).trim().to_owned());
+    let output =
+        python.wait_with_output().map(|o| String::from_utf8_lossy(&o.stdout).trim().to_owned());
     output.unwrap_or_else(|error| error.to_string())
 }

@@ -1,4 +1,5 @@
-//! The sets of pieces: made from a seed by splitmix64, then scaled so that their area is the promised number of sheets.
+//! The sets of pieces: made from a seed by splitmix64, then scaled so that their area is the
+//! promised number of sheets.
 
 use glam::DVec2;
 
@@ -28,7 +29,8 @@ impl Dice {
 
 /// Set `a`, `b`, `c` or `d`.
 pub fn set(name: &'static str, seed: u64) -> Set {
-    let mut dice = Dice(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(0x2545_f491_4f6c_dd1d));
+    let mut dice =
+        Dice(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(0x2545_f491_4f6c_dd1d));
     let small = DVec2::new(600.0, 400.0);
     let (sheet, bound, count, make): (_, _, usize, fn(&mut Dice) -> Vec<DVec2>) = match name {
         "a" => (small, 2.82, 200, |dice| convex(dice, 40.0, 120.0)),
@@ -43,7 +45,8 @@ pub fn set(name: &'static str, seed: u64) -> Set {
 }
 
 pub fn area(contour: &[DVec2]) -> f64 {
-    (0..contour.len()).map(|i| contour[i].perp_dot(contour[(i + 1) % contour.len()])).sum::<f64>() / 2.0
+    (0..contour.len()).map(|i| contour[i].perp_dot(contour[(i + 1) % contour.len()])).sum::<f64>()
+        / 2.0
 }
 
 /// Five to seven corners on an ellipse of the given width.
@@ -62,10 +65,12 @@ fn convex(dice: &mut Dice, low: f64, high: f64) -> Vec<DVec2> {
 /// A bent strip, 20 to 40 mm wide and 200 to 500 mm long.
 fn arc(dice: &mut Dice) -> Vec<DVec2> {
     const STEPS: i32 = 12;
-    let (width, length, sweep) = (dice.between(20.0, 40.0), dice.between(200.0, 500.0), dice.between(40.0, 140.0));
+    let (width, length, sweep) =
+        (dice.between(20.0, 40.0), dice.between(200.0, 500.0), dice.between(40.0, 140.0));
     let sweep = sweep.to_radians();
     let radius = length / sweep;
-    let at = |radius: f64, i: i32| DVec2::from_angle(sweep * f64::from(i) / f64::from(STEPS)) * radius;
+    let at =
+        |radius: f64, i: i32| DVec2::from_angle(sweep * f64::from(i) / f64::from(STEPS)) * radius;
     let outer = (0..=STEPS).map(|i| at(radius + width / 2.0, i));
     outer.chain((0..=STEPS).rev().map(|i| at(radius - width / 2.0, i))).collect()
 }

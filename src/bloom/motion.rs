@@ -15,7 +15,8 @@ pub const MOVING: [f64; 2] = [4.0, 6.0];
 /// When the animation ends: a second to look at the closed model.
 pub const END: f64 = 7.0;
 
-/// Where a piece lies before anything is folded: a point p of the piece at R(`rotation`) · p + `shift`.
+/// Where a piece lies before anything is folded: a point p of the piece at R(`rotation`) · p +
+/// `shift`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlatPlace {
     /// The piece.
@@ -28,8 +29,8 @@ pub struct FlatPlace {
 
 /// A net on its way from flat to closed.
 ///
-/// First all folds turn at once, each evenly; then the folded pieces move to their places. Pieces are bodies without
-/// thickness, which may pass through one another on the way.
+/// First all folds turn at once, each evenly; then the folded pieces move to their places. Pieces
+/// are bodies without thickness, which may pass through one another on the way.
 #[derive(Debug, Clone)]
 pub struct Bloom<'a> {
     tree: FoldTree<'a>,
@@ -40,10 +41,15 @@ pub struct Bloom<'a> {
 }
 
 impl<'a> Bloom<'a> {
-    /// The way of a net. Pieces begin where `places` says, with their outsides up; those that it leaves out are put in a row
-    /// beside the others. They end where `corners` says that the corners of their faces are, by the face's number; when it does not know,
-    /// parts that hang together by seams close around one of their faces where it lies.
-    pub fn new(net: &'a Net, places: &[FlatPlace], corners: impl Fn(usize) -> Option<Vec<DVec3>>) -> Self {
+    /// The way of a net. Pieces begin where `places` says, with their outsides up; those that it
+    /// leaves out are put in a row beside the others. They end where `corners` says that the
+    /// corners of their faces are, by the face's number; when it does not know, parts that hang
+    /// together by seams close around one of their faces where it lies.
+    pub fn new(
+        net: &'a Net,
+        places: &[FlatPlace],
+        corners: impl Fn(usize) -> Option<Vec<DVec3>>,
+    ) -> Self {
         let tree = FoldTree::new(net, &[]);
         let flat = flat_poses(net, places);
         let by_seams = closed_by_seams(net, &flat);
@@ -92,10 +98,15 @@ fn flat_poses(net: &Net, places: &[FlatPlace]) -> Vec<Pose> {
         .iter()
         .map(|piece| {
             let place = places.iter().find(|p| p.piece == piece.id)?;
-            Some(Pose { rotation: DQuat::from_rotation_z(place.rotation), translation: place.shift.extend(0.0) })
+            Some(Pose {
+                rotation: DQuat::from_rotation_z(place.rotation),
+                translation: place.shift.extend(0.0),
+            })
         })
         .collect();
-    let laid = |i: usize, pose: &Pose| net.pieces[i].outline.iter().map(|&p| pose.place(p)).collect::<Vec<_>>();
+    let laid = |i: usize, pose: &Pose| {
+        net.pieces[i].outline.iter().map(|&p| pose.place(p)).collect::<Vec<_>>()
+    };
     let known = given.iter().enumerate().filter_map(|(i, pose)| Some(laid(i, pose.as_ref()?)));
     let mut right = known.flatten().map(|p| p.x).fold(0.0, f64::max);
     let mut poses = Vec::with_capacity(given.len());
@@ -104,7 +115,10 @@ fn flat_poses(net: &Net, places: &[FlatPlace]) -> Vec<Pose> {
             let points = laid(i, &Pose::IDENTITY);
             let low = points.iter().copied().reduce(DVec3::min).unwrap_or_default();
             let width = points.iter().map(|p| p.x).fold(low.x, f64::max) - low.x;
-            let pose = Pose { translation: DVec3::new(right + 0.1 * width, 0.0, 0.0) - low, ..Pose::IDENTITY };
+            let pose = Pose {
+                translation: DVec3::new(right + 0.1 * width, 0.0, 0.0) - low,
+                ..Pose::IDENTITY
+            };
             right += 1.2 * width;
             pose
         };
@@ -113,7 +127,8 @@ fn flat_poses(net: &Net, places: &[FlatPlace]) -> Vec<Pose> {
     poses
 }
 
-/// Number of a face → where it lies when its part is closed around the face that carries all others, which stays.
+/// Number of a face → where it lies when its part is closed around the face that carries all
+/// others, which stays.
 fn closed_by_seams(net: &Net, flat: &[Pose]) -> HashMap<usize, Pose> {
     let all: Vec<usize> = (0..net.seams.len()).collect();
     let whole = FoldTree::new(net, &all);
@@ -121,18 +136,26 @@ fn closed_by_seams(net: &Net, flat: &[Pose]) -> HashMap<usize, Pose> {
     whole.leaves().iter().zip(poses).map(|(leaf, pose)| (whole.flat(leaf).face, pose)).collect()
 }
 
-/// The shift that brings the flat pieces around the closed model, level with its highest point: what is folded bends down.
+/// The shift that brings the flat pieces around the closed model, level with its highest point:
+/// what is folded bends down.
 fn under(net: &Net, tree: &FoldTree<'_>, closed: &[Pose], flat: &[Pose]) -> Pose {
     let bounds = |points: &mut dyn Iterator<Item = DVec3>| {
-        points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)))
+        points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
+            (low.min(p), high.max(p))
+        })
     };
     let corners = |(leaf, pose): (&Leaf, &Pose)| {
         let (pose, face) = (*pose, tree.flat(leaf));
         face.polygon.iter().map(move |&p| pose.place(p))
     };
     let (low, high) = bounds(&mut tree.leaves().iter().zip(closed).flat_map(corners));
-    let (flat_low, flat_high) =
-        bounds(&mut net.pieces.iter().zip(flat).flat_map(|(p, pose)| p.outline.iter().map(|&q| pose.place(q))));
+    let (flat_low, flat_high) = bounds(
+        &mut net
+            .pieces
+            .iter()
+            .zip(flat)
+            .flat_map(|(p, pose)| p.outline.iter().map(|&q| pose.place(q))),
+    );
     let shift = low.midpoint(high).truncate() - flat_low.midpoint(flat_high).truncate();
     let shift = shift.extend(high.z);
     Pose { translation: if shift.is_finite() { shift } else { DVec3::ZERO }, ..Pose::IDENTITY }

@@ -4,7 +4,8 @@ use glam::{DMat3, DQuat, DVec2, DVec3};
 
 use crate::geom::Plane;
 
-/// A rigid placing: a point p goes to `rotation` · p + `translation`, in mm. Flat points have z = 0.
+/// A rigid placing: a point p goes to `rotation` · p + `translation`, in mm. Flat points have z =
+/// 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pose {
     /// Of unit length.
@@ -39,8 +40,8 @@ impl Pose {
         Self { rotation, translation: -(rotation * self.translation) }
     }
 
-    /// Between two placings of a body around its point `middle`: the point goes straight, the body turns evenly by the
-    /// shorter way. A share of 0 is `from`, 1 is `to`.
+    /// Between two placings of a body around its point `middle`: the point goes straight, the body
+    /// turns evenly by the shorter way. A share of 0 is `from`, 1 is `to`.
     pub fn between(from: &Self, to: &Self, middle: DVec3, share: f64) -> Self {
         if share <= 0.0 {
             return *from;
@@ -53,15 +54,16 @@ impl Pose {
         Self { rotation, translation: at - rotation * middle }
     }
 
-    /// The placing that lays a flat polygon onto points in space, corner by corner as well as it can be, seen from outside;
-    /// `None` for points without area or of another number.
+    /// The placing that lays a flat polygon onto points in space, corner by corner as well as it
+    /// can be, seen from outside; `None` for points without area or of another number.
     pub fn laying(polygon: &[DVec2], points: &[DVec3]) -> Option<Self> {
         if polygon.len() != points.len() {
             return None;
         }
         let normal = Plane::newell(points)?.normal();
         let count = points.len() as f64;
-        let (flat, space) = (polygon.iter().sum::<DVec2>() / count, points.iter().sum::<DVec3>() / count);
+        let (flat, space) =
+            (polygon.iter().sum::<DVec2>() / count, points.iter().sum::<DVec3>() / count);
         let x = normal.any_orthonormal_vector();
         let y = normal.cross(x);
         let (mut dot, mut cross) = (0.0, 0.0);
@@ -71,7 +73,9 @@ impl Pose {
             (dot, cross) = (dot + p.dot(q), cross + p.perp_dot(q));
         }
         let (sin, cos) = cross.atan2(dot).sin_cos();
-        let rotation = DQuat::from_mat3(&DMat3::from_cols(x * cos + y * sin, y * cos - x * sin, normal)).normalize();
+        let rotation =
+            DQuat::from_mat3(&DMat3::from_cols(x * cos + y * sin, y * cos - x * sin, normal))
+                .normalize();
         Some(Self { rotation, translation: space - rotation * flat.extend(0.0) })
     }
 }
@@ -87,7 +91,10 @@ mod tests {
             translation: DVec3::new(5.0, -7.0, 11.0),
         };
         let back = pose.inverse().after(&pose);
-        assert!(back.translation.length() < 1e-14 && back.rotation.angle_between(DQuat::IDENTITY) < 1e-7);
+        assert!(
+            back.translation.length() < 1e-14
+                && back.rotation.angle_between(DQuat::IDENTITY) < 1e-7
+        );
         let flat = [(0.0, 0.0), (40.0, 0.0), (50.0, 30.0), (0.0, 20.0)].map(DVec2::from);
         let space = flat.map(|p| pose.place(p));
         let found = Pose::laying(&flat, &space).expect("a quad has area");

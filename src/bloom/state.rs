@@ -6,10 +6,11 @@ use super::{FoldTree, Leaf, Pose};
 use crate::mesh::{BuildError, FaceId, Mesh, MeshBuilder};
 use crate::net::EdgeLabel;
 
-/// The mesh of all faces that `group` gives one of the `names`, by its place in them, where `poses` puts them; its groups have these names in
-/// this order. Faces hang together by their folds and by the
-/// seams that `is_closed` names; all other edges are rims. Where faces that hang together have a corner at different places, as
-/// in a ring of folds that is only half closed, the corner is put in the middle.
+/// The mesh of all faces that `group` gives one of the `names`, by its place in them, where `poses`
+/// puts them; its groups have these names in this order. Faces hang together by their folds and by
+/// the seams that `is_closed` names; all other edges are rims. Where faces that hang together have
+/// a corner at different places, as in a ring of folds that is only half closed, the corner is put
+/// in the middle.
 ///
 /// # Errors
 /// [`BuildError`] when no face has a group, or when the net is not one of a mesh.
@@ -87,7 +88,9 @@ impl Corners {
             if self.starts[place + 1] == start {
                 return None;
             }
-            let at = |from: usize, to: usize| (0..n).find(|&i| vertices[i] == from && vertices[(i + 1) % n] == to);
+            let at = |from: usize, to: usize| {
+                (0..n).find(|&i| vertices[i] == from && vertices[(i + 1) % n] == to)
+            };
             let forward = at(edge[0], edge[1]).map(|i| [start + i, start + (i + 1) % n]);
             forward.or_else(|| at(edge[1], edge[0]).map(|i| [start + (i + 1) % n, start + i]))
         };

@@ -56,7 +56,8 @@ fn at_the_end_every_corner_is_at_its_vertex() {
 fn at_the_beginning_every_piece_lies_where_it_was_put_with_its_outside_up() {
     let mesh = model("dodecahedron");
     let net = net_of(&mesh, PiecesMode::Count(2));
-    let places = [FlatPlace { piece: net.pieces[0].id, rotation: 0.5, shift: DVec2::new(300.0, 20.0) }];
+    let places =
+        [FlatPlace { piece: net.pieces[0].id, rotation: 0.5, shift: DVec2::new(300.0, 20.0) }];
     let bloom = Bloom::new(&net, &places, corners(&mesh));
     let poses = bloom.at(0.0);
     let placed: Vec<Vec<DVec2>> = bloom
@@ -88,10 +89,14 @@ fn without_a_model_the_seams_say_where_pieces_go() {
     let net = net_of(&mesh, PiecesMode::Count(3));
     let bloom = Bloom::new(&net, &[], |_| None);
     let poses = bloom.at(END);
-    let state = state_mesh(bloom.tree(), &poses, |_| true, &["all".to_owned()], |_| Some(0)).expect("a closed model");
+    let state = state_mesh(bloom.tree(), &poses, |_| true, &["all".to_owned()], |_| Some(0))
+        .expect("a closed model");
     assert_sound(&state);
     assert!(state.is_closed());
-    assert_eq!((state.vertex_count(), state.face_count()), (mesh.vertex_count(), mesh.face_count()));
+    assert_eq!(
+        (state.vertex_count(), state.face_count()),
+        (mesh.vertex_count(), mesh.face_count())
+    );
     // The same shape: all distances between corners of the mean positions are those of the model.
     let (volume, expected) = (crate::measure::volume(&state), crate::measure::volume(&mesh));
     assert!((volume - expected).abs() < 1e-9 * expected.abs(), "{volume} {expected}");
@@ -103,8 +108,14 @@ fn a_flat_state_is_a_mesh_with_rims_where_seams_are_open() {
     let net = net_of(&mesh, PiecesMode::One);
     let tree = FoldTree::new(&net, &[]);
     let poses = tree.poses(|_| Pose::IDENTITY, |_, _| 0.0);
-    let state = state_mesh(&tree, &poses, |_| false, &["near".to_owned()], |leaf| (leaf.depth < 2).then_some(0))
-        .expect("a mesh");
+    let state = state_mesh(
+        &tree,
+        &poses,
+        |_| false,
+        &["near".to_owned()],
+        |leaf| (leaf.depth < 2).then_some(0),
+    )
+    .expect("a mesh");
     assert_sound(&state);
     assert!(!state.is_closed() && state.face_count() < 6);
     assert!(state_mesh(&tree, &poses, |_| false, &[], |_| None).is_err());
@@ -116,12 +127,14 @@ fn the_way_between_two_faces_is_all_the_hinges_between_them() {
     let net = net_of(&mesh, PiecesMode::One);
     let tree = FoldTree::new(&net, &[]);
     for seam in &net.seams {
-        let [a, b] = [0, 1].map(|k| tree.place_of(seam.sides[k].face).expect("all faces are in the tree"));
+        let [a, b] =
+            [0, 1].map(|k| tree.place_of(seam.sides[k].face).expect("all faces are in the tree"));
         let way = tree.way(a, b).expect("one tree");
         // Closed along the way alone, the two sides of the seam meet.
         let poses = tree.poses(|_| Pose::IDENTITY, |i, _| if way.contains(&i) { 1.0 } else { 0.2 });
         for end in [0, 1] {
-            let [p, q] = [(a, 0), (b, 1)].map(|(leaf, k)| poses[leaf].place(seam.sides[k].segment[end]));
+            let [p, q] =
+                [(a, 0), (b, 1)].map(|(leaf, k)| poses[leaf].place(seam.sides[k].segment[end]));
             assert!(p.distance(q) < 1e-9, "{p} {q}");
         }
     }

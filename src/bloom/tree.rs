@@ -23,7 +23,8 @@ pub struct Hinge {
     pub parent: usize,
     /// In the flat frame of the carrier's piece, with the carrier on its left.
     pub line: Segment,
-    /// How far the face has turned about the line when closed, in radians; positive bends away from who looks from outside.
+    /// How far the face has turned about the line when closed, in radians; positive bends away from
+    /// who looks from outside.
     pub angle: f64,
     /// The edge of the model.
     pub edge: EdgeLabel,
@@ -68,12 +69,17 @@ struct Link {
 }
 
 impl<'a> FoldTree<'a> {
-    /// The forest of all folds and of the seams in `joined`, by their places in the net. A tree for every part that hangs
-    /// together by them; its root is in the middle, so that the way to the farthest face is short. Where folds form rings, one
-    /// fold of each ring carries nothing. What names a face that the net does not hold is left out.
+    /// The forest of all folds and of the seams in `joined`, by their places in the net. A tree for
+    /// every part that hangs together by them; its root is in the middle, so that the way to the
+    /// farthest face is short. Where folds form rings, one fold of each ring carries nothing. What
+    /// names a face that the net does not hold is left out.
     pub fn new(net: &'a Net, joined: &[usize]) -> Self {
-        let flat: Vec<(usize, usize)> =
-            net.pieces.iter().enumerate().flat_map(|(i, p)| (0..p.faces.len()).map(move |f| (i, f))).collect();
+        let flat: Vec<(usize, usize)> = net
+            .pieces
+            .iter()
+            .enumerate()
+            .flat_map(|(i, p)| (0..p.faces.len()).map(move |f| (i, f)))
+            .collect();
         let numbers: HashMap<usize, usize> =
             flat.iter().enumerate().map(|(k, &(i, f))| (net.pieces[i].faces[f].face, k)).collect();
         let links = links(net, joined, &numbers, flat.len());
@@ -87,7 +93,13 @@ impl<'a> FoldTree<'a> {
         tree
     }
 
-    fn grow(&mut self, flat: &[(usize, usize)], links: &[Vec<Link>], root: usize, seen: &mut [bool]) {
+    fn grow(
+        &mut self,
+        flat: &[(usize, usize)],
+        links: &[Vec<Link>],
+        root: usize,
+        seen: &mut [bool],
+    ) {
         let first = self.leaves.len();
         let mut queue = VecDeque::from([(root, None::<Hinge>)]);
         seen[root] = true;
@@ -100,7 +112,10 @@ impl<'a> FoldTree<'a> {
             for link in &links[k] {
                 if !std::mem::replace(&mut seen[link.to], true) {
                     let Link { line, angle, edge, kind, lay, .. } = *link;
-                    queue.push_back((link.to, Some(Hinge { parent: place, line, angle, edge, kind, lay })));
+                    queue.push_back((
+                        link.to,
+                        Some(Hinge { parent: place, line, angle, edge, kind, lay }),
+                    ));
                 }
             }
         }
@@ -126,7 +141,8 @@ impl<'a> FoldTree<'a> {
         self.places.get(&face).copied()
     }
 
-    /// The leaves on the way between two of one tree whose hinges lie between them, in no order; `None` between two trees.
+    /// The leaves on the way between two of one tree whose hinges lie between them, in no order;
+    /// `None` between two trees.
     pub fn way(&self, a: usize, b: usize) -> Option<Vec<usize>> {
         let (mut a, mut b) = (a, b);
         let mut way = Vec::new();
@@ -138,8 +154,13 @@ impl<'a> FoldTree<'a> {
         Some(way)
     }
 
-    /// Where every face lies, given where the roots lie and how far each hinge has turned: 0 for flat, 1 for closed.
-    pub fn poses(&self, root: impl Fn(&Leaf) -> Pose, share: impl Fn(usize, &Hinge) -> f64) -> Vec<Pose> {
+    /// Where every face lies, given where the roots lie and how far each hinge has turned: 0 for
+    /// flat, 1 for closed.
+    pub fn poses(
+        &self,
+        root: impl Fn(&Leaf) -> Pose,
+        share: impl Fn(usize, &Hinge) -> f64,
+    ) -> Vec<Pose> {
         let mut poses: Vec<Pose> = Vec::with_capacity(self.leaves.len());
         for (i, leaf) in self.leaves.iter().enumerate() {
             let pose = match &leaf.hinge {
@@ -153,7 +174,8 @@ impl<'a> FoldTree<'a> {
 }
 
 impl Hinge {
-    /// Where the frame of the face lies in that of its carrier when a share of the whole angle is turned.
+    /// Where the frame of the face lies in that of its carrier when a share of the whole angle is
+    /// turned.
     pub fn turned(&self, share: f64) -> Pose {
         let [a, b] = self.line.map(|p| p.extend(0.0));
         let axis = (b - a).normalize_or(glam::DVec3::X);
@@ -162,18 +184,25 @@ impl Hinge {
     }
 }
 
-fn links(net: &Net, joined: &[usize], numbers: &HashMap<usize, usize>, count: usize) -> Vec<Vec<Link>> {
+fn links(
+    net: &Net,
+    joined: &[usize],
+    numbers: &HashMap<usize, usize>,
+    count: usize,
+) -> Vec<Vec<Link>> {
     let mut links: Vec<Vec<Link>> = (0..count).map(|_| Vec::new()).collect();
-    let flat: HashMap<usize, &FlatFace> = net.pieces.iter().flat_map(|p| &p.faces).map(|f| (f.face, f)).collect();
+    let flat: HashMap<usize, &FlatFace> =
+        net.pieces.iter().flat_map(|p| &p.faces).map(|f| (f.face, f)).collect();
     let side = |face: usize, edge, segment| flat.get(&face).and_then(|f| f.side(edge, segment));
-    let mut add =
-        |faces: [usize; 2], lines: [Option<Segment>; 2], (edge, degrees, kind): (EdgeLabel, f64, HingeKind)| {
-            let [Some(&a), Some(&b)] = faces.map(|f| numbers.get(&f)) else { return };
-            let [Some(own), Some(other)] = lines else { return };
-            let angle = degrees.to_radians();
-            links[a].push(Link { to: b, line: own, angle, edge, kind, lay: laid(own, other, kind) });
-            links[b].push(Link { to: a, line: other, angle, edge, kind, lay: laid(other, own, kind) });
-        };
+    let mut add = |faces: [usize; 2],
+                   lines: [Option<Segment>; 2],
+                   (edge, degrees, kind): (EdgeLabel, f64, HingeKind)| {
+        let [Some(&a), Some(&b)] = faces.map(|f| numbers.get(&f)) else { return };
+        let [Some(own), Some(other)] = lines else { return };
+        let angle = degrees.to_radians();
+        links[a].push(Link { to: b, line: own, angle, edge, kind, lay: laid(own, other, kind) });
+        links[b].push(Link { to: a, line: other, angle, edge, kind, lay: laid(other, own, kind) });
+    };
     for fold in &net.folds {
         let lines = fold.faces.map(|f| side(f, fold.edge, fold.segment));
         add(fold.faces, lines, (fold.id, fold.fold_angle, HingeKind::Fold));
@@ -185,7 +214,8 @@ fn links(net: &Net, joined: &[usize], numbers: &HashMap<usize, usize>, count: us
     links
 }
 
-/// The flat movement that lays the line `other` backwards onto `own`; none at a fold, whose lines are one.
+/// The flat movement that lays the line `other` backwards onto `own`; none at a fold, whose lines
+/// are one.
 fn laid(own: Segment, other: Segment, kind: HingeKind) -> Pose {
     if kind == HingeKind::Fold {
         return Pose::IDENTITY;
@@ -193,7 +223,10 @@ fn laid(own: Segment, other: Segment, kind: HingeKind) -> Pose {
     let (to, from) = (own[0] - own[1], other[1] - other[0]);
     let rotation = DQuat::from_rotation_z(from.angle_to(to));
     let shift: DVec2 = own[0].midpoint(own[1]);
-    Pose { rotation, translation: shift.extend(0.0) - rotation * other[0].midpoint(other[1]).extend(0.0) }
+    Pose {
+        rotation,
+        translation: shift.extend(0.0) - rotation * other[0].midpoint(other[1]).extend(0.0),
+    }
 }
 
 /// The face in the middle of a longest way through the part that holds `start`.

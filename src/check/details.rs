@@ -5,8 +5,8 @@ use glam::DVec3;
 use crate::measure::{self, conical_residual_of};
 use crate::mesh::{EdgeId, FaceMap, Mesh, VertexId};
 
-/// What a report tells of each vertex and each edge. Worked out apart from the [`Report`](super::Report), since most
-/// checks do not need it.
+/// What a report tells of each vertex and each edge. Worked out apart from the
+/// [`Report`](super::Report), since most checks do not need it.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Details {
     /// The vertices that have an edge, ascending.
@@ -24,7 +24,8 @@ pub struct VertexDetail {
     pub valence: usize,
     /// Whether it lies on a rim.
     pub is_on_rim: bool,
-    /// By how many mm per mm of thickness plates miss each other there ([`measure::conical_residual`]).
+    /// By how many mm per mm of thickness plates miss each other there
+    /// ([`measure::conical_residual`]).
     pub residual: Option<f64>,
     /// 360° minus the face angles around it ([`measure::angle_deficit`]), in degrees.
     pub deficit_degrees: Option<f64>,
@@ -39,7 +40,8 @@ pub struct EdgeDetail {
     pub ends: [VertexId; 2],
     /// Its length, in mm.
     pub length_mm: f64,
-    /// The interior angle between its faces ([`measure::dihedral_angle`]), in degrees in [0, 360); `None` at a rim.
+    /// The interior angle between its faces ([`measure::dihedral_angle`]), in degrees in [0, 360);
+    /// `None` at a rim.
     pub dihedral_degrees: Option<f64>,
 }
 
@@ -79,8 +81,18 @@ mod tests {
         let found = details(&cube());
         assert_eq!((found.vertices.len(), found.edges.len()), (8, 12));
         assert!(found.vertices.iter().all(|v| v.valence == 3 && !v.is_on_rim));
-        assert!(found.vertices.iter().all(|v| v.deficit_degrees.is_some_and(|d| (d - 90.0).abs() < 1e-12)));
-        assert!(found.edges.iter().all(|e| e.dihedral_degrees.is_some_and(|d| (d - 90.0).abs() < 1e-12)));
+        assert!(
+            found
+                .vertices
+                .iter()
+                .all(|v| v.deficit_degrees.is_some_and(|d| (d - 90.0).abs() < 1e-12))
+        );
+        assert!(
+            found
+                .edges
+                .iter()
+                .all(|e| e.dihedral_degrees.is_some_and(|d| (d - 90.0).abs() < 1e-12))
+        );
         assert!(found.edges.iter().all(|e| e.length_mm == 2.0));
     }
 

@@ -48,13 +48,22 @@ fn degenerate_face(mesh: &Mesh, f: FaceId, bound: f64) -> Option<Finding> {
         message,
     };
     if sides < 3 {
-        return Some(finding(sides as f64, 3.0, Unit::Sides, format!("face {f} has {sides} sides; a face needs 3")));
+        return Some(finding(
+            sides as f64,
+            3.0,
+            Unit::Sides,
+            format!("face {f} has {sides} sides; a face needs 3"),
+        ));
     }
     let diameter = face_diameter(mesh, f);
     // The width of a triangle over its longest side.
     let width = if diameter > 0.0 { 2.0 * face_area(mesh, f) / diameter } else { 0.0 };
     (width <= bound).then(|| {
-        let message = format!("face {f} has no area: it is {} mm long and {} mm wide", short(diameter), short(width));
+        let message = format!(
+            "face {f} has no area: it is {} mm long and {} mm wide",
+            short(diameter),
+            short(width)
+        );
         finding(width, bound, Unit::Mm, message)
     })
 }
@@ -70,7 +79,10 @@ fn zero_length_edge(mesh: &Mesh, e: EdgeId, bound: f64) -> Option<Finding> {
         measured: length,
         limit: bound,
         unit: Unit::Mm,
-        message: format!("the edge between vertices {a} and {b} has no length ({} mm)", short(length)),
+        message: format!(
+            "the edge between vertices {a} and {b} has no length ({} mm)",
+            short(length)
+        ),
     })
 }
 
@@ -84,7 +96,10 @@ fn self_intersection(mesh: &Mesh, f: FaceId) -> Option<Finding> {
         measured: 1.0,
         limit: 0.0,
         unit: Unit::Contacts,
-        message: format!("the outline of face {f} meets itself: its sides {a}-{b} and {c}-{d} cross, touch or overlap"),
+        message: format!(
+            "the outline of face {f} meets itself: its sides {a}-{b} and {c}-{d} cross, touch or \
+            overlap"
+        ),
     })
 }
 
@@ -99,7 +114,8 @@ fn planarity(report: &Report) -> impl Iterator<Item = Finding> + '_ {
             limit: breach.limit,
             unit: breach.unit,
             message: format!(
-                "face {} ({} sides) is {} mm off its plane, {} per mille of its size, turned by {} degrees; allowed: {} {}",
+                "face {} ({} sides) is {} mm off its plane, {} per mille of its size, turned by {} \
+                degrees; allowed: {} {}",
                 f.face,
                 f.sides,
                 short(f.planarity.mm),
@@ -155,13 +171,26 @@ fn convex(mesh: &Mesh, report: &Report) -> Vec<Finding> {
     findings.extend(report.convexity.concave_faces.iter().map(|&f| concave_face(mesh, f)));
     findings.extend(report.convexity.concave_edges.iter().map(|&e| concave_edge(mesh, e)));
     if findings.is_empty() && !report.is_convex() {
-        findings.push(not_convex(0.0, 1.0, Unit::Windings, "the surface does not wind once around its middle".into()));
+        findings.push(not_convex(
+            0.0,
+            1.0,
+            Unit::Windings,
+            "the surface does not wind once around its middle".into(),
+        ));
     }
     findings
 }
 
 fn not_convex(measured: f64, limit: f64, unit: Unit, message: String) -> Finding {
-    Finding { check: CheckKind::Convex, element: Element::Model, id: 0, measured, limit, unit, message }
+    Finding {
+        check: CheckKind::Convex,
+        element: Element::Model,
+        id: 0,
+        measured,
+        limit,
+        unit,
+        message,
+    }
 }
 
 fn not_a_ball(report: &Report) -> Option<Finding> {
@@ -171,13 +200,15 @@ fn not_a_ball(report: &Report) -> Option<Finding> {
         (model.genus, 0, Unit::Handles, "it has handles"),
         (model.components, 1, Unit::Components, "it is not one part"),
     ];
-    let (measured, limit, unit, why) = cases.into_iter().find(|&(count, allowed, ..)| count != allowed)?;
+    let (measured, limit, unit, why) =
+        cases.into_iter().find(|&(count, allowed, ..)| count != allowed)?;
     let message = format!("the model cannot be convex: {why} ({measured} {unit})");
     Some(not_convex(measured as f64, limit as f64, unit, message))
 }
 
 fn concave_face(mesh: &Mesh, f: FaceId) -> Finding {
-    let angles = mesh.face_half_edges(f).filter_map(|h| measure::corner_angle(mesh, h).map(f64::to_degrees));
+    let angles =
+        mesh.face_half_edges(f).filter_map(|h| measure::corner_angle(mesh, h).map(f64::to_degrees));
     let widest = angles.fold(180.0, f64::max);
     Finding {
         check: CheckKind::Convex,
@@ -218,8 +249,9 @@ fn manifold(mesh: &Mesh, _: &Report) -> Vec<Finding> {
     let mut vertices: Vec<VertexId> = mesh.vertices().collect();
     vertices.sort_unstable_by(by_place);
     let shared = vertices.chunk_by(|&v, &u| key(v) == key(u)).filter(|group| group.len() > 1);
-    let mut findings: Vec<Finding> =
-        shared.flat_map(|group| group[1..].iter().map(|&v| doubled(v, group[0], group.len()))).collect();
+    let mut findings: Vec<Finding> = shared
+        .flat_map(|group| group[1..].iter().map(|&v| doubled(v, group[0], group.len())))
+        .collect();
     findings.sort_by_key(|finding| finding.id);
     findings
 }
@@ -233,7 +265,8 @@ fn doubled(v: VertexId, first: VertexId, count: usize) -> Finding {
         limit: 1.0,
         unit: Unit::Vertices,
         message: format!(
-            "vertex {v} lies at the same place as vertex {first}: the surface touches itself or is not welded there"
+            "vertex {v} lies at the same place as vertex {first}: the surface touches itself or is \
+            not welded there"
         ),
     }
 }
@@ -251,7 +284,10 @@ fn one_component(mesh: &Mesh, report: &Report) -> Vec<Finding> {
         measured: count as f64,
         limit: 1.0,
         unit: Unit::Components,
-        message: format!("the model has {count} parts that do not hang together; they hold vertices {}", named(seeds)),
+        message: format!(
+            "the model has {count} parts that do not hang together; they hold vertices {}",
+            named(seeds)
+        ),
     }]
 }
 
@@ -266,14 +302,19 @@ fn named(vertices: impl Iterator<Item = VertexId>) -> String {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::{CheckKind, CheckParams, Element, Profile, Report, Requirement, Unit, Verdict, check};
-    use crate::measure::fixtures::{CUBE_FACES, cube, cube_corners, ell_prism, octahedron, open_box, torus};
+    use crate::check::{
+        CheckKind, CheckParams, Element, Profile, Report, Requirement, Unit, Verdict, check,
+    };
+    use crate::measure::fixtures::{
+        CUBE_FACES, cube, cube_corners, ell_prism, octahedron, open_box, torus,
+    };
     use crate::mesh::{Mesh, VertexId};
     use crate::units::Length;
     use glam::DVec3;
 
     fn with(mesh: &Mesh, require: &[Requirement]) -> Report {
-        check(mesh, &CheckParams { require: require.to_vec(), ..CheckParams::default() }).expect("good limits")
+        check(mesh, &CheckParams { require: require.to_vec(), ..CheckParams::default() })
+            .expect("good limits")
     }
 
     fn found(report: &Report) -> Vec<(CheckKind, Element, usize)> {
@@ -312,7 +353,8 @@ mod tests {
             assert!(found.is_empty() || found == [(CheckKind::Planarity, Element::Face, 0)]);
             !found.is_empty()
         };
-        // Only the bottom leaves its plane: by a quarter of the step in mm, 1.8 and 3.5 per mille, 0.4 and 0.8 degrees.
+        // Only the bottom leaves its plane: by a quarter of the step in mm, 1.8 and 3.5 per mille,
+        // 0.4 and 0.8 degrees.
         assert_eq!(Profile::ALL.map(|p| fails(0.02, p)), [true, false, false, false]);
         assert_eq!(Profile::ALL.map(|p| fails(0.04, p)), [true, true, false, true]);
         let mesh = bent(0.02);
@@ -331,17 +373,24 @@ mod tests {
         for mesh in [&open, &peaks, &ell, &torus(5, 4)] {
             assert!(!with(mesh, &[Requirement::Planar]).has_findings());
         }
-        assert_eq!(found(&with(&open, &[Requirement::Closed])), [(CheckKind::Closed, Element::Rim, 0)]);
+        assert_eq!(
+            found(&with(&open, &[Requirement::Closed])),
+            [(CheckKind::Closed, Element::Rim, 0)]
+        );
         assert_eq!(found(&with(&open, &[Requirement::Valence3])), []);
         let report = with(&peaks, &[Requirement::Valence3]);
         assert_eq!(report.findings.len(), 6);
         assert_eq!((report.findings[5].id, report.findings[5].measured), (5, 4.0));
         assert!(report.conical.iter().all(|node| node.residual.is_some_and(|r| r < 1e-14)));
         let report = with(&ell, &[Requirement::Convex]);
-        let kinds: Vec<_> = report.findings.iter().map(|f| (f.element, f.measured.round())).collect();
+        let kinds: Vec<_> =
+            report.findings.iter().map(|f| (f.element, f.measured.round())).collect();
         assert_eq!(kinds, [(Element::Face, 270.0), (Element::Face, 270.0), (Element::Edge, 90.0)]);
         let report = with(&torus(5, 4), &[Requirement::Convex]);
-        assert_eq!((report.findings[0].element, report.findings[0].unit), (Element::Model, Unit::Handles));
+        assert_eq!(
+            (report.findings[0].element, report.findings[0].unit),
+            (Element::Model, Unit::Handles)
+        );
     }
 
     #[test]
@@ -350,9 +399,13 @@ mod tests {
         let mut points = cube_corners();
         points.extend(cube_corners().into_iter().skip(1).map(|p| p + 2.0));
         let second = CUBE_FACES.map(|f| f.map(|i| if i == 0 { 7 } else { i + 7 }));
-        let mesh = Mesh::from_faces(points, CUBE_FACES.into_iter().chain(second)).expect("two cubes");
+        let mesh =
+            Mesh::from_faces(points, CUBE_FACES.into_iter().chain(second)).expect("two cubes");
         let report = with(&mesh, &[Requirement::Manifold, Requirement::OneComponent]);
-        let wanted = [(CheckKind::Manifold, Element::Vertex, 15), (CheckKind::OneComponent, Element::Model, 0)];
+        let wanted = [
+            (CheckKind::Manifold, Element::Vertex, 15),
+            (CheckKind::OneComponent, Element::Model, 0),
+        ];
         assert_eq!(found(&report), wanted);
     }
 

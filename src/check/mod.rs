@@ -1,7 +1,8 @@
 //! Findings against limits, as data.
 //!
-//! [`check`] measures a mesh and compares it with the limits of a [`Profile`] and with what the user requires. It prints
-//! nothing and decides nothing but pass or fail; the writers in `io` show the [`Report`].
+//! [`check`] measures a mesh and compares it with the limits of a [`Profile`] and with what the
+//! user requires. It prints nothing and decides nothing but pass or fail; the writers in `io` show
+//! the [`Report`].
 
 mod details;
 mod findings;
@@ -14,6 +15,7 @@ pub use details::{Details, EdgeDetail, VertexDetail, details};
 pub use params::{CheckError, CheckParams, Requirement};
 pub use profile::{Breach, Limits, Profile, Unit};
 pub use report::{
-    CheckKind, ConicalNode, Element, FaceReport, Finding, ModelCounts, Report, ValenceReport, Verdict, check,
+    CheckKind, ConicalNode, Element, FaceReport, Finding, ModelCounts, Report, ValenceReport,
+    Verdict, check,
 };
 pub(crate) use short::short;

@@ -12,20 +12,26 @@ use crate::units::{Angle, Length};
 
 /// What to check, and how strictly.
 ///
-/// The default profile is `glass`: of those that a shop can use it is the strictest, and it works at every size, since it
-/// limits the deviation in mm and relative to the face. `exact` would fail every file with seven digits, and `plywood` would
-/// pass anything that is drawn in metres.
+/// The default profile is `glass`: of those that a shop can use it is the strictest, and it works
+/// at every size, since it limits the deviation in mm and relative to the face. `exact` would fail
+/// every file with seven digits, and `plywood` would pass anything that is drawn in metres.
 #[derive(Debug, Clone, PartialEq, Default, clap::Args, Deserialize)]
 pub struct CheckParams {
-    /// How planar faces must be: `exact` (1e-9 of the face's diameter), `glass` (2 per mille and 1 mm), `plywood` (1 mm) or
-    /// `paper` (0.5 degrees). These are kerfold's defaults, not norms.
+    /// How planar faces must be: `exact` (1e-9 of the face's diameter), `glass` (2 per mille and 1
+    /// mm), `plywood` (1 mm) or `paper` (0.5 degrees). These are kerfold's defaults, not norms.
     #[arg(long, value_enum, default_value = "glass")]
     #[serde(default)]
     pub profile: Profile,
 
-    /// What else the model must be, separated by commas: `planar` (always checked), `valence3`, `closed`, `convex`,
-    /// `manifold`, `one-component`. What is broken becomes a finding.
-    #[arg(long, value_enum, value_delimiter = ',', value_name = "LIST", hide_possible_values = true)]
+    /// What else the model must be, separated by commas: `planar` (always checked), `valence3`,
+    /// `closed`, `convex`, `manifold`, `one-component`. What is broken becomes a finding.
+    #[arg(
+        long,
+        value_enum,
+        value_delimiter = ',',
+        value_name = "LIST",
+        hide_possible_values = true
+    )]
     #[serde(default, deserialize_with = "list")]
     pub require: Vec<Requirement>,
 
@@ -39,7 +45,8 @@ pub struct CheckParams {
     #[serde(default)]
     pub max_permille: Option<f64>,
 
-    /// Largest angle between a face's normal and that of a corner, instead of the profile's; 0 or more.
+    /// Largest angle between a face's normal and that of a corner, instead of the profile's; 0 or
+    /// more.
     #[arg(long, value_name = "ANGLE")]
     #[serde(default)]
     pub max_degrees: Option<Angle>,
@@ -58,7 +65,8 @@ pub enum Requirement {
     Closed,
     /// The model bounds a convex solid.
     Convex,
-    /// No two vertices share a place: the surface does not touch itself at a vertex or along an edge.
+    /// No two vertices share a place: the surface does not touch itself at a vertex or along an
+    /// edge.
     Manifold,
     /// Everything hangs together.
     OneComponent,
@@ -105,7 +113,8 @@ impl CheckParams {
         Ok(Limits {
             mm: limit("max_mm", self.max_mm.map(Length::mm))?.or(profile.mm),
             permille: limit("max_permille", self.max_permille)?.or(profile.permille),
-            degrees: limit("max_degrees", self.max_degrees.map(Angle::degrees))?.or(profile.degrees),
+            degrees: limit("max_degrees", self.max_degrees.map(Angle::degrees))?
+                .or(profile.degrees),
         })
     }
 
@@ -117,7 +126,9 @@ impl CheckParams {
 
 fn limit(name: &'static str, value: Option<f64>) -> Result<Option<f64>, CheckError> {
     match value {
-        Some(value) if !value.is_finite() || value < 0.0 => Err(CheckError::BadLimit { name, value }),
+        Some(value) if !value.is_finite() || value < 0.0 => {
+            Err(CheckError::BadLimit { name, value })
+        }
         fine => Ok(fine),
     }
 }
@@ -177,7 +188,8 @@ fn name_of<T: ValueEnum>(value: &T) -> String {
     value.to_possible_value().map(|v| v.get_name().to_owned()).unwrap_or_default()
 }
 
-/// Number of characters to insert, remove or replace to make one word of the other (Levenshtein 1966).
+/// Number of characters to insert, remove or replace to make one word of the other (Levenshtein
+/// 1966).
 fn edits(a: &str, b: &str) -> usize {
     let b: Vec<char> = b.chars().collect();
     let mut row: Vec<usize> = (0..=b.len()).collect();
@@ -211,7 +223,8 @@ mod tests {
 
     #[test]
     fn the_three_doors_read_the_same() {
-        let words = ["--profile", "paper", "--require", "valence3,one-component", "--max-mm", "1/8in"];
+        let words =
+            ["--profile", "paper", "--require", "valence3,one-component", "--max-mm", "1/8in"];
         let wanted = CheckParams {
             profile: Profile::Paper,
             require: vec![Requirement::Valence3, Requirement::OneComponent],
@@ -234,9 +247,15 @@ mod tests {
         let error = "planer".parse::<Requirement>().expect_err("no such name");
         assert_eq!(
             error.to_string(),
-            "`planer` is not a requirement; did you mean `planar`? Known: planar, valence3, closed, convex, manifold, one-component"
+            "`planer` is not a requirement; did you mean `planar`? Known: planar, valence3, \
+            closed, convex, manifold, one-component"
         );
-        assert!(typed(&["--require", "planar,clozed"]).expect_err("no such name").to_string().contains("'closed'"));
+        assert!(
+            typed(&["--require", "planar,clozed"])
+                .expect_err("no such name")
+                .to_string()
+                .contains("'closed'")
+        );
         let recipe = toml::from_str::<CheckParams>("profile = 'gloss'").expect_err("no such name");
         assert!(recipe.to_string().contains("did you mean `glass`?"), "{recipe}");
     }
@@ -245,7 +264,10 @@ mod tests {
     fn bad_limits_are_refused() {
         for bad in [-1.0, f64::NAN, f64::INFINITY] {
             let params = CheckParams { max_permille: Some(bad), ..CheckParams::default() };
-            assert!(matches!(params.limits(), Err(CheckError::BadLimit { name: "max_permille", .. })));
+            assert!(matches!(
+                params.limits(),
+                Err(CheckError::BadLimit { name: "max_permille", .. })
+            ));
         }
         assert!(typed(&["--max-permille", "nan"]).is_err());
     }

@@ -4,10 +4,12 @@ use std::fmt;
 
 use crate::measure::Planarity;
 
-/// A named set of planarity limits (`operators.md` 11). They are kerfold's own defaults, not norms: ask your supplier.
+/// A named set of planarity limits (`operators.md` 11). They are kerfold's own defaults, not norms:
+/// ask your supplier.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, clap::ValueEnum)]
 pub enum Profile {
-    /// Planar up to rounding: 1e-9 of the face's diameter. For models made by kerfold; files with few digits fail it.
+    /// Planar up to rounding: 1e-9 of the face's diameter. For models made by kerfold; files with
+    /// few digits fail it.
     Exact,
     /// 2 per mille of the face's diameter, and 1 mm.
     #[default]
@@ -49,7 +51,8 @@ impl fmt::Display for Profile {
     }
 }
 
-/// The largest allowed value of each measure; `None` sets no limit. A value equal to its limit is allowed.
+/// The largest allowed value of each measure; `None` sets no limit. A value equal to its limit is
+/// allowed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Limits {
     /// Distance of a corner from the least-squares plane, in mm.
@@ -83,7 +86,8 @@ impl Limits {
         broken.reduce(|worst, m| if m.share() > worst.share() { m } else { worst })
     }
 
-    /// How much of its tightest limit a face uses: above 1 it breaks it. Zero when there is no limit.
+    /// How much of its tightest limit a face uses: above 1 it breaks it. Zero when there is no
+    /// limit.
     pub fn share(&self, planarity: &Planarity) -> f64 {
         self.measures(planarity).map(|m| m.share()).fold(0.0, f64::max)
     }
@@ -94,7 +98,9 @@ impl Limits {
             (planarity.permille, self.permille, Unit::Permille),
             (planarity.degrees, self.degrees, Unit::Degrees),
         ];
-        measures.into_iter().filter_map(|(measured, limit, unit)| Some(Breach { measured, limit: limit?, unit }))
+        measures
+            .into_iter()
+            .filter_map(|(measured, limit, unit)| Some(Breach { measured, limit: limit?, unit }))
     }
 }
 

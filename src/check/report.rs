@@ -27,7 +27,8 @@ pub struct Report {
     pub worst: Planarity,
     /// Each profile, and whether all faces keep its own limits.
     pub profiles: [(Profile, bool); 4],
-    /// The largest distance of a corner from the plane that its face carries, in mm; `None` when no face carries one.
+    /// The largest distance of a corner from the plane that its face carries, in mm; `None` when no
+    /// face carries one.
     pub carried_mm: Option<f64>,
     /// Valences.
     pub valence: ValenceReport,
@@ -89,7 +90,8 @@ pub struct ConicalNode {
     pub vertex: VertexId,
     /// Number of its edges.
     pub valence: usize,
-    /// By how many mm per mm of thickness plates miss each other there ([`measure::conical_residual`]).
+    /// By how many mm per mm of thickness plates miss each other there
+    /// ([`measure::conical_residual`]).
     pub residual: Option<f64>,
 }
 
@@ -175,9 +177,10 @@ pub enum Verdict {
 
 /// Measures a mesh and compares it with the limits and requirements of `params`.
 ///
-/// Always findings: faces beyond the planarity limits, without area or with an outline that meets itself, and edges without
-/// length (shorter than the rounding bound, 1e-12 of the model). Only when required: valence, rims, convexity, vertices at
-/// one place, several components; these are still reported as data.
+/// Always findings: faces beyond the planarity limits, without area or with an outline that meets
+/// itself, and edges without length (shorter than the rounding bound, 1e-12 of the model). Only
+/// when required: valence, rims, convexity, vertices at one place, several components; these are
+/// still reported as data.
 ///
 /// # Errors
 /// [`CheckError::BadLimit`] when a limit is negative or not finite.
@@ -202,8 +205,15 @@ pub fn check(mesh: &Mesh, params: &CheckParams) -> Result<Report, CheckError> {
         worst: faces.iter().fold(Planarity::default(), |worst, f| largest(worst, f.planarity)),
         profiles: Profile::ALL.map(|p| (p, faces.iter().all(|f| p.limits().allow(&f.planarity)))),
         carried_mm: mesh.faces().filter_map(|f| plane_deviation(mesh, f)).reduce(f64::max),
-        valence: ValenceReport { histogram: measure::valence_histogram(mesh), other: measure::other_valences(mesh) },
-        concave_ends: convexity.concave_edges.iter().map(|&e: &EdgeId| mesh.edge_vertices(e)).collect(),
+        valence: ValenceReport {
+            histogram: measure::valence_histogram(mesh),
+            other: measure::other_valences(mesh),
+        },
+        concave_ends: convexity
+            .concave_edges
+            .iter()
+            .map(|&e: &EdgeId| mesh.edge_vertices(e))
+            .collect(),
         conical: conical_nodes(mesh),
         convexity,
         faces,
@@ -280,7 +290,11 @@ fn conical_nodes(mesh: &Mesh) -> Vec<ConicalNode> {
     }
     let node = |(vertex, valence)| {
         let around: Option<Vec<DVec3>> = mesh.vertex_faces(vertex).map(|f| normals[f]).collect();
-        ConicalNode { vertex, valence, residual: around.and_then(|n| measure::conical_residual_of(&n)) }
+        ConicalNode {
+            vertex,
+            valence,
+            residual: around.and_then(|n| measure::conical_residual_of(&n)),
+        }
     };
     crowded.into_iter().map(node).collect()
 }

@@ -1,6 +1,7 @@
 //! Numbers as people read them in messages.
 
-/// A number with four digits, without trailing zeros; very small and very large ones with an exponent.
+/// A number with four digits, without trailing zeros; very small and very large ones with an
+/// exponent.
 pub(crate) fn short(x: f64) -> String {
     let size = x.abs();
     if x == 0.0 {
@@ -11,7 +12,11 @@ pub(crate) fn short(x: f64) -> String {
         // Whole digits are never rounded away; behind the point four digits in all are left.
         let decimals = (3 - size.log10().floor() as i32).clamp(0, 7) as usize;
         let text = format!("{x:.decimals$}");
-        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+        if text.contains('.') {
+            text.trim_end_matches('0').trim_end_matches('.').to_owned()
+        } else {
+            text
+        }
     }
 }
 

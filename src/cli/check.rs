@@ -18,21 +18,24 @@ use crate::mesh::Mesh;
 use crate::picture::{RenderParams, UpAxis, View};
 use crate::recipe::report_pictures;
 
-/// Measure planarity, valence, manifoldness, convexity and genus against limits; exit code 1 when something breaks them
+/// Measure planarity, valence, manifoldness, convexity and genus against limits; exit code 1 when
+/// something breaks them
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Example: kerfold check facade.obj --profile glass --require planar,valence3 --report facade.json"
+    after_help = "Example: kerfold check facade.obj --profile glass --require planar,valence3 \
+    --report facade.json"
 )]
 pub(super) struct CheckArgs {
     #[command(flatten)]
     input: Input,
     #[command(flatten)]
     check: CheckParams,
-    /// Also write the report to a file: .html (one page with pictures), .pdf (the same on A4), .json or .csv
+    /// Also write the report to a file: .html (one page with pictures), .pdf (the same on A4),
+    /// .json or .csv
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
-    /// Rows of the lists of vertices and edges in JSON, and of all lists in HTML and PDF: without it JSON has none of the
-    /// two, the others the worst
+    /// Rows of the lists of vertices and edges in JSON, and of all lists in HTML and PDF: without
+    /// it JSON has none of the two, the others the worst
     #[arg(long, value_enum, default_value_t)]
     rows: ReportRows,
     /// Where to look from in the pictures of the report, as in `render`
@@ -50,7 +53,9 @@ pub(super) fn run(args: &CheckArgs, console: &Console) -> Result<Outcome, CliErr
     let command = command_line();
     if let Some((path, format)) = args.report.as_ref().zip(format) {
         let bytes = match format {
-            ReportFormat::Html => page(args, &read.mesh, &report, |page| check_html(page).into_bytes(), &command)?,
+            ReportFormat::Html => {
+                page(args, &read.mesh, &report, |page| check_html(page).into_bytes(), &command)?
+            }
             ReportFormat::Pdf => page(args, &read.mesh, &report, check_pdf, &command)?,
             ReportFormat::Json => json(args, &read.mesh, &report, &command).into_bytes(),
             ReportFormat::Csv => check_csv(&report, &command).into_bytes(),
@@ -58,7 +63,11 @@ pub(super) fn run(args: &CheckArgs, console: &Console) -> Result<Outcome, CliErr
         write_file(path, &bytes)?;
     }
     console.notes(&read.notes);
-    let text = if console.json { json(args, &read.mesh, &report, &command) } else { check_text(&report, &command) };
+    let text = if console.json {
+        json(args, &read.mesh, &report, &command)
+    } else {
+        check_text(&report, &command)
+    };
     console.result(&text)?;
     Ok(if report.has_findings() { Outcome::Findings } else { Outcome::Clean })
 }
@@ -81,7 +90,14 @@ fn page(
     let title = args.input.input.file_name().map_or("model".into(), |name| name.to_string_lossy());
     let title = if title == "-" { "model".into() } else { title };
     let details = details(mesh);
-    let page = ReportPage { title: &title, report, details: &details, pictures: &pictures, rows: args.rows, command };
+    let page = ReportPage {
+        title: &title,
+        report,
+        details: &details,
+        pictures: &pictures,
+        rows: args.rows,
+        command,
+    };
     Ok(write(&page))
 }
 

@@ -11,14 +11,15 @@ use super::terminal::Terminal;
 use super::{Console, Outcome};
 use crate::mesh::Mesh;
 use crate::op::{
-    CutReport, Keep, OpContext, OpError, ResolveParams, SliceParams, TruncateEdge, TruncateFace, TruncateVertex,
-    resolve, slice, slice_both, truncate_edges, truncate_faces, truncate_vertices,
+    CutReport, Keep, OpContext, OpError, ResolveParams, SliceParams, TruncateEdge, TruncateFace,
+    TruncateVertex, resolve, slice, slice_both, truncate_edges, truncate_faces, truncate_vertices,
 };
 use crate::units::Length;
 
 /// Cut a mesh by a plane, or its vertices, edges or faces by planes that they set themselves
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Example: kerfold cut edge cube.obj --select 0 --offset 0.2 --repeat 3 -o rounded.obj")]
+#[command(after_help = "Example: kerfold cut edge cube.obj --select 0 --offset 0.2 --repeat 3 -o \
+    rounded.obj")]
 pub(super) struct CutArgs {
     #[command(subcommand)]
     what: What,
@@ -27,18 +28,22 @@ pub(super) struct CutArgs {
 #[derive(Debug, Subcommand)]
 enum What {
     /// Cut vertices off
-    #[command(after_help = "Example: kerfold cut vertex cube.obj --select all --offset 0.25 -o truncated.obj")]
+    #[command(after_help = "Example: kerfold cut vertex cube.obj --select all --offset 0.25 -o \
+        truncated.obj")]
     Vertex(CutOf<TruncateVertex>),
     /// Cut edges off; repeated, each becomes a developable strip
     #[command(
-        after_help = "Example: kerfold cut edge dodecahedron.obj --select hamiltonian --offset 0.3 --repeat 4 -o d-form.obj"
+        after_help = "Example: kerfold cut edge dodecahedron.obj --select hamiltonian --offset 0.3 \
+        --repeat 4 -o d-form.obj"
     )]
     Edge(CutOf<TruncateEdge>),
     /// Push faces inwards
     #[command(after_help = "Example: kerfold cut face ball.obj --select 'sides=5' -o pushed.obj")]
     Face(CutOf<TruncateFace>),
     /// Cut by a plane
-    #[command(after_help = "Example: kerfold cut plane spot.obj --normal z --point 0,0,0 -o half.obj")]
+    #[command(
+        after_help = "Example: kerfold cut plane spot.obj --normal z --point 0,0,0 -o half.obj"
+    )]
     Plane(CutOf<SliceParams>),
 }
 
@@ -48,12 +53,12 @@ struct CutOf<T: Args> {
     input: Input,
     #[command(flatten)]
     params: T,
-    /// Afterwards split vertices with more than three edges into 3-valent ones by moving faces inwards, by 0.01mm at most
-    /// or as far as given
+    /// Afterwards split vertices with more than three edges into 3-valent ones by moving faces
+    /// inwards, by 0.01mm at most or as far as given
     #[arg(long, value_name = "DEPTH", num_args = 0..=1, require_equals = true, default_missing_value = "0.01mm")]
     resolve: Option<Length>,
-    /// The mesh to write: OBJ, PLY, STL or OFF; `-` writes OBJ to standard output. With `--keep both` two meshes are
-    /// written, OUT-reverse and OUT-normal
+    /// The mesh to write: OBJ, PLY, STL or OFF; `-` writes OBJ to standard output. With `--keep
+    /// both` two meshes are written, OUT-reverse and OUT-normal
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
 }
@@ -75,14 +80,17 @@ fn both_parts(cut: &CutOf<SliceParams>, console: &Console) -> Result<Outcome, Cl
     }
     let read = cut.input.read()?;
     let progress = Terminal::new(console.quiet);
-    let parts = slice_both(&read.mesh, &cut.params, &OpContext { made: None, progress: &progress })?;
+    let parts =
+        slice_both(&read.mesh, &cut.params, &OpContext { made: None, progress: &progress })?;
     console.notes(&read.notes);
     for (part, side) in parts.into_iter().zip(["reverse", "normal"]) {
         match part {
-            Some((mesh, report)) => cut.finish(mesh, report.notes("plane"), &beside(&cut.output, side), console)?,
-            None => {
-                console.notes(&[format!("nothing lies on the {side} side of the plane; no file was written for it")])
+            Some((mesh, report)) => {
+                cut.finish(mesh, report.notes("plane"), &beside(&cut.output, side), console)?
             }
+            None => console.notes(&[format!(
+                "nothing lies on the {side} side of the plane; no file was written for it"
+            )]),
         }
     }
     Ok(Outcome::Clean)
@@ -91,17 +99,29 @@ fn both_parts(cut: &CutOf<SliceParams>, console: &Console) -> Result<Outcome, Cl
 type Operator<T> = fn(&Mesh, &T, &OpContext<'_>) -> Result<(Mesh, CutReport), OpError>;
 
 impl<T: Args> CutOf<T> {
-    fn run(&self, element: &str, operator: Operator<T>, console: &Console) -> Result<Outcome, CliError> {
+    fn run(
+        &self,
+        element: &str,
+        operator: Operator<T>,
+        console: &Console,
+    ) -> Result<Outcome, CliError> {
         let read = self.input.read()?;
         let progress = Terminal::new(console.quiet);
         let context = OpContext { made: None, progress: &progress };
         let (mesh, report) = operator(&read.mesh, &self.params, &context)?;
-        let notes = read.notes.iter().map(ToString::to_string).chain(report.notes(element)).collect();
+        let notes =
+            read.notes.iter().map(ToString::to_string).chain(report.notes(element)).collect();
         self.finish(mesh, notes, &self.output, console)?;
         Ok(Outcome::Clean)
     }
 
-    fn finish(&self, mut mesh: Mesh, mut notes: Vec<String>, output: &Path, console: &Console) -> Result<(), CliError> {
+    fn finish(
+        &self,
+        mut mesh: Mesh,
+        mut notes: Vec<String>,
+        output: &Path,
+        console: &Console,
+    ) -> Result<(), CliError> {
         if let Some(depth) = self.resolve {
             let params = ResolveParams { depth, ..ResolveParams::default() };
             let (resolved, report) = resolve(&mesh, &params, &OpContext::default())?;

@@ -11,11 +11,15 @@ use crate::recipe::{DformParams, Job, ReadStep, Recipe, ShowParams, Step};
 use crate::shape::{ShapeError, SolidName, SolidParams};
 use crate::sheet::SheetParams;
 
-/// Make a D-form of a solid: choose the folds, carve them into smooth strips, unfold, and lay the pieces out
+/// Make a D-form of a solid: choose the folds, carve them into smooth strips, unfold, and lay the
+/// pieces out
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Example: kerfold dform dodecahedron --size 180mm --rounds 4 --offset 0.3 -o out")]
+#[command(
+    after_help = "Example: kerfold dform dodecahedron --size 180mm --rounds 4 --offset 0.3 -o out"
+)]
 pub(super) struct DformArgs {
-    /// A solid by name, or a closed 3-valent mesh: OBJ, PLY, STL or OFF; `-` reads OBJ from standard input
+    /// A solid by name, or a closed 3-valent mesh: OBJ, PLY, STL or OFF; `-` reads OBJ from
+    /// standard input
     #[arg(value_name = "SOLID")]
     solid: PathBuf,
     #[command(flatten)]
@@ -32,22 +36,31 @@ pub(super) struct DformArgs {
 }
 
 pub(super) fn run(args: &DformArgs, console: &Console) -> Result<Outcome, CliError> {
-    let dform = Step::Dform { dform: args.dform.clone(), sheet: args.sheet.clone(), show: args.show.from_here() };
+    let dform = Step::Dform {
+        dform: args.dform.clone(),
+        sheet: args.sheet.clone(),
+        show: args.show.from_here(),
+    };
     let recipe = Recipe { name: None, steps: vec![args.start()?, dform] };
-    let job = Job::run(&recipe, Path::new(""), &Terminal::new(console.quiet)).map_err(|error| *error.cause)?;
+    let job = Job::run(&recipe, Path::new(""), &Terminal::new(console.quiet))
+        .map_err(|error| *error.cause)?;
     finish(&job, None, &args.output, console)
 }
 
 impl DformArgs {
-    /// A file wins over a solid of the same name; a word without dots and slashes is meant as a name.
+    /// A file wins over a solid of the same name; a word without dots and slashes is meant as a
+    /// name.
     fn start(&self) -> Result<Step, ShapeError> {
-        let word = self.solid.to_str().filter(|text| !text.contains(['.', '/', '\\']) && *text != "-");
+        let word =
+            self.solid.to_str().filter(|text| !text.contains(['.', '/', '\\']) && *text != "-");
         match word.filter(|_| !self.solid.is_file()) {
             Some(name) => {
                 let name: SolidName = name.parse()?;
                 Ok(Step::Solid(SolidParams { name, edge: None, size: self.options.size }))
             }
-            None => Ok(Step::Read(ReadStep { path: self.solid.clone(), options: self.options.clone() })),
+            None => {
+                Ok(Step::Read(ReadStep { path: self.solid.clone(), options: self.options.clone() }))
+            }
         }
     }
 }

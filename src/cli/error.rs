@@ -35,7 +35,8 @@ pub(super) enum CliError {
     Limit(LimitError),
     #[error("{}: {error}", path.display())]
     Artwork { path: PathBuf, error: ArtError },
-    #[error("{}: sheets are written as SVG, DXF, PDF or LightBurn project; name the file something.svg, .dxf, .pdf or .lbrn2", path.display())]
+    #[error("{}: sheets are written as SVG, DXF, PDF or LightBurn project; name the file \
+    something.svg, .dxf, .pdf or .lbrn2", path.display())]
     UnknownSheetFormat { path: PathBuf },
     #[error(transparent)]
     Step(#[from] StepFailure),
@@ -53,20 +54,24 @@ pub(super) enum CliError {
     Unreadable { path: PathBuf, error: io::Error },
     #[error("{}: {error}", path.display())]
     Pieces { path: PathBuf, error: PiecesJsonError },
-    #[error("{}: the scale is {scale}; it must be a number above 0, the factor from the model's unit to millimetres", path.display())]
+    #[error("{}: the scale is {scale}; it must be a number above 0, the factor from the model's \
+    unit to millimetres", path.display())]
     Scale { path: PathBuf, scale: f64 },
     #[error("{}: this must be text in UTF-8, but byte {at} is not", path.display())]
     NotText { path: PathBuf, at: usize },
     #[error("{}: pictures are written as PNG; name the file something.png", path.display())]
     NotPng { path: PathBuf },
-    #[error("{}: reports are written as HTML, PDF, JSON or CSV; name the file something.html, .pdf, .json or .csv", path.display())]
+    #[error("{}: reports are written as HTML, PDF, JSON or CSV; name the file something.html, \
+    .pdf, .json or .csv", path.display())]
     UnknownReport { path: PathBuf },
     #[error(
-        "two meshes cannot go to standard output; name a file with -o, and -reverse and -normal are put to its name"
+        "two meshes cannot go to standard output; name a file with -o, and -reverse and -normal \
+        are put to its name"
     )]
     TwoToStdout,
     #[error(
-        "pictures of the steps cannot go to standard output; name a file with -o, and -after-20.png is put to its name"
+        "pictures of the steps cannot go to standard output; name a file with -o, and \
+        -after-20.png is put to its name"
     )]
     PicturesToStdout,
     #[error("stopped; the recipes that were done by then are in their folders")]

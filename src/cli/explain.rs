@@ -41,7 +41,9 @@ pub(super) fn run(args: &ExplainArgs, console: &Console) -> Result<Outcome, CliE
     }
     let text = match (console.json, lists_all) {
         (true, _) => as_json(&chosen),
-        (false, true) => chosen.iter().map(|page| format!("{} {}\n", page.code, page.title)).collect(),
+        (false, true) => {
+            chosen.iter().map(|page| format!("{} {}\n", page.code, page.title)).collect()
+        }
         (false, false) => chosen.iter().map(|page| as_text(page)).collect::<Vec<_>>().join("\n"),
     };
     console.result(&text)?;
@@ -53,11 +55,15 @@ fn find<'a>(all: &'a [Page], word: &str) -> Result<Vec<&'a Page>, CliError> {
     let word = word.trim();
     let code = Code::read(word);
     let wanted = word.to_lowercase();
-    let is_meant =
-        |page: &&Page| Some(page.code) == code || page.name() == wanted || page.title.to_lowercase() == wanted;
+    let is_meant = |page: &&Page| {
+        Some(page.code) == code || page.name() == wanted || page.title.to_lowercase() == wanted
+    };
     let found: Vec<&Page> = all.iter().filter(is_meant).collect();
     if found.is_empty() {
-        return Err(CliError::NoSuchCode { word: word.to_owned(), nearest: nearest(all, word, code) });
+        return Err(CliError::NoSuchCode {
+            word: word.to_owned(),
+            nearest: nearest(all, word, code),
+        });
     }
     Ok(found)
 }
@@ -68,7 +74,8 @@ fn nearest(all: &[Page], word: &str, code: Option<Code>) -> Option<String> {
         let near = all.iter().filter_map(|page| Some((page.code.distance(code)?, page.code))).min();
         return near.map(|(_, code)| code.to_string());
     }
-    let known: Vec<String> = all.iter().flat_map(|page| [page.code.to_string().to_lowercase(), page.name()]).collect();
+    let known: Vec<String> =
+        all.iter().flat_map(|page| [page.code.to_string().to_lowercase(), page.name()]).collect();
     let near = nearest_word(word, known.iter().map(String::as_str))?;
     Some(if Code::read(near).is_some() { near.to_uppercase() } else { near.to_owned() })
 }
@@ -98,7 +105,8 @@ fn as_json(chosen: &[&Page]) -> String {
     format!("{:#}\n", json!({ "command": command_line(), "pages": told }))
 }
 
-/// Prints what clap has to say, be it help or a complaint, and the code where the complaint is one of ours.
+/// Prints what clap has to say, be it help or a complaint, and the code where the complaint is one
+/// of ours.
 pub(super) fn refuse(refusal: &clap::Error) -> ExitCode {
     // If even standard error is closed, nobody can be told.
     let _ = refusal.print();
@@ -160,10 +168,12 @@ mod tests {
             Check::Crossing,
         ];
         let named = of_check.map(|kind| (kind.code().to_string(), kind.name())).into_iter();
-        let named: Vec<_> = named.chain(of_lint.map(|check| (check.code().to_string(), check.name()))).collect();
+        let named: Vec<_> =
+            named.chain(of_lint.map(|check| (check.code().to_string(), check.name()))).collect();
         let all = pages();
         let in_pages = all.iter().map(|page| (page.code.to_string(), page.title));
-        let in_pages: Vec<_> = in_pages.filter(|(code, _)| code.starts_with("F1") || code.starts_with("F2")).collect();
+        let in_pages: Vec<_> =
+            in_pages.filter(|(code, _)| code.starts_with("F1") || code.starts_with("F2")).collect();
         assert_eq!(in_pages, named);
     }
 
@@ -182,8 +192,12 @@ mod tests {
             let CliError::NoSuchCode { nearest, .. } = &refused else { panic!("{refused}") };
             assert_eq!(nearest.as_deref(), near, "{typed}");
         }
-        for (typed, code) in [("e301", "E301"), ("E7", "E007"), ("Planarity", "F104"), ("offset-out-of-range", "E301")]
-        {
+        for (typed, code) in [
+            ("e301", "E301"),
+            ("E7", "E007"),
+            ("Planarity", "F104"),
+            ("offset-out-of-range", "E301"),
+        ] {
             let found = find(&all, typed).expect("a page");
             assert_eq!(found.iter().map(|page| page.code.to_string()).collect::<Vec<_>>(), [code]);
         }

@@ -10,15 +10,22 @@ use super::output::command_line;
 use super::terminal::Terminal;
 use super::{Console, Outcome};
 use crate::code::Coded;
-use crate::gallery::{Exhibit, GalleryError, GalleryRecipe, bundled, exhibit, gallery_html, side_by_side};
+use crate::gallery::{
+    Exhibit, GalleryError, GalleryRecipe, bundled, exhibit, gallery_html, side_by_side,
+};
 use crate::io::output::{OutputFolder, write_file};
 use crate::progress::Progress;
 
-/// Build many recipes side by side and show them on one page: those of the papers' figures, or a folder of your own
+/// Build many recipes side by side and show them on one page: those of the papers' figures, or a
+/// folder of your own
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Example: kerfold gallery -o gallery\nExample: kerfold gallery recipes --width 480 -o site")]
+#[command(
+    after_help = "Example: kerfold gallery -o gallery\nExample: kerfold gallery recipes --width \
+    480 -o site"
+)]
 pub(super) struct GalleryArgs {
-    /// A folder with recipes; without it the bundled ones, which are written into the gallery as well
+    /// A folder with recipes; without it the bundled ones, which are written into the gallery as
+    /// well
     #[arg(value_name = "FOLDER")]
     recipes: Option<PathBuf>,
     /// Only the recipes whose names contain one of these words
@@ -69,7 +76,12 @@ pub(super) fn run(args: &GalleryArgs, console: &Console) -> Result<Outcome, CliE
     Ok(if is_clean { Outcome::Clean } else { Outcome::Findings })
 }
 
-fn tell(exhibits: &[Exhibit], failures: &[String], page: &Path, console: &Console) -> Result<(), CliError> {
+fn tell(
+    exhibits: &[Exhibit],
+    failures: &[String],
+    page: &Path,
+    console: &Console,
+) -> Result<(), CliError> {
     if console.json {
         let rows: Vec<_> = exhibits.iter().map(row).collect();
         let told = json!({ "command": command_line(), "written": page, "recipes": rows, "failures": failures });
@@ -81,7 +93,10 @@ fn tell(exhibits: &[Exhibit], failures: &[String], page: &Path, console: &Consol
         let faces = e.model.map_or_else(|| "-".to_owned(), |m| m.faces.to_string());
         let pieces = e.pieces.map_or_else(|| "-".to_owned(), |(pieces, _)| pieces.to_string());
         let verdict = if e.findings.is_empty() { "pass" } else { "findings" };
-        text += &format!("{:<48} {faces:>7} faces  genus {genus:>5}  {pieces:>4} pieces  {verdict}\n", e.name);
+        text += &format!(
+            "{:<48} {faces:>7} faces  genus {genus:>5}  {pieces:>4} pieces  {verdict}\n",
+            e.name
+        );
     }
     console.result(&format!("{text}wrote {}\n", page.display()))
 }
@@ -111,16 +126,20 @@ fn recipes_in(folder: &Path) -> Result<Vec<GalleryRecipe>, CliError> {
         return Err(CliError::NoRecipes { path: folder.to_owned() });
     }
     let recipe = |path: PathBuf| {
-        let bytes = std::fs::read(&path).map_err(|error| CliError::Unreadable { path: path.clone(), error })?;
-        let text = String::from_utf8(bytes)
-            .map_err(|error| CliError::NotText { path: path.clone(), at: error.utf8_error().valid_up_to() })?;
+        let bytes = std::fs::read(&path)
+            .map_err(|error| CliError::Unreadable { path: path.clone(), error })?;
+        let text = String::from_utf8(bytes).map_err(|error| CliError::NotText {
+            path: path.clone(),
+            at: error.utf8_error().valid_up_to(),
+        })?;
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         Ok(GalleryRecipe { name, text, folder: folder.to_owned() })
     };
     paths.into_iter().map(recipe).collect()
 }
 
-/// Writes the bundled recipes, and the meshes that they read, into the gallery, where they can be changed and run again.
+/// Writes the bundled recipes, and the meshes that they read, into the gallery, where they can be
+/// changed and run again.
 fn unpacked(output: &Path) -> Result<Vec<GalleryRecipe>, CliError> {
     let mut folders: BTreeMap<&str, OutputFolder> = BTreeMap::new();
     let mut recipes = Vec::new();
@@ -129,7 +148,11 @@ fn unpacked(output: &Path) -> Result<Vec<GalleryRecipe>, CliError> {
         let there = output.join(folder);
         folders.entry(folder).or_insert_with(|| OutputFolder::new(&there)).add(name, file.text);
         if let Some(name) = name.strip_suffix(".toml") {
-            recipes.push(GalleryRecipe { name: name.to_owned(), text: file.text.to_owned(), folder: there });
+            recipes.push(GalleryRecipe {
+                name: name.to_owned(),
+                text: file.text.to_owned(),
+                folder: there,
+            });
         }
     }
     for (_, files) in folders {
@@ -147,6 +170,7 @@ fn chosen(all: Vec<GalleryRecipe>, words: &[String]) -> Result<Vec<GalleryRecipe
             return Err(CliError::UnknownRecipe { name: word.clone(), known });
         }
     }
-    let is_wanted = |r: &GalleryRecipe| words.is_empty() || words.iter().any(|w| r.name.contains(w.as_str()));
+    let is_wanted =
+        |r: &GalleryRecipe| words.is_empty() || words.iter().any(|w| r.name.contains(w.as_str()));
     Ok(all.into_iter().filter(is_wanted).collect())
 }

@@ -12,7 +12,8 @@ use crate::op::{HullParams, HullReport, HullStep, OpContext, hull};
 use crate::picture::{RenderParams, render_model};
 use crate::recipe::solid_of_planes;
 
-/// Make the convex hull of a mesh, its dual (one plane through each corner of the hull), or the solid that half-spaces bound
+/// Make the convex hull of a mesh, its dual (one plane through each corner of the hull), or the
+/// solid that half-spaces bound
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example: kerfold hull spot.obj --dual -o faceted.obj\n\
     Example: kerfold hull --planes planes.csv -o crystal.obj")]
@@ -27,8 +28,8 @@ pub(super) struct HullArgs {
     planes: Option<PathBuf>,
     #[command(flatten)]
     hull: HullParams,
-    /// The mesh to write: OBJ, PLY, STL or OFF; `-` writes OBJ to standard output. With --steps a picture of each step is
-    /// written beside it, OUT-after-20.png
+    /// The mesh to write: OBJ, PLY, STL or OFF; `-` writes OBJ to standard output. With --steps a
+    /// picture of each step is written beside it, OUT-after-20.png
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
 }
@@ -46,7 +47,8 @@ pub(super) fn run(args: &HullArgs, console: &Console) -> Result<Outcome, CliErro
         let path = args.output.with_file_name(step.file_name(&stem));
         Ok((path, render_model(&step.mesh, &RenderParams::default())?.to_png()))
     };
-    let pictures: Vec<(PathBuf, Vec<u8>)> = report.steps.iter().map(picture).collect::<Result<_, _>>()?;
+    let pictures: Vec<(PathBuf, Vec<u8>)> =
+        report.steps.iter().map(picture).collect::<Result<_, _>>()?;
     for (path, bytes) in &pictures {
         write_file(path, bytes)?;
         notes.push(format!("wrote {}", path.display()));
@@ -62,6 +64,7 @@ fn make(args: &HullArgs, console: &Console) -> Result<(Mesh, HullReport, Vec<Str
     }
     let read = read_mesh(args.input.as_deref().unwrap_or(Path::new("-")), &args.options)?;
     let progress = Terminal::new(console.quiet);
-    let (mesh, report) = hull(&read.mesh, &args.hull, &OpContext { made: None, progress: &progress })?;
+    let (mesh, report) =
+        hull(&read.mesh, &args.hull, &OpContext { made: None, progress: &progress })?;
     Ok((mesh, report, read.notes.iter().map(ToString::to_string).collect()))
 }

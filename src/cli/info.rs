@@ -20,7 +20,11 @@ pub(super) fn run(args: &InfoArgs, console: &Console) -> Result<Outcome, CliErro
     let read = args.input.read()?;
     let notes: Vec<String> = read.notes.iter().map(ToString::to_string).collect();
     let (summary, command) = (summary(&read.mesh), command_line());
-    let text = if console.json { info_json(&summary, &notes, &command) } else { info_text(&summary, &notes, &command) };
+    let text = if console.json {
+        info_json(&summary, &notes, &command)
+    } else {
+        info_text(&summary, &notes, &command)
+    };
     console.result(&text)?;
     Ok(Outcome::Clean)
 }

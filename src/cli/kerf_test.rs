@@ -40,7 +40,8 @@ pub(super) struct KerfTestArgs {
 pub(super) fn run(args: &KerfTestArgs, console: &Console) -> Result<Outcome, CliError> {
     let of_name = |name: &String| material(name, args.materials.as_deref());
     let made_of = args.material.as_ref().map(of_name).transpose().map_err(failure)?;
-    let thickness = args.thickness.or(made_of.as_ref().map(|m| m.thickness)).unwrap_or_default().mm();
+    let thickness =
+        args.thickness.or(made_of.as_ref().map(|m| m.thickness)).unwrap_or_default().mm();
     let title = made_of.as_ref().map_or("KERF TEST", |m| m.title.as_str());
     let drawing = kerf_coupon(thickness, title).map_err(|e| CliError::Step(e.into()))?;
     let mut params = SheetParams { preset: args.preset, ..SheetParams::default() };
@@ -53,12 +54,12 @@ pub(super) fn run(args: &KerfTestArgs, console: &Console) -> Result<Outcome, Cli
     let path = &args.output;
     if console.json {
         let (width, height) = (drawing.width, drawing.height);
-        let told =
-            json!({ "command": command, "written": path, "thickness": thickness, "width": width, "height": height });
+        let told = json!({ "command": command, "written": path, "thickness": thickness, "width": width, "height": height });
         console.result(&format!("{told:#}\n"))?;
     } else {
         let (width, height) = (drawing.width, drawing.height);
-        console.result(&format!("{}: {width} × {height} mm, for {thickness} mm\n", path.display()))?;
+        console
+            .result(&format!("{}: {width} × {height} mm, for {thickness} mm\n", path.display()))?;
     }
     Ok(Outcome::Clean)
 }

@@ -14,9 +14,11 @@ use crate::recipe::{StepFailure, material};
 
 /// Find what a shop would send back in drawings to be cut, anybody's: SVG, DXF or PDF
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Example: kerfold lint out/sheet-01.dxf --sheet 600x400 --thickness 3mm\n\n\
+#[command(
+    after_help = "Example: kerfold lint out/sheet-01.dxf --sheet 600x400 --thickness 3mm\n\n\
     Layers tell what is cut, scored and engraved by their names (cut, score, fold, engrave, info, ...); without names, colours do: \
-    where red is used, blue is scored, black and green are engraved. Exit code 1 when something is found.")]
+    where red is used, blue is scored, black and green are engraved. Exit code 1 when something is found."
+)]
 pub(super) struct LintArgs {
     /// The drawings
     #[arg(value_name = "FILE", required = true)]
@@ -56,7 +58,8 @@ pub(super) fn run(args: &LintArgs, console: &Console) -> Result<Outcome, CliErro
 fn limits(args: &LintArgs) -> Result<LintParams, CliError> {
     let mut params = args.params.clone();
     if let Some(name) = &args.material {
-        let made_of = material(name, args.materials.as_deref()).map_err(|e| CliError::Step(StepFailure::from(e)))?;
+        let made_of = material(name, args.materials.as_deref())
+            .map_err(|e| CliError::Step(StepFailure::from(e)))?;
         params.thickness = params.thickness.or(Some(made_of.thickness));
         params.kerf = params.kerf.or(Some(made_of.kerf));
         params.web = params.web.or(Some(made_of.web));
@@ -65,9 +68,10 @@ fn limits(args: &LintArgs) -> Result<LintParams, CliError> {
 }
 
 fn judge(file: &Path, params: &LintParams) -> Result<Vec<Judged>, CliError> {
-    let bytes = std::fs::read(file).map_err(|error| CliError::Unreadable { path: file.to_owned(), error })?;
-    let (format, pages) =
-        read_artwork(file, &bytes).map_err(|error| CliError::Artwork { path: file.to_owned(), error })?;
+    let bytes = std::fs::read(file)
+        .map_err(|error| CliError::Unreadable { path: file.to_owned(), error })?;
+    let (format, pages) = read_artwork(file, &bytes)
+        .map_err(|error| CliError::Artwork { path: file.to_owned(), error })?;
     let judge = |(page, artwork): (usize, Artwork)| {
         let report = lint(&artwork, params);
         Judged { file: file.to_owned(), format: format.name(), page: page + 1, artwork, report }
@@ -87,15 +91,23 @@ fn as_text(judged: &[Judged]) -> String {
             if let Some(at) = finding.at {
                 text += &format!(" at {:.2}, {:.2}", at.x, at.y);
             }
-            let element = if finding.element.is_empty() { String::new() } else { format!("{} ", finding.element) };
+            let element = if finding.element.is_empty() {
+                String::new()
+            } else {
+                format!("{} ", finding.element)
+            };
             text += &format!(": {element}{}; {}\n", finding.words, finding.check.advice());
         }
         for (kind, count) in &page.artwork.unread {
             text += &format!("{head}: not judged: {count} × {kind}\n");
         }
-        let size = page.artwork.size.map_or(String::new(), |s| format!(" on {} × {} mm", short(s.x), short(s.y)));
+        let size = page
+            .artwork
+            .size
+            .map_or(String::new(), |s| format!(" on {} × {} mm", short(s.x), short(s.y)));
         let (lines, count) = (page.artwork.paths.len(), page.report.findings.len());
-        let verdict = if count == 0 { "pass".to_owned() } else { format!("FAIL, {count} findings") };
+        let verdict =
+            if count == 0 { "pass".to_owned() } else { format!("FAIL, {count} findings") };
         text += &format!("{head}: {lines} lines{size}: {verdict}\n");
     }
     text

@@ -10,7 +10,8 @@ use super::{Console, Outcome};
 
 /// Print a completion script for a shell
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Example: kerfold completions bash > ~/.local/share/bash-completion/completions/kerfold")]
+#[command(after_help = "Example: kerfold completions bash > \
+    ~/.local/share/bash-completion/completions/kerfold")]
 pub(super) struct CompletionsArgs {
     /// The shell
     shell: Shell,
@@ -47,7 +48,11 @@ pub(super) fn man(args: &ManArgs, console: &Console) -> Result<Outcome, CliError
     Ok(Outcome::Clean)
 }
 
-fn collect(command: &clap::Command, name: &str, pages: &mut Vec<(String, Vec<u8>)>) -> Result<(), CliError> {
+fn collect(
+    command: &clap::Command,
+    name: &str,
+    pages: &mut Vec<(String, Vec<u8>)>,
+) -> Result<(), CliError> {
     let mut page = Vec::new();
     let named = command.clone().name(name.to_owned());
     clap_mangen::Man::new(named).render(&mut page).map_err(CliError::Stdout)?;

@@ -1,7 +1,7 @@
 //! The command line: arguments, calls, exit codes; one verb, one file.
 //!
-//! Results go to standard output, messages to standard error. Exit codes: 0 clean, 1 findings, 2 error. A broken pipe is a
-//! success: whoever reads has read enough.
+//! Results go to standard output, messages to standard error. Exit codes: 0 clean, 1 findings, 2
+//! error. A broken pipe is a success: whoever reads has read enough.
 
 mod check;
 mod cut;
@@ -35,13 +35,22 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use output::Console;
 pub use reference::reference;
 
-use crate::op::{HandleParams, MengerParams, PlanarizeParams, RindParams, SierpinskiParams, SubdivideParams};
+use crate::op::{
+    HandleParams, MengerParams, PlanarizeParams, RindParams, SierpinskiParams, SubdivideParams,
+};
 
 /// Carve planar 3-valence meshes, check them, and unfold them into sheets that a shop can cut.
 #[derive(Debug, Parser)]
-#[command(name = "kerfold", version, propagate_version = true, disable_help_subcommand = true, max_term_width = 110)]
 #[command(
-    after_help = "Exit codes: 0 clean, 1 findings, 2 error. `-` as a file is standard input or output (OBJ).\n\n\
+    name = "kerfold",
+    version,
+    propagate_version = true,
+    disable_help_subcommand = true,
+    max_term_width = 110
+)]
+#[command(
+    after_help = "Exit codes: 0 clean, 1 findings, 2 error. `-` as a file is standard input or \
+    output (OBJ).\n\n\
     Example: kerfold run fixtures/recipes/two-piece-d-form.toml -o out"
 )]
 struct Cli {
@@ -58,23 +67,38 @@ enum Verb {
     Check(check::CheckArgs),
     Cut(cut::CutArgs),
     Hull(hull::HullArgs),
-    /// Move vertices as little as possible until every face is planar to a profile; exit code 1 when that is not reached
-    #[command(after_help = "Example: kerfold planarize facade.obj --profile glass --rim fixed -o planar.obj")]
+    /// Move vertices as little as possible until every face is planar to a profile; exit code 1
+    /// when that is not reached
+    #[command(after_help = "Example: kerfold planarize facade.obj --profile glass --rim fixed -o \
+        planar.obj")]
     Planarize(operator::OperatorArgs<PlanarizeParams>),
-    /// Make a mesh finer: Doo–Sabin, Catmull–Clark, Loop, simplest, honeycomb, truncation, dual or triangles
+    /// Make a mesh finer: Doo–Sabin, Catmull–Clark, Loop, simplest, honeycomb, truncation, dual or
+    /// triangles
     #[command(after_help = "Example: kerfold subdivide doo-sabin cube.obj --rounds 2 -o round.obj")]
     Subdivide(operator::OperatorArgs<SubdivideParams>),
-    /// Halve every edge and remove the middle of every face, over and over: one connected surface of high genus
-    #[command(after_help = "Example: kerfold sierpinski tetrahedron.obj --rounds 3 -o sierpinski.obj")]
+    /// Halve every edge and remove the middle of every face, over and over: one connected surface
+    /// of high genus
+    #[command(
+        after_help = "Example: kerfold sierpinski tetrahedron.obj --rounds 3 -o sierpinski.obj"
+    )]
     Sierpinski(operator::OperatorArgs<SierpinskiParams>),
-    /// Make a shell of even thickness, with faces punched through or peeled off; exit code 1 when it crosses itself
-    #[command(after_help = "Example: kerfold rind ball.obj --thickness 2mm --peel sides=5 -o rind.obj")]
+    /// Make a shell of even thickness, with faces punched through or peeled off; exit code 1 when
+    /// it crosses itself
+    #[command(
+        after_help = "Example: kerfold rind ball.obj --thickness 2mm --peel sides=5 -o rind.obj"
+    )]
     Rind(operator::OperatorArgs<RindParams>),
-    /// Dig a tunnel into every face, over and over; `--exact` makes Menger's own sponge of a cube; exit code 1 when it crosses itself
-    #[command(after_help = "Example: kerfold menger dodecahedron.obj --thickness 0.2 -o sponge.obj")]
+    /// Dig a tunnel into every face, over and over; `--exact` makes Menger's own sponge of a cube;
+    /// exit code 1 when it crosses itself
+    #[command(
+        after_help = "Example: kerfold menger dodecahedron.obj --thickness 0.2 -o sponge.obj"
+    )]
     Menger(operator::OperatorArgs<MengerParams>),
-    /// Join two faces by a curved handle, or by a hole when the weights are negative; exit code 1 when it crosses itself
-    #[command(after_help = "Example: kerfold handle cup.obj --from 2 --to 5 --segments 8 -o mug.obj")]
+    /// Join two faces by a curved handle, or by a hole when the weights are negative; exit code 1
+    /// when it crosses itself
+    #[command(
+        after_help = "Example: kerfold handle cup.obj --from 2 --to 5 --segments 8 -o mug.obj"
+    )]
     Handle(operator::OperatorArgs<HandleParams>),
     Unfold(unfold::UnfoldArgs),
     Seams(seams::SeamsArgs),
@@ -101,9 +125,11 @@ enum Outcome {
 
 /// The whole command line definition, for completions and manual pages.
 fn command() -> clap::Command {
-    // `unfold` has an effort and a seed of its own; where there is only one of each, the short names do.
+    // `unfold` has an effort and a seed of its own; where there is only one of each, the short
+    // names do.
     let short = |nest: clap::Command| {
-        nest.mut_arg("nest_effort", |a| a.visible_alias("effort")).mut_arg("nest_seed", |a| a.visible_alias("seed"))
+        nest.mut_arg("nest_effort", |a| a.visible_alias("effort"))
+            .mut_arg("nest_seed", |a| a.visible_alias("seed"))
     };
     Cli::command().mut_subcommand("nest", short)
 }

@@ -8,15 +8,22 @@ use super::error::CliError;
 use super::output::{command_line, short};
 use super::terminal::Terminal;
 use super::{Console, Outcome};
-use crate::recipe::{Fabrication, NestStep, StepFailure, fabrication_outputs, nest_files, with_material};
+use crate::recipe::{
+    Fabrication, NestStep, StepFailure, fabrication_outputs, nest_files, with_material,
+};
 use crate::sheet::SheetParams;
 
 /// Lay anybody's flat pieces out on sheets, close together, and draw the sheets
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Example: kerfold nest parts.json --sheet 600x400 --spacing 2 --effort 100 -o out\n\n\
-    A file of pieces is {\"pieces\": [{\"outline\": [[x,y], ...]}]}, in mm; a piece may have \"id\", \"holes\", \"quantity\", \
-    \"rotation\" (as --rotations) and \"group\" (pieces of a group share a sheet). Ctrl-C ends the search; the best layout so \
-    far is written. Exit code 2 when a piece is larger than every sheet.")]
+#[command(
+    after_help = "Example: kerfold nest parts.json --sheet 600x400 --spacing 2 --effort 100 -o \
+    out\n\n\
+    A file of pieces is {\"pieces\": \
+    [{\"outline\": [[x,y], ...]}]}, in mm; a piece may have \"id\", \"holes\", \"quantity\", \
+    \"rotation\" (as --rotations) and \"group\" (pieces of a group share a sheet). Ctrl-C ends the \
+    search; the best layout so \
+    far is written. Exit code 2 when a piece is larger than every sheet."
+)]
 pub(super) struct NestArgs {
     #[command(flatten)]
     nest: NestStep,
@@ -32,7 +39,8 @@ pub(super) fn run(args: &NestArgs, console: &Console) -> Result<Outcome, CliErro
     let sheet = with_material(&args.sheet, Path::new("")).map_err(StepFailure::from)?;
     let fabrication = nest_files(&args.nest, &sheet, Path::new(""), &progress)?;
     let command = command_line();
-    let written = Console::write_folder(&args.output, fabrication_outputs(&fabrication, &sheet, &command)?)?;
+    let written =
+        Console::write_folder(&args.output, fabrication_outputs(&fabrication, &sheet, &command)?)?;
     let notes = fabrication.notes();
     if console.json {
         let layout = &fabrication.sheets.layout;
@@ -60,7 +68,8 @@ fn text(fabrication: &Fabrication) -> String {
     );
     if let Some([low, high]) = layout.sheets.last().and_then(|s| s.offcut) {
         let size = high - low;
-        text += &format!("{} × {} mm of the last sheet are left whole\n", short(size.x), short(size.y));
+        text +=
+            &format!("{} × {} mm of the last sheet are left whole\n", short(size.x), short(size.y));
     }
     text
 }

@@ -1,4 +1,5 @@
-//! Verbs that carry out one operator: `kerfold planarize` and its kin. Their parameters say what they do; all else is common.
+//! Verbs that carry out one operator: `kerfold planarize` and its kin. Their parameters say what
+//! they do; all else is common.
 
 use std::path::{Path, PathBuf};
 
@@ -24,7 +25,10 @@ pub(super) struct OperatorArgs<T: Args> {
     output: PathBuf,
 }
 
-pub(super) fn run<T: Args + Operate>(args: &OperatorArgs<T>, console: &Console) -> Result<Outcome, CliError> {
+pub(super) fn run<T: Args + Operate>(
+    args: &OperatorArgs<T>,
+    console: &Console,
+) -> Result<Outcome, CliError> {
     let read = args.input.read()?;
     let progress = Terminal::new(console.quiet);
     let context = OpContext { made: None, progress: &progress };

@@ -38,14 +38,25 @@ impl Console {
         }
     }
 
-    /// Writes a mesh and prints its size, to standard error when the mesh itself goes to standard output.
-    pub(super) fn write_model(&self, path: &Path, mesh: &Mesh, notes: &[String]) -> Result<(), CliError> {
+    /// Writes a mesh and prints its size, to standard error when the mesh itself goes to standard
+    /// output.
+    pub(super) fn write_model(
+        &self,
+        path: &Path,
+        mesh: &Mesh,
+        notes: &[String],
+    ) -> Result<(), CliError> {
         let command = command_line();
-        write_mesh(path, mesh, &WriteOptions { command: Some(command.clone()), ..WriteOptions::default() })?;
+        write_mesh(
+            path,
+            mesh,
+            &WriteOptions { command: Some(command.clone()), ..WriteOptions::default() },
+        )?;
         let is_stdout = path == Path::new("-");
         if self.json {
             let model = model_json(mesh);
-            let written = json!({ "command": command, "written": path, "model": model, "notes": notes });
+            let written =
+                json!({ "command": command, "written": path, "model": model, "notes": notes });
             let text = format!("{written:#}\n");
             if is_stdout {
                 say(text.trim_end())
@@ -64,7 +75,10 @@ impl Console {
     }
 
     /// Writes files into a folder, all or none, and returns their paths.
-    pub(super) fn write_folder(folder: &Path, outputs: Vec<(String, Vec<u8>)>) -> Result<Vec<PathBuf>, CliError> {
+    pub(super) fn write_folder(
+        folder: &Path,
+        outputs: Vec<(String, Vec<u8>)>,
+    ) -> Result<Vec<PathBuf>, CliError> {
         let mut files = OutputFolder::new(folder);
         for (name, bytes) in outputs {
             files.add(name, bytes);
@@ -113,10 +127,15 @@ pub(super) fn short(value: f64) -> String {
     }
     let digits = (5 - value.abs().log10().floor() as i32).clamp(0, 9) as usize;
     let text = format!("{value:.digits$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
 }
 
-/// The command line as files carry it: the program by its name alone, arguments quoted where a shell would need it.
+/// The command line as files carry it: the program by its name alone, arguments quoted where a
+/// shell would need it.
 pub(super) fn command_line() -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./,=:+@%".contains(c);
     let arguments = std::env::args().skip(1).map(|argument| {

@@ -17,10 +17,12 @@ use crate::recipe::{PanelFiles, Panelled, StepFailure, panel_model, panel_output
 use crate::sheet::SheetParams;
 use crate::unfold::Source;
 
-/// Make every face a plate of constant thickness: mitres, gaps, joints, schedule, sheets, assembly map and 3D files
+/// Make every face a plate of constant thickness: mitres, gaps, joints, schedule, sheets, assembly
+/// map and 3D files
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Example: kerfold panels facade.obj --thickness 10mm --gap 8mm --side out --sheet 3210x6000 -o out\n\
+    after_help = "Example: kerfold panels facade.obj --thickness 10mm --gap 8mm --side out --sheet \
+    3210x6000 -o out\n\
     Example: kerfold panels box.obj --thickness 4mm --edges 30-140:finger --cutting square --kerf 0.2mm -o out"
 )]
 pub(super) struct PanelsArgs {
@@ -42,10 +44,12 @@ pub(super) fn run(args: &PanelsArgs, console: &Console) -> Result<Outcome, CliEr
     let sheet = with_material(&args.sheet, Path::new("")).map_err(StepFailure::from)?;
     let progress = Terminal::new(console.quiet);
     let source = Source { scale: read.scale, split_vertices: &read.splits };
-    let panelled = panel_model(&read.mesh, (&args.panels, &args.files, &sheet), &source, &progress)?;
+    let panelled =
+        panel_model(&read.mesh, (&args.panels, &args.files, &sheet), &source, &progress)?;
     let command = command_line();
     let written = Console::write_folder(&args.output, panel_outputs(&panelled, &sheet, &command)?)?;
-    let notes: Vec<String> = read.notes.iter().map(ToString::to_string).chain(panelled.notes()).collect();
+    let notes: Vec<String> =
+        read.notes.iter().map(ToString::to_string).chain(panelled.notes()).collect();
     if console.json {
         let summary = json!({
             "command": command, "written": written, "notes": notes, "model": model_json(&read.mesh),
@@ -74,19 +78,25 @@ pub(super) fn panels_text(panelled: &Panelled) -> String {
         short(totals.mass),
     );
     let mitres = || schedule.edges.iter().flat_map(|e| e.mitres.into_iter().flatten());
-    let (least, most) = mitres().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), m| (a.min(m), b.max(m)));
+    let (least, most) =
+        mitres().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), m| (a.min(m), b.max(m)));
     if least <= most {
-        text += &format!("{} edges, mitres {least:.2}° to {most:.2}° off square, ", schedule.edges.len());
+        text += &format!(
+            "{} edges, mitres {least:.2}° to {most:.2}° off square, ",
+            schedule.edges.len()
+        );
         text += &format!("{} m of edges cut at an angle\n", short(totals.bevelled * 1e-3));
     }
-    let openings = schedule.edges.iter().filter_map(|e| e.opening).map(|[front, back]| (front - back).abs());
+    let openings =
+        schedule.edges.iter().filter_map(|e| e.opening).map(|[front, back]| (front - back).abs());
     let widest = openings.fold(0.0, f64::max);
     // Less than the finest file can show is rounding.
     if widest > 1e-6 {
         text += &format!("V-gaps of square cuts: up to {} mm\n", short(widest));
     }
     text += &format!(
-        "{} nodes, {} with more than three edges; residual up to {} mm per mm, plates miss by up to {} mm\n",
+        "{} nodes, {} with more than three edges; residual up to {} mm per mm, plates miss by up \
+        to {} mm\n",
         schedule.nodes.len(),
         totals.nodes_above_three,
         settled(totals.residual),
@@ -105,7 +115,10 @@ pub(super) fn panels_text(panelled: &Panelled) -> String {
         text += &finding_text(finding);
     }
     if panelled.findings.len() > LISTED {
-        text += &format!("and {} more findings, listed in panels.json\n", panelled.findings.len() - LISTED);
+        text += &format!(
+            "and {} more findings, listed in panels.json\n",
+            panelled.findings.len() - LISTED
+        );
     }
     text
 }
@@ -114,10 +127,14 @@ fn finding_text(finding: &PanelFinding) -> String {
     let code = finding.requirement.code();
     match finding.requirement {
         PanelRequirement::Valence3 => {
-            format!("finding {code}: vertex {} has {} edges instead of 3\n", finding.vertex, finding.measured)
+            format!(
+                "finding {code}: vertex {} has {} edges instead of 3\n",
+                finding.vertex, finding.measured
+            )
         }
         PanelRequirement::Conical => format!(
-            "finding {code}: the plates of vertex {} miss each other by {} mm per mm of offset (at most {})\n",
+            "finding {code}: the plates of vertex {} miss each other by {} mm per mm of offset (at \
+            most {})\n",
             finding.vertex,
             short(finding.measured),
             short(finding.limit)

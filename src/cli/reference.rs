@@ -1,4 +1,5 @@
-//! `docs/reference.md`: verbs, recipe steps, selections and files, made from what the program itself reads.
+//! `docs/reference.md`: verbs, recipe steps, selections and files, made from what the program
+//! itself reads.
 
 mod files;
 
@@ -41,7 +42,11 @@ struct Shared {
 impl Shared {
     fn of<T: Args>(title: &'static str, link: &'static str) -> Self {
         let command = T::augment_args(Command::new("shared"));
-        Self { title, link, args: command.get_arguments().filter(|arg| !arg.is_positional()).cloned().collect() }
+        Self {
+            title,
+            link,
+            args: command.get_arguments().filter(|arg| !arg.is_positional()).cloned().collect(),
+        }
     }
 
     fn all() -> [Self; 2] {
@@ -90,9 +95,13 @@ fn describe(page: &mut String, command: &Command, name: &str, shared: &[Shared])
     let usage = command.clone().render_usage().to_string();
     let usage = usage.trim_start_matches("Usage:").split_whitespace().collect::<Vec<_>>().join(" ");
     let _ = write!(page, "\n### {name}\n\n{about}\n\n```text\n{usage}\n```\n");
-    let args: Vec<&Arg> = command.get_arguments().filter(|arg| !EVERYWHERE.contains(&arg.get_id().as_str())).collect();
+    let args: Vec<&Arg> = command
+        .get_arguments()
+        .filter(|arg| !EVERYWHERE.contains(&arg.get_id().as_str()))
+        .collect();
     let groups: Vec<&Shared> = shared.iter().filter(|group| group.is_in(&args)).collect();
-    let own: Vec<&Arg> = args.into_iter().filter(|arg| !groups.iter().any(|group| group.tells(arg))).collect();
+    let own: Vec<&Arg> =
+        args.into_iter().filter(|arg| !groups.iter().any(|group| group.tells(arg))).collect();
     table(page, "option", own.into_iter().map(row));
     links(page, &groups);
     if let Some(after) = command.get_after_help() {
@@ -119,7 +128,8 @@ fn after_help(page: &mut String, text: &str) {
 }
 
 fn recipes(page: &mut String) {
-    *page += "\n## Recipes\n\nA recipe is TOML: `name`, and steps that are carried out in order. Each `[[step]]` has one key that says what it does, \
+    *page += "\n## Recipes\n\nA recipe is TOML: `name`, and steps that are carried out in order. \
+    Each `[[step]]` has one key that says what it does, \
               and keys for the rest; lengths, angles and selections go in quotes.\n";
     let sheets = Shared::of::<SheetParams>(
         "",
@@ -151,9 +161,14 @@ fn describe_step(page: &mut String, step: &StepKind, sheets: &Shared) {
 fn selections(page: &mut String) {
     *page += "\n## Selections\n\n| condition | vertices | edges | faces |\n|---|---|---|---|\n";
     for row in &CONDITIONS {
-        let _ = writeln!(page, "| `{}` | {} | {} | {} |", row.example, row.vertices, row.edges, row.faces);
+        let _ = writeln!(
+            page,
+            "| `{}` | {} | {} | {} |",
+            row.example, row.vertices, row.edges, row.faces
+        );
     }
-    *page += "\nWhere it says –, the condition is an error. Conditions are joined by `!` (not), `&` (and), `|` (or), binding in this order, and \
+    *page += "\nWhere it says –, the condition is an error. Conditions are joined by `!` (not), \
+    `&` (and), `|` (or), binding in this order, and \
               brackets. `valence`, `sides` and `fold` take `=`, `!=`, `<`, `<=`, `>`, `>=`. Directions are `x`, `-z`, … or three numbers as in \
               `along=1,1,0:5deg`; the angle of `along` and `normal` is 1deg when left out. Names with signs go in quotes: `group=\"top (left)\"`.\n";
 }
@@ -186,7 +201,11 @@ fn row(arg: &Arg) -> [String; 2] {
         Some(long) => format!("{short}--{long} {values}"),
     };
     let aliases = arg.get_visible_aliases().unwrap_or_default();
-    let alias = if aliases.is_empty() { String::new() } else { format!(" Also `--{}`.", aliases.join("`, `--")) };
+    let alias = if aliases.is_empty() {
+        String::new()
+    } else {
+        format!(" Also `--{}`.", aliases.join("`, `--"))
+    };
     [format!("`{typed}`"), meaning(arg) + &alias]
 }
 
@@ -220,7 +239,8 @@ fn values(arg: &Arg) -> String {
 
 /// The help of an argument with its values and its default.
 fn meaning(arg: &Arg) -> String {
-    let help = arg.get_long_help().or_else(|| arg.get_help()).map(ToString::to_string).unwrap_or_default();
+    let help =
+        arg.get_long_help().or_else(|| arg.get_help()).map(ToString::to_string).unwrap_or_default();
     let mut text = sentence(&help);
     if arg.is_required_set() {
         text += " Required.";
@@ -230,9 +250,11 @@ fn meaning(arg: &Arg) -> String {
     }
     let possible = arg.get_possible_values();
     if !possible.is_empty() && !arg.is_hide_possible_values_set() {
-        let told = possible.iter().filter(|value| !value.is_hide_set()).map(|value| match value.get_help() {
-            Some(help) => format!("`{}` ({})", value.get_name(), one_line(&help.to_string())),
-            None => format!("`{}`", value.get_name()),
+        let told = possible.iter().filter(|value| !value.is_hide_set()).map(|value| {
+            match value.get_help() {
+                Some(help) => format!("`{}` ({})", value.get_name(), one_line(&help.to_string())),
+                None => format!("`{}`", value.get_name()),
+            }
         });
         text += &format!(" One of {}.", told.collect::<Vec<_>>().join(", "));
     }

@@ -10,7 +10,9 @@ use crate::picture::{RenderParams, render_model};
 
 /// Draw a picture of a mesh: PNG, hidden parts hidden
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Example: kerfold render model.obj --colour planarity --view 1,-2,1 -o model.png")]
+#[command(
+    after_help = "Example: kerfold render model.obj --colour planarity --view 1,-2,1 -o model.png"
+)]
 pub(super) struct RenderArgs {
     #[command(flatten)]
     input: Input,

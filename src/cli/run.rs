@@ -34,7 +34,12 @@ pub(super) fn run(args: &RunArgs, console: &Console) -> Result<Outcome, CliError
 }
 
 /// Writes everything that a job has made into a folder and tells about it.
-pub(super) fn finish(job: &Job, name: Option<String>, folder: &Path, console: &Console) -> Result<Outcome, CliError> {
+pub(super) fn finish(
+    job: &Job,
+    name: Option<String>,
+    folder: &Path,
+    console: &Console,
+) -> Result<Outcome, CliError> {
     let command = command_line();
     let written = Console::write_folder(folder, job_outputs(job, &command)?)?;
     if let (false, Some(made)) = (job.has_mesh(), &job.fabrication) {
@@ -61,7 +66,8 @@ pub(super) fn finish(job: &Job, name: Option<String>, folder: &Path, console: &C
             job.check.profile.name()
         );
         job.unclean.iter().for_each(|step| text += &format!("{step}\n"));
-        text += &job.fabrication.as_ref().map_or_else(String::new, |(f, sheet)| summary_text(f, sheet));
+        text +=
+            &job.fabrication.as_ref().map_or_else(String::new, |(f, sheet)| summary_text(f, sheet));
         text += &panelled.map_or_else(String::new, panels_text);
         for path in &written {
             text += &format!("wrote {}\n", path.display());
@@ -69,7 +75,8 @@ pub(super) fn finish(job: &Job, name: Option<String>, folder: &Path, console: &C
         console.result(&text)?;
     }
     let has_panel_findings = panelled.is_some_and(|p| !p.findings.is_empty());
-    let is_unclean = has_findings && job.is_check_asked || has_panel_findings || !job.unclean.is_empty();
+    let is_unclean =
+        has_findings && job.is_check_asked || has_panel_findings || !job.unclean.is_empty();
     Ok(if is_unclean { Outcome::Findings } else { Outcome::Clean })
 }
 
@@ -87,15 +94,20 @@ fn nested(
     } else {
         console.notes(&job.notes);
         let name = name.map_or_else(String::new, |name| name + "\n");
-        let paths: String = written.iter().map(|path| format!("wrote {}\n", path.display())).collect();
+        let paths: String =
+            written.iter().map(|path| format!("wrote {}\n", path.display())).collect();
         console.result(&format!("{name}{}{paths}", summary_text(fabrication, sheet)))?;
     }
     Ok(Outcome::Clean)
 }
 
 fn read_recipe(path: &Path) -> Result<Recipe, CliError> {
-    let bytes = std::fs::read(path).map_err(|error| CliError::Unreadable { path: path.to_owned(), error })?;
-    let text = String::from_utf8(bytes)
-        .map_err(|error| CliError::NotText { path: path.to_owned(), at: error.utf8_error().valid_up_to() })?;
-    Recipe::parse(&text).map_err(|error| CliError::Recipe { path: path.to_owned(), error: Box::new(error) })
+    let bytes = std::fs::read(path)
+        .map_err(|error| CliError::Unreadable { path: path.to_owned(), error })?;
+    let text = String::from_utf8(bytes).map_err(|error| CliError::NotText {
+        path: path.to_owned(),
+        at: error.utf8_error().valid_up_to(),
+    })?;
+    Recipe::parse(&text)
+        .map_err(|error| CliError::Recipe { path: path.to_owned(), error: Box::new(error) })
 }

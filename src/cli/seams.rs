@@ -10,7 +10,9 @@ use super::{Console, Outcome};
 use crate::measure::edge_length;
 use crate::mesh::{EdgeId, Mesh};
 use crate::progress::Progress;
-use crate::seam::{SeamError, fold_sum, hamiltonian_folds, least_matching, piece_count, seam_cycles, table};
+use crate::seam::{
+    SeamError, fold_sum, hamiltonian_folds, least_matching, piece_count, seam_cycles, table,
+};
 
 /// List the ways to divide a closed 3-valent mesh by closed seams, up to its symmetry
 #[derive(Debug, clap::Args)]
@@ -19,8 +21,8 @@ use crate::seam::{SeamError, fold_sum, hamiltonian_folds, least_matching, piece_
 pub(super) struct SeamsArgs {
     #[command(flatten)]
     input: Input,
-    /// List at most so many choices of folds, symmetric ones counted; of a mesh that has more only the least matching and a
-    /// two-piece seam are told
+    /// List at most so many choices of folds, symmetric ones counted; of a mesh that has more only
+    /// the least matching and a two-piece seam are told
     #[arg(long, default_value_t = 20_000, value_name = "N")]
     limit: usize,
 }
@@ -72,7 +74,11 @@ pub(super) fn run(args: &SeamsArgs, console: &Console) -> Result<Outcome, CliErr
 }
 
 /// The whole table, or what can be told of a mesh with too many matchings, and why.
-fn rows(mesh: &Mesh, limit: usize, progress: &dyn Progress) -> Result<(Vec<Row>, Option<String>), SeamError> {
+fn rows(
+    mesh: &Mesh,
+    limit: usize,
+    progress: &dyn Progress,
+) -> Result<(Vec<Row>, Option<String>), SeamError> {
     let too_many = match table(mesh, limit, progress) {
         Ok(rows) => {
             let row = |r: crate::seam::MatchingRow| {
@@ -83,7 +89,8 @@ fn rows(mesh: &Mesh, limit: usize, progress: &dyn Progress) -> Result<(Vec<Row>,
         Err(error @ SeamError::TooMany { .. }) => error,
         Err(error) => return Err(error),
     };
-    let mut rows = vec![Row::new(mesh, "matching".to_owned(), least_matching(mesh, progress)?, None)];
+    let mut rows =
+        vec![Row::new(mesh, "matching".to_owned(), least_matching(mesh, progress)?, None)];
     let mut why = too_many.to_string();
     match hamiltonian_folds(mesh, progress) {
         Ok(folds) => rows.push(Row::new(mesh, "hamiltonian".to_owned(), folds, None)),
@@ -118,5 +125,7 @@ fn table_text(rows: &[Row]) -> String {
         );
     }
     let listed: Option<usize> = rows.iter().map(|r| r.orbit).sum();
-    text + &listed.map_or_else(String::new, |all| format!("{} of {all} choices, up to symmetry\n", rows.len()))
+    text + &listed.map_or_else(String::new, |all| {
+        format!("{} of {all} choices, up to symmetry\n", rows.len())
+    })
 }

@@ -6,7 +6,8 @@ use super::error::CliError;
 use super::{Console, Outcome};
 use crate::shape::{SolidParams, solid};
 
-/// Write a ready-made solid: Platonic, Archimedean, prism-N, antiprism-N, geodesic-N, soccer-ball, box-AxBxC
+/// Write a ready-made solid: Platonic, Archimedean, prism-N, antiprism-N, geodesic-N, soccer-ball,
+/// box-AxBxC
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example: kerfold solid dodecahedron --edge 40mm -o dodecahedron.obj")]
 pub(super) struct SolidArgs {

@@ -19,7 +19,8 @@ const EVERY_MS: u64 = 200;
 /// The first Ctrl-C asks the work to stop cleanly; the second ends the process.
 pub(super) fn watch_for_ctrl_c() {
     START.get_or_init(Instant::now);
-    // Without a handler Ctrl-C simply ends the process, which is fine: files are written beside and renamed.
+    // Without a handler Ctrl-C simply ends the process, which is fine: files are written beside and
+    // renamed.
     let _ = ctrlc::set_handler(|| {
         if IS_CANCELLED.swap(true, Ordering::SeqCst) {
             #[allow(clippy::exit)]

@@ -12,7 +12,8 @@ use super::{Console, Outcome};
 use crate::picture::RenderParams;
 use crate::progress::Progress;
 use crate::recipe::{
-    FabricateParams, Fabrication, ShowParams, StepFailure, fabricate, fabrication_outputs, show_outputs, with_material,
+    FabricateParams, Fabrication, ShowParams, StepFailure, fabricate, fabrication_outputs,
+    show_outputs, with_material,
 };
 use crate::sheet::SheetParams;
 use crate::unfold::{Source, UnfoldParams};
@@ -41,21 +42,39 @@ pub(super) fn run(args: &UnfoldArgs, console: &Console) -> Result<Outcome, CliEr
     let sheet = with_material(&args.sheet, Path::new("")).map_err(StepFailure::from)?;
     let progress = Terminal::new(console.quiet);
     let source = Source { scale: read.scale, split_vertices: &read.splits };
-    let fabrication = fabricate(&read.mesh, None, (&args.unfold, &args.choice, &sheet), &source, &progress)?;
+    let fabrication =
+        fabricate(&read.mesh, None, (&args.unfold, &args.choice, &sheet), &source, &progress)?;
     let command = command_line();
     let mut outputs = fabrication_outputs(&fabrication, &sheet, &command)?;
     let show = args.show.from_here();
-    outputs.extend(show_outputs(&fabrication, &read.mesh, &show, &RenderParams::default(), &command)?);
+    outputs.extend(show_outputs(
+        &fabrication,
+        &read.mesh,
+        &show,
+        &RenderParams::default(),
+        &command,
+    )?);
     let written = Console::write_folder(&args.output, outputs)?;
-    let stopped = progress.is_cancelled().then(|| "stopped on request; the files hold the best net so far".to_owned());
-    let notes: Vec<String> =
-        read.notes.iter().map(ToString::to_string).chain(fabrication.notes()).chain(stopped).collect();
+    let stopped = progress
+        .is_cancelled()
+        .then(|| "stopped on request; the files hold the best net so far".to_owned());
+    let notes: Vec<String> = read
+        .notes
+        .iter()
+        .map(ToString::to_string)
+        .chain(fabrication.notes())
+        .chain(stopped)
+        .collect();
     if console.json {
         let summary = json!({ "command": command, "written": written, "notes": notes, "fabrication": summary_json(&fabrication, &sheet) });
         console.result(&format!("{summary:#}\n"))?;
     } else {
         console.notes(&notes);
-        console.result(&format!("{}\n{}", model_text(&read.mesh), summary_text(&fabrication, &sheet)))?;
+        console.result(&format!(
+            "{}\n{}",
+            model_text(&read.mesh),
+            summary_text(&fabrication, &sheet)
+        ))?;
     }
     Ok(Outcome::Clean)
 }
@@ -83,9 +102,14 @@ pub(super) fn summary_text(fabrication: &Fabrication, sheet: &SheetParams) -> St
             short(layout.score_length)
         );
         text += &format!("{} mm between lines", short(fabrication.sheets.travel_length()));
-        if let Some((material, seconds)) = sheet.made_of.as_ref().zip(fabrication.sheets.seconds(sheet)) {
-            text +=
-                &format!(", about {} min on the machine for {}", short((seconds / 6.0).ceil() / 10.0), material.title);
+        if let Some((material, seconds)) =
+            sheet.made_of.as_ref().zip(fabrication.sheets.seconds(sheet))
+        {
+            text += &format!(
+                ", about {} min on the machine for {}",
+                short((seconds / 6.0).ceil() / 10.0),
+                material.title
+            );
         }
         text += "\n";
     }

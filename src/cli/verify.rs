@@ -15,7 +15,8 @@ use crate::net::{Net, Proof};
 use crate::unfold::{LENGTH_LIMIT, ProofError, REFOLD_LIMIT, prove, renumbered};
 use crate::units::Length;
 
-/// Prove that pieces, anybody's, are those of a model: complete, true to size, without overlap, folding back up
+/// Prove that pieces, anybody's, are those of a model: complete, true to size, without overlap,
+/// folding back up
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example: kerfold verify out/pieces.json out/model.obj\n\n\
     The proof that the file itself carries is not read. Exit code 1 when the pieces are not right; the first fault is told.")]
@@ -23,8 +24,8 @@ pub(super) struct VerifyArgs {
     /// The pieces, a pieces.json
     #[arg(value_name = "PIECES")]
     pieces: PathBuf,
-    /// The mesh that was unfolded: OBJ, PLY, STL or OFF; `-` reads OBJ from standard input. Its numbers are taken as the
-    /// pieces say, with their scale
+    /// The mesh that was unfolded: OBJ, PLY, STL or OFF; `-` reads OBJ from standard input. Its
+    /// numbers are taken as the pieces say, with their scale
     #[arg(value_name = "MODEL")]
     model: PathBuf,
     /// The weld distance that was used for unfolding, in mm
@@ -45,10 +46,14 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Result<Outcome, CliEr
 }
 
 fn read_net(path: &Path) -> Result<Net, CliError> {
-    let bytes = std::fs::read(path).map_err(|error| CliError::Unreadable { path: path.to_owned(), error })?;
-    let text = String::from_utf8(bytes)
-        .map_err(|error| CliError::NotText { path: path.to_owned(), at: error.utf8_error().valid_up_to() })?;
-    let (net, _) = read_pieces_json(&text).map_err(|error| CliError::Pieces { path: path.to_owned(), error })?;
+    let bytes = std::fs::read(path)
+        .map_err(|error| CliError::Unreadable { path: path.to_owned(), error })?;
+    let text = String::from_utf8(bytes).map_err(|error| CliError::NotText {
+        path: path.to_owned(),
+        at: error.utf8_error().valid_up_to(),
+    })?;
+    let (net, _) = read_pieces_json(&text)
+        .map_err(|error| CliError::Pieces { path: path.to_owned(), error })?;
     if net.scale > 0.0 && net.scale.is_finite() {
         Ok(net)
     } else {
@@ -66,7 +71,8 @@ fn scaled(mut mesh: Mesh, scale: f64) -> Mesh {
 
 fn limits() -> String {
     format!(
-        "allowed: sides of an edge differ by {LENGTH_LIMIT:e} of its length, corners folded back up by {REFOLD_LIMIT:e} of the model's size \
+        "allowed: sides of an edge differ by {LENGTH_LIMIT:e} of its length, corners folded back \
+        up by {REFOLD_LIMIT:e} of the model's size \
          (more where faces are not planar)"
     )
 }
@@ -81,7 +87,8 @@ fn proof_text(args: &VerifyArgs, net: &Net, proof: &Result<Proof, ProofError>) -
     );
     let verdict = match proof {
         Ok(proof) => format!(
-            "proof: faces true to {:.1e} mm, folds up to {:.1e} mm, {} overlaps\npass: the pieces are those of {}",
+            "proof: faces true to {:.1e} mm, folds up to {:.1e} mm, {} overlaps\npass: the pieces \
+            are those of {}",
             proof.congruence_mm,
             proof.refold_mm,
             proof.overlaps,
@@ -97,7 +104,8 @@ fn proof_json(net: &Net, proof: &Result<Proof, ProofError>) -> String {
         json!({ "congruence_mm": proof.congruence_mm, "refold_mm": proof.refold_mm, "overlaps": proof.overlaps })
     });
     let findings: Vec<String> = proof.as_ref().err().map(ToString::to_string).into_iter().collect();
-    let codes: Vec<String> = proof.as_ref().err().map(|fault| fault.code().to_string()).into_iter().collect();
+    let codes: Vec<String> =
+        proof.as_ref().err().map(|fault| fault.code().to_string()).into_iter().collect();
     let told = json!({
         "command": command_line(), "pieces": net.pieces.len(), "proof": measured, "findings": findings, "codes": codes,
         "verdict": if proof.is_ok() { "pass" } else { "fail" },

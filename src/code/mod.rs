@@ -1,7 +1,8 @@
 //! Codes of errors and findings, and the pages that explain them.
 //!
-//! A code is a letter and a number: `E302` is an error, `F104` a finding. The tables stand beside the enums they number
-//! (macro `codes!`); the pages stand in `docs/errors.md`, two sentences each. Each room has a range of its own:
+//! A code is a letter and a number: `E302` is an error, `F104` a finding. The tables stand beside
+//! the enums they number (macro `codes!`); the pages stand in `docs/errors.md`, two sentences each.
+//! Each room has a range of its own:
 //!
 //! | range | room |
 //! |---|---|
@@ -20,7 +21,8 @@
 //! | F401–F499 | the proof of `unfold` |
 //! | F501–F599 | `op` |
 //!
-//! A number never changes its meaning once it is given, and that of a variant that is gone is not given again.
+//! A number never changes its meaning once it is given, and that of a variant that is gone is not
+//! given again.
 
 mod page;
 
@@ -44,7 +46,8 @@ impl Kind {
     }
 }
 
-/// The code of an error or a finding; shown as `E302` or `F104`. Errors come before findings, then numbers ascend.
+/// The code of an error or a finding; shown as `E302` or `F104`. Errors come before findings, then
+/// numbers ascend.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Code {
     kind: Kind,
@@ -62,15 +65,16 @@ impl Code {
         Self { kind: Kind::Finding, number }
     }
 
-    /// Reads what [`fmt::Display`] writes; small letters do as well, and so does a number without its zeros. `None` when the text is no code.
+    /// Reads what [`fmt::Display`] writes; small letters do as well, and so does a number without
+    /// its zeros. `None` when the text is no code.
     pub fn read(text: &str) -> Option<Self> {
         let kind = match text.get(..1)? {
             "E" | "e" => Kind::Error,
             "F" | "f" => Kind::Finding,
             _ => return None,
         };
-        let digits =
-            Some(&text[1..]).filter(|t| (1..=3).contains(&t.len()) && t.bytes().all(|b| b.is_ascii_digit()))?;
+        let digits = Some(&text[1..])
+            .filter(|t| (1..=3).contains(&t.len()) && t.bytes().all(|b| b.is_ascii_digit()))?;
         Some(Self { kind, number: digits.parse().ok()? })
     }
 
@@ -92,8 +96,9 @@ pub trait Coded {
     fn code(&self) -> Code;
 }
 
-/// Numbers the variants of an enum, or a struct. A variant without a number does not compile. Variants that only carry
-/// another error stand behind `through` with the field that holds it; they show its code.
+/// Numbers the variants of an enum, or a struct. A variant without a number does not compile.
+/// Variants that only carry another error stand behind `through` with the field that holds it; they
+/// show its code.
 ///
 /// ```text
 /// codes!(error OpError { OffsetOutOfRange = 301, Cancelled = 302 } through { Select.0, NoHull.reason });

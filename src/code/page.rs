@@ -18,8 +18,12 @@ pub struct Page {
 impl Page {
     /// The title as one types it: small letters with hyphens.
     pub fn name(&self) -> String {
-        let spelt: String =
-            self.title.to_lowercase().chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect();
+        let spelt: String = self
+            .title
+            .to_lowercase()
+            .chars()
+            .map(|c| if c.is_alphanumeric() { c } else { '-' })
+            .collect();
         spelt.split('-').filter(|word| !word.is_empty()).collect::<Vec<_>>().join("-")
     }
 }
@@ -29,7 +33,8 @@ pub fn pages() -> Vec<Page> {
     read(TEXT)
 }
 
-/// Pages are `## CODE Title`, a blank line, the text on one line. Other headings and texts are for readers of the file.
+/// Pages are `## CODE Title`, a blank line, the text on one line. Other headings and texts are for
+/// readers of the file.
 fn read(text: &'static str) -> Vec<Page> {
     let mut lines = text.lines().filter(|line| !line.is_empty()).peekable();
     let mut pages = Vec::new();
@@ -51,7 +56,8 @@ mod tests {
     #[test]
     fn pages_are_headings_with_the_line_below() {
         let found = read(
-            "# Errors\n\nHow to read.\n\n## E001 First of all\n\nA. B.\n\n# Files\n\n## F002 thin-web\n## Not one\n\nC.",
+            "# Errors\n\nHow to read.\n\n## E001 First of all\n\nA. B.\n\n# Files\n\n## F002 \
+            thin-web\n## Not one\n\nC.",
         );
         let (first, second) = (Code::error(1), Code::finding(2));
         let expected = [

@@ -1,7 +1,8 @@
 //! The gallery: many recipes at once, each with its picture and its facts, on one page.
 //!
-//! The bundled recipes make the figures of the papers; a user's own folder of recipes can be shown in the same way. Recipes are
-//! built side by side, and what each makes is the same as that of `kerfold run`.
+//! The bundled recipes make the figures of the papers; a user's own folder of recipes can be shown
+//! in the same way. Recipes are built side by side, and what each makes is the same as that of
+//! `kerfold run`.
 
 mod bundle;
 mod page;
@@ -39,7 +40,8 @@ pub struct Exhibit {
     pub story: Vec<String>,
     /// The TOML text.
     pub recipe: String,
-    /// Numbers of vertices, edges, faces, components and handles; none for a recipe that only nests.
+    /// Numbers of vertices, edges, faces, components and handles; none for a recipe that only
+    /// nests.
     pub model: Option<ModelFacts>,
     /// Number of pieces, and of sheets, once something was unfolded, panelled or nested.
     pub pieces: Option<(usize, usize)>,
@@ -106,8 +108,8 @@ impl Coded for GalleryError {
     }
 }
 
-/// Builds one recipe: what is told about it, and its files. `width` is that of its pictures in pixels, instead of what the
-/// recipe says.
+/// Builds one recipe: what is told about it, and its files. `width` is that of its pictures in
+/// pixels, instead of what the recipe says.
 ///
 /// # Errors
 /// [`GalleryError`] with the name of the recipe.
@@ -117,10 +119,10 @@ pub fn exhibit(
     progress: &dyn Progress,
 ) -> Result<(Exhibit, Vec<Output>), GalleryError> {
     let name = || recipe.name.clone();
-    let parsed =
-        Recipe::parse(&recipe.text).map_err(|error| GalleryError::Recipe { name: name(), error: Box::new(error) })?;
-    let mut job =
-        Job::run(&parsed, &recipe.folder, progress).map_err(|error| GalleryError::Step { name: name(), error })?;
+    let parsed = Recipe::parse(&recipe.text)
+        .map_err(|error| GalleryError::Recipe { name: name(), error: Box::new(error) })?;
+    let mut job = Job::run(&parsed, &recipe.folder, progress)
+        .map_err(|error| GalleryError::Step { name: name(), error })?;
     if let Some(width) = width {
         (job.render.width, job.render.height) = (width, None);
     }
@@ -129,13 +131,22 @@ pub fn exhibit(
     let outputs = job_outputs(&job, &command).map_err(failed)?;
     let report = if job.has_mesh() { Some(job.report().map_err(failed)?) } else { None };
     let findings = report.iter().filter(|_| job.is_check_asked).flat_map(|r| &r.findings);
-    let made = job.fabrication.as_ref().map(|(f, _)| f).or(job.panelled.as_ref().map(|(p, _)| &p.fabrication));
+    let made = job
+        .fabrication
+        .as_ref()
+        .map(|(f, _)| f)
+        .or(job.panelled.as_ref().map(|(p, _)| &p.fabrication));
     let exhibit = Exhibit {
         name: name(),
         title: parsed.name.unwrap_or_else(name),
         story: story(&recipe.text),
         recipe: recipe.text.clone(),
-        findings: job.unclean.iter().map(ToString::to_string).chain(findings.map(|f| f.message.clone())).collect(),
+        findings: job
+            .unclean
+            .iter()
+            .map(ToString::to_string)
+            .chain(findings.map(|f| f.message.clone()))
+            .collect(),
         model: report.as_ref().map(|r| ModelFacts {
             vertices: r.model.vertices,
             edges: r.model.edges,
@@ -156,7 +167,8 @@ fn story(text: &str) -> Vec<String> {
     lines.map(|line| line.trim().to_owned()).filter(|line| !line.is_empty()).collect()
 }
 
-/// Does some work for each recipe, on all processors, and returns the results in the order of the recipes.
+/// Does some work for each recipe, on all processors, and returns the results in the order of the
+/// recipes.
 pub fn side_by_side<T: Send>(
     recipes: &[GalleryRecipe],
     progress: &dyn Progress,
@@ -174,7 +186,8 @@ pub fn side_by_side<T: Send>(
             progress.report("recipes", done.fetch_add(1, Ordering::Relaxed) + 1, recipes.len());
         }
     };
-    let threads = thread::available_parallelism().map_or(1, std::num::NonZero::get).min(recipes.len());
+    let threads =
+        thread::available_parallelism().map_or(1, std::num::NonZero::get).min(recipes.len());
     thread::scope(|scope| {
         for _ in 1..threads {
             scope.spawn(run);

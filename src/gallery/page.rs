@@ -1,4 +1,5 @@
-//! The page of a gallery, as HTML beside the folders of its recipes, and as Markdown for documentation.
+//! The page of a gallery, as HTML beside the folders of its recipes, and as Markdown for
+//! documentation.
 
 use std::fmt::Write as _;
 
@@ -26,19 +27,20 @@ const GROUPS: [(&str, &str); 4] = [
 /// The exhibits of each group, groups without any left out.
 fn grouped(exhibits: &[Exhibit]) -> impl Iterator<Item = (&'static str, Vec<&Exhibit>)> {
     let group = |e: &Exhibit| GROUPS.iter().position(|(start, _)| e.name.starts_with(start));
-    let groups = GROUPS
-        .iter()
-        .enumerate()
-        .map(move |(k, &(_, title))| (title, exhibits.iter().filter(|e| group(e) == Some(k)).collect::<Vec<_>>()));
+    let groups = GROUPS.iter().enumerate().map(move |(k, &(_, title))| {
+        (title, exhibits.iter().filter(|e| group(e) == Some(k)).collect::<Vec<_>>())
+    });
     groups.filter(|(_, members)| !members.is_empty())
 }
 
-/// One page for all: picture, recipe, counts, genus, planarity, pieces and sheets of each. It refers to the pictures and
-/// reports in the folders beside it, and loads nothing else.
+/// One page for all: picture, recipe, counts, genus, planarity, pieces and sheets of each. It
+/// refers to the pictures and reports in the folders beside it, and loads nothing else.
 pub fn gallery_html(exhibits: &[Exhibit], failures: &[String], command: &str) -> String {
     let mut page = format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n<title>kerfold gallery</title>\n\
-         <meta name=\"viewport\" content=\"width=device-width\"/>\n<style>{STYLE}</style>\n</head>\n<body>\n\
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n<title>kerfold \
+        gallery</title>\n\
+         <meta name=\"viewport\" \
+         content=\"width=device-width\"/>\n<style>{STYLE}</style>\n</head>\n<body>\n\
          <h1>Gallery</h1>\n<p>{} recipes, made by <code>{}</code></p>\n",
         exhibits.len() + failures.len(),
         escaped(command)
@@ -59,7 +61,8 @@ fn card(page: &mut String, e: &Exhibit) {
     let picture = if e.model.is_some() { "model.png" } else { "sheet-01.png" };
     let _ = writeln!(
         page,
-        "<article id=\"{name}\"><a href=\"{name}/{picture}\"><img src=\"{name}/{picture}\" alt=\"{title}\" \
+        "<article id=\"{name}\"><a href=\"{name}/{picture}\"><img src=\"{name}/{picture}\" \
+        alt=\"{title}\" \
          loading=\"lazy\"/></a>\n<div><h3>{title}</h3>"
     );
     for line in &e.story {
@@ -69,7 +72,11 @@ fn card(page: &mut String, e: &Exhibit) {
     for finding in e.findings.iter().take(4) {
         let _ = writeln!(page, "<p class=\"fail\">{}</p>", escaped(finding));
     }
-    let _ = writeln!(page, "<details><summary>{name}.toml</summary><pre>{}</pre></details>", escaped(&e.recipe));
+    let _ = writeln!(
+        page,
+        "<details><summary>{name}.toml</summary><pre>{}</pre></details>",
+        escaped(&e.recipe)
+    );
     page.push_str("</div></article>\n");
 }
 
@@ -94,7 +101,8 @@ fn facts(e: &Exhibit) -> String {
     facts.join(" · ")
 }
 
-/// Below a billionth of the model, deviations are the rounding of the computation: no digits that another machine may not show.
+/// Below a billionth of the model, deviations are the rounding of the computation: no digits that
+/// another machine may not show.
 fn planarity(m: &ModelFacts) -> String {
     const ROUNDING: f64 = 1e-9;
     if m.planarity_mm <= ROUNDING * m.size_mm {
@@ -104,13 +112,15 @@ fn planarity(m: &ModelFacts) -> String {
     }
 }
 
-/// The same as a page of Markdown; the pictures are expected in the folder `pictures`, named after the recipes.
+/// The same as a page of Markdown; the pictures are expected in the folder `pictures`, named after
+/// the recipes.
 pub fn gallery_markdown(exhibits: &[Exhibit], pictures: &str) -> String {
     let mut page = String::new();
     for (title, members) in grouped(exhibits) {
         let _ = writeln!(page, "## {title}\n");
         for e in members {
-            let _ = writeln!(page, "### {}\n\n![{}]({pictures}/{}.png)\n", e.title, e.title, e.name);
+            let _ =
+                writeln!(page, "### {}\n\n![{}]({pictures}/{}.png)\n", e.title, e.title, e.name);
             for line in &e.story {
                 let _ = writeln!(page, "{line}  ");
             }

@@ -2,13 +2,13 @@
 
 use glam::DVec2;
 
-/// An orthonormal basis of the patterns of corner heights that no plane has: k − 3 lists of k numbers for k ≥ 3 corners, whose
-/// places in the plane of the polygon are `flat`. Heights h over that plane are those of a plane exactly when every pattern's
-/// product with h is zero.
+/// An orthonormal basis of the patterns of corner heights that no plane has: k − 3 lists of k
+/// numbers for k ≥ 3 corners, whose places in the plane of the polygon are `flat`. Heights h over
+/// that plane are those of a plane exactly when every pattern's product with h is zero.
 ///
-/// The patterns are the last columns of the orthogonal factor of the k × 3 matrix [1 x y], by Householder reflections
-/// (Golub, Van Loan 2013, 5.2). Corners on one line leave it without full rank; the patterns are then still orthonormal, but one
-/// pattern of a plane may be among them.
+/// The patterns are the last columns of the orthogonal factor of the k × 3 matrix [1 x y], by
+/// Householder reflections (Golub, Van Loan 2013, 5.2). Corners on one line leave it without full
+/// rank; the patterns are then still orthonormal, but one pattern of a plane may be among them.
 pub fn bending_patterns(flat: &[DVec2]) -> Vec<Vec<f64>> {
     let count = flat.len();
     if count <= 3 {
@@ -64,7 +64,13 @@ mod tests {
     fn planes_have_none_of_the_patterns_and_the_patterns_are_orthonormal() {
         let shapes: [&[(f64, f64)]; 3] = [
             &[(0.0, 0.0), (4.0, 0.0), (3.0, 2.0), (0.0, 1.0)],
-            &[(1e5, 1e5), (1e5 + 1.0, 1e5), (1e5 + 2.0, 1e5 + 1.0), (1e5 + 1.0, 1e5 + 3.0), (1e5, 1e5 + 2.0)],
+            &[
+                (1e5, 1e5),
+                (1e5 + 1.0, 1e5),
+                (1e5 + 2.0, 1e5 + 1.0),
+                (1e5 + 1.0, 1e5 + 3.0),
+                (1e5, 1e5 + 2.0),
+            ],
             &[(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)],
         ];
         for shape in shapes {
@@ -72,7 +78,8 @@ mod tests {
             let patterns = bending_patterns(&flat);
             assert_eq!(patterns.len(), flat.len() - 3);
             let origin = flat[0];
-            let plane: Vec<f64> = flat.iter().map(|&p| 0.3 + 0.7 * (p - origin).x - 1.1 * (p - origin).y).collect();
+            let plane: Vec<f64> =
+                flat.iter().map(|&p| 0.3 + 0.7 * (p - origin).x - 1.1 * (p - origin).y).collect();
             for (i, a) in patterns.iter().enumerate() {
                 assert!(dot(a, &plane).abs() < 1e-11);
                 for (j, b) in patterns.iter().enumerate() {
@@ -84,7 +91,8 @@ mod tests {
 
     #[test]
     fn a_square_bends_with_alternating_corners() {
-        let square = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(x, y)| DVec2::new(x, y));
+        let square =
+            [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(x, y)| DVec2::new(x, y));
         let pattern = &bending_patterns(&square)[0];
         assert!(pattern.iter().all(|x| (x.abs() - 0.5).abs() < 1e-15));
         assert!(pattern.windows(2).all(|w| w[0] * w[1] < 0.0));

@@ -5,23 +5,27 @@ use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
 use super::Plane;
 
-/// Eigenvalues of the squared system below this share of the largest are rounding: the planes say nothing there.
-/// Squaring halves the digits, so normals must open by about 1e-7 rad to count as different.
+/// Eigenvalues of the squared system below this share of the largest are rounding: the planes say
+/// nothing there. Squaring halves the digits, so normals must open by about 1e-7 rad to count as
+/// different.
 const RANK: f64 = 64.0 * f64::EPSILON;
 
-/// The point with the least sum of squared distances to `planes`, and its largest distance from any of them.
+/// The point with the least sum of squared distances to `planes`, and its largest distance from any
+/// of them.
 ///
-/// Worked out relative to the planes' own points, so that it is accurate however far from the origin they lie.
-/// `None` with fewer than three planes, or when their normals do not span space: then no single point is the nearest.
+/// Worked out relative to the planes' own points, so that it is accurate however far from the
+/// origin they lie. `None` with fewer than three planes, or when their normals do not span space:
+/// then no single point is the nearest.
 pub fn meet_planes(planes: &[Plane]) -> Option<(DVec3, f64)> {
     let first = planes.first()?.point();
-    let anchor = first + planes.iter().map(|p| p.point() - first).sum::<DVec3>() / planes.len() as f64;
+    let anchor =
+        first + planes.iter().map(|p| p.point() - first).sum::<DVec3>() / planes.len() as f64;
     let system = System::new(planes, anchor);
     (system.rank() == 3).then(|| system.solve(planes))
 }
 
-/// The same, but of all points that serve equally well the one nearest to `near`; so it exists for one plane, for planes
-/// through a common line, and for parallel ones too.
+/// The same, but of all points that serve equally well the one nearest to `near`; so it exists for
+/// one plane, for planes through a common line, and for parallel ones too.
 pub fn meet_planes_near(planes: &[Plane], near: DVec3) -> (DVec3, f64) {
     System::new(planes, near).solve(planes)
 }
@@ -51,10 +55,11 @@ impl System {
         (0..3).filter(|&axis| self.spans(axis)).count()
     }
 
-    /// The nearest point and its largest distance. Squaring loses half the digits; solving again for what is left over
-    /// wins them back.
+    /// The nearest point and its largest distance. Squaring loses half the digits; solving again
+    /// for what is left over wins them back.
     fn solve(&self, planes: &[Plane]) -> (DVec3, f64) {
-        let distance = |plane: &Plane, x: DVec3| plane.normal().dot(x - (plane.point() - self.anchor));
+        let distance =
+            |plane: &Plane, x: DVec3| plane.normal().dot(x - (plane.point() - self.anchor));
         let mut x = DVec3::ZERO;
         for _ in 0..3 {
             let pull: DVec3 = planes.iter().map(|plane| plane.normal() * distance(plane, x)).sum();
@@ -105,7 +110,8 @@ mod tests {
         // Normals that open by 1e-4 only: squared, eight digits would be gone.
         let normals = [[1e-4, 0.0, 1.0], [-1e-4, 1e-4, 1.0], [0.0, -1e-4, 1.0]];
         let corner = DVec3::new(0.3, -0.2, 0.1);
-        let planes = normals.map(|n| plane(n, corner + plane(n, corner).normal().any_orthonormal_vector()));
+        let planes =
+            normals.map(|n| plane(n, corner + plane(n, corner).normal().any_orthonormal_vector()));
         let (point, residual) = meet_planes(&planes).expect("they span space");
         assert!(point.distance(corner) < 1e-10, "{}", point.distance(corner));
         assert!(residual < 1e-14);

@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use super::Plane;
 
-/// The point where three planes meet, found from a point `near` it: only the small way from there is solved for, so the
-/// error is relative to that way and not to the distance from the origin.
+/// The point where three planes meet, found from a point `near` it: only the small way from there
+/// is solved for, so the error is relative to that way and not to the distance from the origin.
 ///
 /// `None` when the planes do not meet in one well-determined point.
 #[inline]
@@ -29,9 +29,11 @@ mod tests {
     #[test]
     fn three_planes_meet_to_the_last_digit_far_from_the_origin() {
         let corner = DVec3::new(37_000.125, -12_000.5, 8_000.25);
-        let directions = [DVec3::new(1.0, 0.2, 0.0), DVec3::new(0.1, 1.0, 0.3), DVec3::new(-0.2, 0.1, 1.0)];
+        let directions =
+            [DVec3::new(1.0, 0.2, 0.0), DVec3::new(0.1, 1.0, 0.3), DVec3::new(-0.2, 0.1, 1.0)];
         let planes = directions.map(|n| Plane::new(n, corner).expect("a plane"));
-        let met = meet_three([&planes[0], &planes[1], &planes[2]], corner + 1e-6).expect("they meet");
+        let met =
+            meet_three([&planes[0], &planes[1], &planes[2]], corner + 1e-6).expect("they meet");
         assert!(met.distance(corner) < 2e-11);
     }
 

@@ -4,8 +4,9 @@ use glam::DVec3;
 
 /// An oriented plane: a unit normal and a point on the plane.
 ///
-/// The normal side (positive distances) is the side that a cut removes. The plane is anchored at a point instead of an
-/// offset from the origin, so that distances near the anchor keep full precision however far from the origin the model is.
+/// The normal side (positive distances) is the side that a cut removes. The plane is anchored at a
+/// point instead of an offset from the origin, so that distances near the anchor keep full
+/// precision however far from the origin the model is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plane {
     normal: DVec3,
@@ -23,7 +24,8 @@ impl Plane {
         point.is_finite().then_some(Self { normal, point })
     }
 
-    /// The plane of a closed polygon: Newell normal, through the mean of the corners. `None` when the corners are collinear.
+    /// The plane of a closed polygon: Newell normal, through the mean of the corners. `None` when
+    /// the corners are collinear.
     ///
     /// The normal points to the side from which the corners run counter-clockwise.
     pub fn newell(corners: &[DVec3]) -> Option<Self> {
@@ -43,7 +45,8 @@ impl Plane {
         self.point
     }
 
-    /// The signed distance of the plane from the origin along its normal: `normal · x = offset` on the plane.
+    /// The signed distance of the plane from the origin along its normal: `normal · x = offset` on
+    /// the plane.
     pub fn offset(&self) -> f64 {
         self.normal.dot(self.point)
     }
@@ -69,8 +72,8 @@ impl Plane {
         Self { normal: self.normal, point: self.point + self.normal * distance }
     }
 
-    /// The plane through the mean of `points`, with the mean of unit `normals` as its direction (Gonen 2007, III.B).
-    /// `None` when there is no point or the normals cancel.
+    /// The plane through the mean of `points`, with the mean of unit `normals` as its direction
+    /// (Gonen 2007, III.B). `None` when there is no point or the normals cancel.
     pub fn through_mean(points: &[DVec3], normals: &[DVec3]) -> Option<Self> {
         let direction: DVec3 = normals.iter().sum();
         // Unit vectors that cancel leave only rounding; a direction out of that would be chance.
@@ -79,7 +82,8 @@ impl Plane {
     }
 }
 
-/// The mean of `points`, summed relative to the first so that far from the origin no digits are lost.
+/// The mean of `points`, summed relative to the first so that far from the origin no digits are
+/// lost.
 fn mean(points: &[DVec3]) -> Option<DVec3> {
     let first = *points.first()?;
     let sum: DVec3 = points.iter().map(|&p| p - first).sum();
@@ -108,7 +112,8 @@ mod tests {
     #[test]
     fn tiny_and_huge_normals_are_normalised() {
         for scale in [1e-200, 1.0, 1e200] {
-            let plane = Plane::new(DVec3::new(0.0, 3.0, 4.0) * scale, DVec3::ZERO).expect("not zero");
+            let plane =
+                Plane::new(DVec3::new(0.0, 3.0, 4.0) * scale, DVec3::ZERO).expect("not zero");
             assert!((plane.normal() - DVec3::new(0.0, 0.6, 0.8)).length() < 1e-15);
         }
         assert!(Plane::new(DVec3::ZERO, DVec3::ZERO).is_none());

@@ -68,14 +68,16 @@ pub fn on_segment(a: DVec2, b: DVec2, p: DVec2) -> bool {
     p.cmpge(low).all() && p.cmple(high).all() && orient2d(a, b, p) == 0.0
 }
 
-/// Whether the open segments a–b and c–d cross in one interior point of both, exactly. Touching is not crossing.
+/// Whether the open segments a–b and c–d cross in one interior point of both, exactly. Touching is
+/// not crossing.
 pub fn segments_cross(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
     // Signs, not products: a product of two tiny areas would underflow to zero.
     let opposite = |s: f64, t: f64| (s > 0.0 && t < 0.0) || (s < 0.0 && t > 0.0);
     opposite(orient2d(a, b, c), orient2d(a, b, d)) && opposite(orient2d(c, d, a), orient2d(c, d, b))
 }
 
-/// The convex hull, counter-clockwise, without collinear corners (Andrew 1979, monotone chain, exact signs).
+/// The convex hull, counter-clockwise, without collinear corners (Andrew 1979, monotone chain,
+/// exact signs).
 pub fn convex_hull(points: &[DVec2]) -> Vec<DVec2> {
     let mut sorted = points.to_vec();
     sorted.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
@@ -92,7 +94,8 @@ pub fn convex_hull(points: &[DVec2]) -> Vec<DVec2> {
 fn half_hull(points: impl Iterator<Item = DVec2>) -> Vec<DVec2> {
     let mut chain: Vec<DVec2> = Vec::new();
     for p in points {
-        while chain.len() > 1 && orient2d(chain[chain.len() - 2], chain[chain.len() - 1], p) <= 0.0 {
+        while chain.len() > 1 && orient2d(chain[chain.len() - 2], chain[chain.len() - 1], p) <= 0.0
+        {
             chain.pop();
         }
         chain.push(p);
@@ -106,7 +109,9 @@ mod tests {
     use super::*;
 
     fn ell() -> Vec<DVec2> {
-        [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)].map(|(x, y)| DVec2::new(x, y)).to_vec()
+        [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)]
+            .map(|(x, y)| DVec2::new(x, y))
+            .to_vec()
     }
 
     #[test]

@@ -1,7 +1,8 @@
 //! Signs that cannot lie: adaptive exact predicates on given numbers.
 //!
-//! Sources: Shewchuk 1997, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates";
-//! orientation tests by the `robust` crate, the plane side test by the expansion arithmetic of the same paper.
+//! Sources: Shewchuk 1997, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
+//! Predicates"; orientation tests by the `robust` crate, the plane side test by the expansion
+//! arithmetic of the same paper.
 
 use glam::{DVec2, DVec3};
 use robust::{Coord, Coord3D};
@@ -31,29 +32,33 @@ impl Side {
     }
 }
 
-/// Twice the signed area of the triangle a, b, c with an exact sign: positive when it runs counter-clockwise.
+/// Twice the signed area of the triangle a, b, c with an exact sign: positive when it runs
+/// counter-clockwise.
 pub fn orient2d(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     let coord = |p: DVec2| Coord { x: p.x, y: p.y };
     robust::orient2d(coord(a), coord(b), coord(c))
 }
 
-/// Six times the signed volume of the tetrahedron a, b, c, d with an exact sign: positive when d lies below the plane
-/// from whose upper side a, b, c run counter-clockwise.
+/// Six times the signed volume of the tetrahedron a, b, c, d with an exact sign: positive when d
+/// lies below the plane from whose upper side a, b, c run counter-clockwise.
 pub fn orient3d(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> f64 {
     let coord = |p: DVec3| Coord3D { x: p.x, y: p.y, z: p.z };
     robust::orient3d(coord(a), coord(b), coord(c), coord(d))
 }
 
-/// The exact side of `x` with respect to the plane through `point` with the direction `normal` (any length).
+/// The exact side of `x` with respect to the plane through `point` with the direction `normal` (any
+/// length).
 ///
-/// All nine numbers are taken as given; the sign of normal · (x − point) is exact barring overflow and underflow.
+/// All nine numbers are taken as given; the sign of normal · (x − point) is exact barring overflow
+/// and underflow.
 #[inline]
 pub fn side_of_plane(normal: DVec3, point: DVec3, x: DVec3) -> Side {
     rounded_side(normal, point, x).unwrap_or_else(|| exact_side(normal, point, x))
 }
 
-/// The side as far as rounded arithmetic can tell it; `None` when `x` is so near to the plane that only exact arithmetic
-/// could. No rounded construction, such as the point where an edge crosses the plane, can be told from such an `x`.
+/// The side as far as rounded arithmetic can tell it; `None` when `x` is so near to the plane that
+/// only exact arithmetic could. No rounded construction, such as the point where an edge crosses
+/// the plane, can be told from such an `x`.
 #[inline]
 pub fn rounded_side(normal: DVec3, point: DVec3, x: DVec3) -> Option<Side> {
     let products = normal * (x - point);
@@ -77,7 +82,8 @@ fn exact_side(normal: DVec3, point: DVec3, x: DVec3) -> Side {
     Side::of(sum.sign())
 }
 
-/// A sum of non-overlapping doubles, smallest first (Shewchuk 1997, 2.4). Twelve terms are all that a plane test adds.
+/// A sum of non-overlapping doubles, smallest first (Shewchuk 1997, 2.4). Twelve terms are all that
+/// a plane test adds.
 #[derive(Default)]
 struct Expansion {
     terms: [f64; 12],
@@ -141,7 +147,8 @@ mod tests {
 
     /// Integers scaled by powers of two are exact in i128, so they judge the floating-point sign.
     fn exact_by_integers(n: [i64; 3], p: [i64; 3], x: [i64; 3]) -> Side {
-        let sum: i128 = (0..3).map(|i| i128::from(n[i]) * (i128::from(x[i]) - i128::from(p[i]))).sum();
+        let sum: i128 =
+            (0..3).map(|i| i128::from(n[i]) * (i128::from(x[i]) - i128::from(p[i]))).sum();
         Side::of(sum.signum() as f64)
     }
 
@@ -153,7 +160,8 @@ mod tests {
             u in prop::array::uniform3(-(1_i64 << 8)..1 << 8),
             nudge in -1_i64..=1,
         ) {
-            // x − p is perpendicular to n up to a nudge of one unit: the filter fails, the expansion must decide.
+            // x − p is perpendicular to n up to a nudge of one unit: the filter fails, the
+            // expansion must decide.
             let cross = [n[1] * u[2] - n[2] * u[1], n[2] * u[0] - n[0] * u[2], n[0] * u[1] - n[1] * u[0]];
             let x = [p[0] + cross[0] + nudge, p[1] + cross[1], p[2] + cross[2]];
             let vec = |a: [i64; 3]| DVec3::new(a[0] as f64, a[1] as f64, a[2] as f64);

@@ -5,15 +5,15 @@ use glam::DVec3;
 /// Relative size of the rounding that constructed points and planes may carry (`operators.md` 1).
 const RELATIVE: f64 = 1e-12;
 
-/// How many times farther from the origin than its size a model may lie before the coarser spacing of its coordinates
-/// widens the bound noticeably.
+/// How many times farther from the origin than its size a model may lie before the coarser spacing
+/// of its coordinates widens the bound noticeably.
 const FAR: f64 = 256.0;
 
 /// How near a constructed point must be to a plane to count as on it.
 ///
-/// The bound is relative to the model: 1e-12 of its size, widened only where the coordinates themselves are coarser than
-/// that because the model lies far from the origin. Given numbers are never compared through it: their signs are exact
-/// ([`super::predicate::side_of_plane`]).
+/// The bound is relative to the model: 1e-12 of its size, widened only where the coordinates
+/// themselves are coarser than that because the model lies far from the origin. Given numbers are
+/// never compared through it: their signs are exact ([`super::predicate::side_of_plane`]).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RoundingBound(f64);
 

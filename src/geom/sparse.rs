@@ -1,8 +1,9 @@
 //! Sparse linear systems that are symmetric and positive definite, solved directly.
 //!
-//! The order of elimination is a nested dissection by geometry (George 1973; Gilbert, Teng 1987): unknowns that belong to places on a
-//! surface are halved along the widest axis, the ones that stand between the halves come last. On surfaces the factor then holds
-//! of the order of n log n numbers, where the order of a file could cost n².
+//! The order of elimination is a nested dissection by geometry (George 1973; Gilbert, Teng 1987):
+//! unknowns that belong to places on a surface are halved along the widest axis, the ones that
+//! stand between the halves come last. On surfaces the factor then holds of the order of n log n
+//! numbers, where the order of a file could cost n².
 
 use glam::DVec3;
 use nalgebra::DMatrix;
@@ -15,11 +16,19 @@ const SMALL: usize = 24;
 /// A row of a sparse matrix: columns and values.
 pub type SparseRow = Vec<(usize, f64)>;
 
-/// The multipliers of a least-squares problem with linear constraints: solves `(A W Aᵀ + shift I) y = b` for y.
+/// The multipliers of a least-squares problem with linear constraints: solves `(A W Aᵀ + shift I) y
+/// = b` for y.
 ///
-/// `rows` are the rows of A, `weights` the diagonal of W (not negative), `order` the rows in the order of elimination, each once.
-/// `None` when the matrix is not positive definite within rounding; a larger shift helps.
-pub fn solve_normal(rows: &[SparseRow], weights: &[f64], shift: f64, order: &[usize], b: &[f64]) -> Option<Vec<f64>> {
+/// `rows` are the rows of A, `weights` the diagonal of W (not negative), `order` the rows in the
+/// order of elimination, each once. `None` when the matrix is not positive definite within
+/// rounding; a larger shift helps.
+pub fn solve_normal(
+    rows: &[SparseRow],
+    weights: &[f64],
+    shift: f64,
+    order: &[usize],
+    b: &[f64],
+) -> Option<Vec<f64>> {
     let count = rows.len();
     let mut scaled = CooMatrix::new(count, weights.len());
     for (i, &row) in order.iter().enumerate() {
@@ -44,8 +53,8 @@ pub fn solve_normal(rows: &[SparseRow], weights: &[f64], shift: f64, order: &[us
     y.iter().all(|x| x.is_finite()).then_some(y)
 }
 
-/// An order of places such that eliminating them one after the other fills in little. `neighbours(i)` are the places that share
-/// an equation with the i-th. Deterministic.
+/// An order of places such that eliminating them one after the other fills in little.
+/// `neighbours(i)` are the places that share an equation with the i-th. Deterministic.
 pub fn nested_dissection(places: &[DVec3], neighbours: &[Vec<usize>]) -> Vec<usize> {
     let mut order = Vec::with_capacity(places.len());
     let mut part = vec![0_u32; places.len()];
@@ -89,7 +98,8 @@ fn dissect(
 mod tests {
     use super::*;
 
-    /// A grid of n × n places, each with an equation that says how it bends against its four neighbours.
+    /// A grid of n × n places, each with an equation that says how it bends against its four
+    /// neighbours.
     fn grid(n: usize) -> (Vec<DVec3>, Vec<Vec<usize>>, Vec<SparseRow>) {
         let at = |x: usize, y: usize| y * n + x;
         let (mut places, mut neighbours, mut rows) = (Vec::new(), Vec::new(), Vec::new());
@@ -104,12 +114,14 @@ mod tests {
                 }
             }
             rows.push(std::iter::once((i, 4.5)).chain(near.iter().map(|&j| (j, -1.0))).collect());
-            // Rows meet in A Aᵀ when they share a column, so a place's neighbours are two steps away, too.
+            // Rows meet in A Aᵀ when they share a column, so a place's neighbours are two steps
+            // away, too.
             neighbours.push(near);
         }
         let two_steps: Vec<Vec<usize>> = (0..n * n)
             .map(|i| {
-                let mut all: Vec<usize> = neighbours[i].iter().flat_map(|&j| neighbours[j].clone()).collect();
+                let mut all: Vec<usize> =
+                    neighbours[i].iter().flat_map(|&j| neighbours[j].clone()).collect();
                 all.extend(&neighbours[i]);
                 all.sort_unstable();
                 all.dedup();
@@ -126,7 +138,8 @@ mod tests {
         let mut sorted = order.clone();
         sorted.sort_unstable();
         assert!(sorted.iter().copied().eq(0..900));
-        let weights: Vec<f64> = (0..900).map(|i| if i % 7 == 0 { 0.0 } else { 1.0 + i as f64 / 900.0 }).collect();
+        let weights: Vec<f64> =
+            (0..900).map(|i| if i % 7 == 0 { 0.0 } else { 1.0 + i as f64 / 900.0 }).collect();
         let b: Vec<f64> = (0..900).map(|i| (i as f64 * 0.7).sin()).collect();
         let y = solve_normal(&rows, &weights, 0.1, &order, &b).expect("positive definite");
         // Back through the definition: W Aᵀ y, then A of that, plus the shift.

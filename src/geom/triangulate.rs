@@ -8,19 +8,25 @@ use super::predicate::orient2d;
 
 /// Cuts a polygon into triangles between its corners, which are named by their places in `polygon`.
 ///
-/// The polygon may be concave and may have corners on straight sides; the triangles run the way the polygon runs and none
-/// of them is flat, n − 2 of them for n corners. When the polygon touches or crosses itself, n − 2 triangles come all the
-/// same, by clipping ears as well as they can be found; some of them may be flat or overlap. Fewer than three corners give none.
+/// The polygon may be concave and may have corners on straight sides; the triangles run the way the
+/// polygon runs and none of them is flat, n − 2 of them for n corners. When the polygon touches or
+/// crosses itself, n − 2 triangles come all the same, by clipping ears as well as they can be
+/// found; some of them may be flat or overlap. Fewer than three corners give none.
 ///
-/// The same polygon always gives the same triangles. Simple polygons go through a constrained Delaunay triangulation
-/// (Chew 1989, by the `spade` crate), which avoids slivers where it can.
+/// The same polygon always gives the same triangles. Simple polygons go through a constrained
+/// Delaunay triangulation (Chew 1989, by the `spade` crate), which avoids slivers where it can.
 pub fn triangulate(polygon: &[DVec2]) -> Vec<[usize; 3]> {
     let Some(polygon) = scaled(polygon) else { return fan(polygon.len()) };
     match polygon.len() {
         0..=3 => fan(polygon.len()),
         4 if is_convex_quad(&polygon) => {
-            let diagonals = [polygon[0].distance_squared(polygon[2]), polygon[1].distance_squared(polygon[3])];
-            if diagonals[0] <= diagonals[1] { vec![[0, 1, 2], [0, 2, 3]] } else { vec![[0, 1, 3], [1, 2, 3]] }
+            let diagonals =
+                [polygon[0].distance_squared(polygon[2]), polygon[1].distance_squared(polygon[3])];
+            if diagonals[0] <= diagonals[1] {
+                vec![[0, 1, 2], [0, 2, 3]]
+            } else {
+                vec![[0, 1, 3], [1, 2, 3]]
+            }
         }
         _ => by_delaunay(&polygon).unwrap_or_else(|| by_ears(&polygon)),
     }
@@ -30,9 +36,9 @@ fn fan(corners: usize) -> Vec<[usize; 3]> {
     (2..corners).map(|i| [0, i - 1, i]).collect()
 }
 
-/// The corners scaled by a power of two to a size near 1, so that no predicate over- or underflows and spade accepts them.
-/// That changes no digit, save that coordinates forty orders of magnitude below the largest become zero.
-/// `None` when a corner is not finite.
+/// The corners scaled by a power of two to a size near 1, so that no predicate over- or underflows
+/// and spade accepts them. That changes no digit, save that coordinates forty orders of magnitude
+/// below the largest become zero. `None` when a corner is not finite.
 fn scaled(polygon: &[DVec2]) -> Option<Vec<DVec2>> {
     if !polygon.iter().all(|p| p.is_finite()) {
         return None;
@@ -86,8 +92,9 @@ fn by_delaunay(polygon: &[DVec2]) -> Option<Vec<[usize; 3]>> {
     (triangles.len() == n - 2).then_some(triangles)
 }
 
-/// Cuts the area between an outline and its holes into triangles: the corners, those at one point being one, and the
-/// triangles, counter-clockwise, by places in that list. What lies inside an odd number of contours is kept.
+/// Cuts the area between an outline and its holes into triangles: the corners, those at one point
+/// being one, and the triangles, counter-clockwise, by places in that list. What lies inside an odd
+/// number of contours is kept.
 ///
 /// `None` when sides cross, when a number is not finite, or when there is no area.
 pub fn triangulate_region(contours: &[&[DVec2]]) -> Option<(Vec<DVec2>, Vec<[usize; 3]>)> {
@@ -122,14 +129,15 @@ pub fn triangulate_region(contours: &[&[DVec2]]) -> Option<(Vec<DVec2>, Vec<[usi
         let middle = triangle.iter().map(|&i| corners[i]).sum::<DVec2>() / 3.0;
         contours.iter().filter(|c| locate(c, middle) == Location::Inside).count() % 2 == 1
     };
-    let faces = net.inner_faces().map(|face| lowest_first(face.vertices().map(|v| v.fix().index())));
+    let faces =
+        net.inner_faces().map(|face| lowest_first(face.vertices().map(|v| v.fix().index())));
     let mut triangles: Vec<[usize; 3]> = faces.filter(|&t| is_inside(t)).collect();
     triangles.sort_unstable();
     (!triangles.is_empty()).then_some((corners, triangles))
 }
 
-/// The turn at the lowest of the leftmost corners: its sign is the sense of a simple polygon. `None` when it is flat,
-/// which no simple polygon is there.
+/// The turn at the lowest of the leftmost corners: its sign is the sense of a simple polygon.
+/// `None` when it is flat, which no simple polygon is there.
 fn turn_at_lowest(polygon: &[DVec2]) -> Option<f64> {
     let n = polygon.len();
     let key = |i: usize| (polygon[i].x, polygon[i].y);
@@ -143,7 +151,8 @@ fn outside_faces(net: &ConstrainedDelaunayTriangulation<Point2<f64>>) -> Vec<boo
     let mut outside = vec![false; net.num_all_faces()];
     let mut open = vec![net.outer_face().fix()];
     outside[open[0].index()] = true;
-    // The outer face may have no edges of its own to walk along, so its neighbours come from the hull.
+    // The outer face may have no edges of its own to walk along, so its neighbours come from the
+    // hull.
     let hull: Vec<_> = net.convex_hull().filter(|e| !e.is_constraint_edge()).collect();
     for edge in hull {
         for face in [edge.face(), edge.rev().face()] {
@@ -164,12 +173,13 @@ fn outside_faces(net: &ConstrainedDelaunayTriangulation<Point2<f64>>) -> Vec<boo
     outside
 }
 
-/// The same with the triangles' corners numbered in the contours one after another. Where contours touch or cross, only the first one
-/// is cut, without its holes.
+/// The same with the triangles' corners numbered in the contours one after another. Where contours
+/// touch or cross, only the first one is cut, without its holes.
 pub fn triangulate_contours(contours: &[Vec<DVec2>]) -> Vec<[usize; 3]> {
     let count: usize = contours.iter().map(Vec::len).sum();
     let references: Vec<&[DVec2]> = contours.iter().map(Vec::as_slice).collect();
-    // Every hole adds its corners and two triangles more; a corner on another contour's side leaves another number.
+    // Every hole adds its corners and two triangles more; a corner on another contour's side leaves
+    // another number.
     let is_whole = |triangles: &[[usize; 3]]| triangles.len() + 4 == count + 2 * contours.len();
     match triangulate_region(&references) {
         // No corner met another one, so their numbers are those of the contours.
@@ -188,7 +198,8 @@ fn lowest_first([a, b, c]: [usize; 3]) -> [usize; 3] {
     }
 }
 
-/// Beyond this many corners a polygon that is not simple gets a plain fan: clipping takes cubic time.
+/// Beyond this many corners a polygon that is not simple gets a plain fan: clipping takes cubic
+/// time.
 const MOST_EARS: usize = 500;
 
 /// Clips ears; good for polygons that touch themselves, such as one with a slit to its hole.
@@ -216,11 +227,17 @@ fn around(left: &[usize], at: usize) -> [usize; 3] {
     [left[(at + n - 1) % n], left[at], left[(at + 1) % n]]
 }
 
-/// Whether the corner turns left and no other corner lies in its triangle, save those at one point with its own.
+/// Whether the corner turns left and no other corner lies in its triangle, save those at one point
+/// with its own.
 fn is_ear(polygon: &[DVec2], left: &[usize], at: usize) -> bool {
     let [a, b, c] = around(left, at).map(|i| polygon[i]);
     let is_inside = |p: DVec2| {
-        p != a && p != b && p != c && orient2d(a, b, p) >= 0.0 && orient2d(b, c, p) >= 0.0 && orient2d(c, a, p) >= 0.0
+        p != a
+            && p != b
+            && p != c
+            && orient2d(a, b, p) >= 0.0
+            && orient2d(b, c, p) >= 0.0
+            && orient2d(c, a, p) >= 0.0
     };
     orient2d(a, b, c) > 0.0 && !left.iter().any(|&i| is_inside(polygon[i]))
 }
@@ -239,7 +256,10 @@ mod tests {
         let triangles = triangulate(corners);
         assert_eq!(triangles.len(), corners.len() - 2, "{corners:?}");
         let area = signed_area(corners);
-        let areas: Vec<f64> = triangles.iter().map(|t| orient2d(corners[t[0]], corners[t[1]], corners[t[2]])).collect();
+        let areas: Vec<f64> = triangles
+            .iter()
+            .map(|t| orient2d(corners[t[0]], corners[t[1]], corners[t[2]]))
+            .collect();
         assert!(areas.iter().all(|a| a * area.signum() > 0.0), "{corners:?}: {triangles:?}");
         let sum: f64 = areas.iter().sum::<f64>() / 2.0;
         assert!((sum - area).abs() <= 1e-9 * area.abs(), "{sum} is not {area}");
@@ -247,7 +267,17 @@ mod tests {
 
     #[test]
     fn concave_polygons_with_corners_on_straight_sides_are_covered() {
-        let comb = polygon(&[(0., 0.), (1., 0.), (2., 0.), (4., 0.), (4., 3.), (3., 1.), (2., 3.), (1., 1.), (0., 3.)]);
+        let comb = polygon(&[
+            (0., 0.),
+            (1., 0.),
+            (2., 0.),
+            (4., 0.),
+            (4., 3.),
+            (3., 1.),
+            (2., 3.),
+            (1., 1.),
+            (0., 3.),
+        ]);
         for scale in [1e-200, 1e-3, 1.0, 1e5, 1e200] {
             let scaled: Vec<DVec2> = comb.iter().map(|&p| p * scale).collect();
             assert_eq!(triangulate(&scaled), triangulate(&comb), "{scale}");
@@ -281,14 +311,16 @@ mod tests {
 
     #[test]
     fn regions_leave_their_holes_free() {
-        let square = |low: f64, high: f64| polygon(&[(low, low), (high, low), (high, high), (low, high)]);
+        let square =
+            |low: f64, high: f64| polygon(&[(low, low), (high, low), (high, high), (low, high)]);
         let mut turned = square(6.0, 7.0);
         turned.reverse();
         let contours = [square(0.0, 10.0), square(1.0, 3.0), turned];
         let corners = contours.concat();
         let triangles = triangulate_contours(&contours);
         assert_eq!(triangles.len(), 12 + 2 * 2 - 2);
-        let areas = triangles.iter().map(|t| orient2d(corners[t[0]], corners[t[1]], corners[t[2]]) / 2.0);
+        let areas =
+            triangles.iter().map(|t| orient2d(corners[t[0]], corners[t[1]], corners[t[2]]) / 2.0);
         assert_eq!(areas.inspect(|&a| assert!(a > 0.0)).sum::<f64>(), 95.0);
         // A hole that reaches out of its outline is left alone.
         assert_eq!(triangulate_contours(&[square(0.0, 10.0), square(5.0, 15.0)]).len(), 2);

@@ -1,7 +1,8 @@
 //! The triple product of three differences of points, to about the last digit of the result.
 //!
-//! Sums and products are kept as a number and its rounding error (Dekker 1971, "A floating-point technique for extending the available
-//! precision"; Knuth 1997, 4.2.2, theorem B), so that long thin triangles, whose terms nearly cancel, keep their digits.
+//! Sums and products are kept as a number and its rounding error (Dekker 1971, "A floating-point
+//! technique for extending the available precision"; Knuth 1997, 4.2.2, theorem B), so that long
+//! thin triangles, whose terms nearly cancel, keep their digits.
 
 use glam::DVec3;
 
@@ -76,7 +77,8 @@ mod tests {
         let o = DVec3::new(1024.0, -512.0, 64.0);
         let tiny = 2.0_f64.powi(-30);
         let along = DVec3::new(100.0, 70.0, -33.0);
-        let points = [o + along, o - along * 0.5 + DVec3::X * tiny, o + along * 0.25 + DVec3::Y * tiny];
+        let points =
+            [o + along, o - along * 0.5 + DVec3::X * tiny, o + along * 0.25 + DVec3::Y * tiny];
         // det(u, −u/2 + t x, u/4 + t y) = t² det(u, x, y) = t² u.z
         let exact = tiny * tiny * along.z;
         let found = triple_product(o, points).value();

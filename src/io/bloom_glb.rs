@@ -1,18 +1,27 @@
 //! A net that folds itself up, as an animated scene.
 //!
-//! Every piece is a node, and every face hangs as a node on the one that carries it, with its origin on their fold; a fold is
-//! a rotation track. The file holds single precision, whose errors would add up along a long strip: so each rotation is chosen for what
-//! its carrier has become by rounding, and each translation likewise.
+//! Every piece is a node, and every face hangs as a node on the one that carries it, with its
+//! origin on their fold; a fold is a rotation track. The file holds single precision, whose errors
+//! would add up along a long strip: so each rotation is chosen for what its carrier has become by
+//! rounding, and each translation likewise.
 
 use glam::{DQuat, DVec2, DVec3};
 
-use super::write::glb::{GlbMaterialId, GlbNode, GlbNodeId, GlbScene, GlbSurface, GlbTrack, GlbValues};
+use super::write::glb::{
+    GlbMaterialId, GlbNode, GlbNodeId, GlbScene, GlbSurface, GlbTrack, GlbValues,
+};
 use crate::bloom::{Bloom, END, FOLDING, Leaf, MOVING, Pose};
 use crate::geom::triangulate;
 
 /// Colours of pieces, in turn.
-const COLOURS: [[u8; 3]; 6] =
-    [[234, 225, 211], [136, 170, 206], [233, 178, 112], [150, 196, 150], [222, 140, 130], [178, 160, 208]];
+const COLOURS: [[u8; 3]; 6] = [
+    [234, 225, 211],
+    [136, 170, 206],
+    [233, 178, 112],
+    [150, 196, 150],
+    [222, 140, 130],
+    [178, 160, 208],
+];
 const LINE: [u8; 3] = [40, 38, 36];
 
 /// The scene of a bloom: flat at 0 s, closed at its end.
@@ -20,8 +29,10 @@ pub fn bloom_scene(bloom: &Bloom<'_>, name: &str) -> GlbScene {
     let mut scene = GlbScene::new(name);
     let line = scene.add_material("edges", LINE, 1.0);
     let used = bloom.tree().net().pieces.len().min(COLOURS.len());
-    let colours =
-        COLOURS[..used].iter().zip(1..).map(|(&colour, i)| scene.add_material(format!("piece {i}"), colour, 1.0));
+    let colours = COLOURS[..used]
+        .iter()
+        .zip(1..)
+        .map(|(&colour, i)| scene.add_material(format!("piece {i}"), colour, 1.0));
     let colours: Vec<GlbMaterialId> = colours.collect();
     let mut made: Vec<Made> = Vec::new();
     for (i, leaf) in bloom.tree().leaves().iter().enumerate() {
@@ -58,8 +69,10 @@ fn origin(bloom: &Bloom<'_>, leaf: &Leaf) -> DVec2 {
 /// The node that moves a whole piece, its origin at that of its root face.
 fn piece_node(scene: &mut GlbScene, bloom: &Bloom<'_>, place: usize, origin: DVec2) -> Made {
     let leaf = &bloom.tree().leaves()[place];
-    let [flat, closed] = [bloom.flat()[place], bloom.closed()[place]]
-        .map(|pose| Pose { rotation: single_turn(pose.rotation), translation: single(pose.place(origin)) });
+    let [flat, closed] = [bloom.flat()[place], bloom.closed()[place]].map(|pose| Pose {
+        rotation: single_turn(pose.rotation),
+        translation: single(pose.place(origin)),
+    });
     let node = scene.add_node(GlbNode {
         name: bloom.tree().net().pieces[leaf.piece].id.to_string(),
         parent: None,
@@ -90,7 +103,11 @@ fn face_node(
     // What the carrier lacks after rounding, the face makes up for.
     let goal = bloom.closed()[place].rotation;
     let is_turning = leaf.hinge.as_ref().is_some_and(|h| h.angle != 0.0);
-    let turn = if is_turning { single_turn(carrier.closed.rotation.inverse() * goal) } else { DQuat::IDENTITY };
+    let turn = if is_turning {
+        single_turn(carrier.closed.rotation.inverse() * goal)
+    } else {
+        DQuat::IDENTITY
+    };
     let n = face.polygon.len() as u32;
     let node = scene.add_node(GlbNode {
         name: format!("F{:03}", face.face),
@@ -99,7 +116,10 @@ fn face_node(
         rotation: DQuat::IDENTITY,
         surface: Some(GlbSurface {
             points: face.polygon.iter().map(|&p| (p - origin).extend(0.0)).collect(),
-            triangles: triangulate(&face.polygon).into_iter().map(|t| t.map(|i| i as u32)).collect(),
+            triangles: triangulate(&face.polygon)
+                .into_iter()
+                .map(|t| t.map(|i| i as u32))
+                .collect(),
             material: Some(material),
             lines: (0..n).map(|i| [i, (i + 1) % n]).collect(),
             line_material: Some(line),
@@ -135,18 +155,29 @@ mod tests {
     use crate::shape::{SolidName, SolidParams, solid};
     use crate::unfold::{Seams, Source, UnfoldParams, unfold};
 
-    /// Where every face's corners are after so many seconds, as a reader of the file would have it, in single precision as stored.
+    /// Where every face's corners are after so many seconds, as a reader of the file would have it,
+    /// in single precision as stored.
     fn played(scene: &GlbScene, seconds: f64) -> Vec<(String, Vec<DVec3>)> {
-        let mut local: Vec<Pose> =
-            scene.nodes().iter().map(|n| Pose { rotation: n.rotation, translation: n.translation }).collect();
+        let mut local: Vec<Pose> = scene
+            .nodes()
+            .iter()
+            .map(|n| Pose { rotation: n.rotation, translation: n.translation })
+            .collect();
         for track in scene.tracks() {
-            let after = track.times.iter().position(|&t| t >= seconds).unwrap_or(track.times.len() - 1);
+            let after =
+                track.times.iter().position(|&t| t >= seconds).unwrap_or(track.times.len() - 1);
             let before = after.saturating_sub(1);
             let span = track.times[after] - track.times[before];
-            let share = if span > 0.0 { ((seconds - track.times[before]) / span).clamp(0.0, 1.0) } else { 1.0 };
+            let share = if span > 0.0 {
+                ((seconds - track.times[before]) / span).clamp(0.0, 1.0)
+            } else {
+                1.0
+            };
             let pose = &mut local[track.node.index()];
             match &track.values {
-                GlbValues::Rotations(v) => pose.rotation = v[before].normalize().slerp(v[after].normalize(), share),
+                GlbValues::Rotations(v) => {
+                    pose.rotation = v[before].normalize().slerp(v[after].normalize(), share)
+                }
                 GlbValues::Translations(v) => pose.translation = v[before].lerp(v[after], share),
             }
         }
@@ -156,7 +187,10 @@ mod tests {
             let pose = node.parent.map_or(*local, |p| world[p.index()].after(local));
             world.push(pose);
             if let Some(surface) = &node.surface {
-                faces.push((node.name.clone(), surface.points.iter().map(|&p| pose.lift(single(p))).collect()));
+                faces.push((
+                    node.name.clone(),
+                    surface.points.iter().map(|&p| pose.lift(single(p))).collect(),
+                ));
             }
         }
         faces
@@ -164,7 +198,8 @@ mod tests {
 
     fn blooming(mesh: &Mesh) -> (GlbScene, f64) {
         let source = Source { scale: 1.0, split_vertices: &[] };
-        let net = unfold(mesh, &Seams::Free, &UnfoldParams::default(), &source, &Silent).expect("a solid unfolds");
+        let net = unfold(mesh, &Seams::Free, &UnfoldParams::default(), &source, &Silent)
+            .expect("a solid unfolds");
         let bloom = Bloom::new(&net, &[], |f| Some(mesh.face_positions(FaceId::new(f))));
         (bloom_scene(&bloom, "test"), net.proof.refold_mm)
     }

@@ -1,8 +1,9 @@
 //! Sheets as DXF R2000 (AC1015), the youngest version that every shop's program reads.
 //!
-//! Millimetres (`$INSUNITS` 4, `$MEASUREMENT` 1), origin bottom left, y up. Every stroke is an LWPOLYLINE, closed for cuts;
-//! layers are `ENGRAVE`, `SCORE` (dashed), `CUT_INNER`, `CUT_OUTER` and `INFO` (never plotted), entities come in working
-//! order. The file is written in full: tables, blocks and the layout dictionary, so that no reader has to mend it.
+//! Millimetres (`$INSUNITS` 4, `$MEASUREMENT` 1), origin bottom left, y up. Every stroke is an
+//! LWPOLYLINE, closed for cuts; layers are `ENGRAVE`, `SCORE` (dashed), `CUT_INNER`, `CUT_OUTER`
+//! and `INFO` (never plotted), entities come in working order. The file is written in full: tables,
+//! blocks and the layout dictionary, so that no reader has to mend it.
 
 mod frame;
 

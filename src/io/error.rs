@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use crate::code::codes;
 use crate::mesh::BuildError;
 
-/// Where in a file something is. Shown as `spot.obj:17`, or as `spot.stl` when the file has no lines.
+/// Where in a file something is. Shown as `spot.obj:17`, or as `spot.stl` when the file has no
+/// lines.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Place {
     /// The file, as it was named.
@@ -28,7 +29,11 @@ struct Shown<'a>(&'a Path);
 
 impl fmt::Display for Shown<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.0.as_os_str() == "-" { f.write_str("standard input") } else { self.0.display().fmt(f) }
+        if self.0.as_os_str() == "-" {
+            f.write_str("standard input")
+        } else {
+            self.0.display().fmt(f)
+        }
     }
 }
 
@@ -87,7 +92,8 @@ pub enum IoError {
         also_lines: Vec<usize>,
     },
     /// A seam line of an OBJ file runs where the mesh has no edge.
-    #[error("{place}: the seam runs from vertex {} to vertex {} (counted from 1), but no edge does; let it follow the edges of the mesh", a + 1, b + 1)]
+    #[error("{place}: the seam runs from vertex {} to vertex {} (counted from 1), but no edge \
+    does; let it follow the edges of the mesh", a + 1, b + 1)]
     SeamOffEdges {
         /// Where.
         place: Place,
@@ -97,7 +103,10 @@ pub enum IoError {
         b: usize,
     },
     /// A seam file names two vertices without an edge.
-    #[error("{place}: there is no edge between vertices {a} and {b} (counted from 0); name the two ends of an edge")]
+    #[error(
+        "{place}: there is no edge between vertices {a} and {b} (counted from 0); name the two \
+        ends of an edge"
+    )]
     NoSuchEdge {
         /// Where.
         place: Place,
@@ -108,7 +117,8 @@ pub enum IoError {
     },
     /// A seam file without a seam.
     #[error(
-        "{} names no seam; write `l 1 2 3` lines in an OBJ file, or two vertices (counted from 0) per line",
+        "{} names no seam; write `l 1 2 3` lines in an OBJ file, or two vertices (counted from 0) \
+        per line",
         Shown(path)
     )]
     NoSeams {
@@ -183,7 +193,9 @@ pub enum IoError {
         source: std::io::Error,
     },
     /// A coordinate does not fit the single precision of STL.
-    #[error("vertex {vertex} is too far out for STL, which holds numbers up to 3e38; write OBJ or PLY")]
+    #[error(
+        "vertex {vertex} is too far out for STL, which holds numbers up to 3e38; write OBJ or PLY"
+    )]
     TooFarForStl {
         /// The vertex, counted from 0 among the vertices that are written.
         vertex: usize,
@@ -273,7 +285,9 @@ impl fmt::Display for AlsoSee<'_> {
 #[non_exhaustive]
 pub enum ContentFault {
     /// Bytes that no text has.
-    #[error("this is binary data, not {format} text; check the file's type or export the model again")]
+    #[error(
+        "this is binary data, not {format} text; check the file's type or export the model again"
+    )]
     NotText {
         /// The format that was expected.
         format: &'static str,
@@ -296,7 +310,8 @@ pub enum ContentFault {
     },
     /// An OBJ face or seam names a vertex that is not there.
     #[error(
-        "`{text}` names vertex {index}, but the file has {count}, counted from 1; correct the number or export the model again"
+        "`{text}` names vertex {index}, but the file has {count}, counted from 1; correct the \
+        number or export the model again"
     )]
     NoSuchVertex {
         /// The line.
@@ -307,13 +322,18 @@ pub enum ContentFault {
         count: usize,
     },
     /// An OBJ seam line that cannot be read.
-    #[error("`{text}` is not a seam; it needs the numbers of at least two vertices, as in `l 1 2 3`")]
+    #[error(
+        "`{text}` is not a seam; it needs the numbers of at least two vertices, as in `l 1 2 3`"
+    )]
     NotASeam {
         /// The line.
         text: String,
     },
     /// A line of an edge list that cannot be read.
-    #[error("`{text}` is not an edge; it needs the numbers of its two vertices, counted from 0, as in `3 17`")]
+    #[error(
+        "`{text}` is not an edge; it needs the numbers of its two vertices, counted from 0, as in \
+        `3 17`"
+    )]
     NotAnEdge {
         /// The line.
         text: String,
@@ -342,7 +362,10 @@ pub enum ContentFault {
         bytes: usize,
     },
     /// A PLY file without a property that a mesh needs.
-    #[error("`{element}` has no property `{property}`; export the model again with its vertices and faces")]
+    #[error(
+        "`{element}` has no property `{property}`; export the model again with its vertices and \
+        faces"
+    )]
     NoProperty {
         /// The element.
         element: &'static str,
@@ -351,7 +374,8 @@ pub enum ContentFault {
     },
     /// The file ends within its elements.
     #[error(
-        "the file ends within `{element}` number {index} (of {count}, counted from 0); it is cut short, export the model again"
+        "the file ends within `{element}` number {index} (of {count}, counted from 0); it is cut \
+        short, export the model again"
     )]
     CutShort {
         /// The element.
@@ -363,7 +387,8 @@ pub enum ContentFault {
     },
     /// A value of a PLY file that does not fit its property.
     #[error(
-        "`{text}` in `{element}` number {index} (counted from 0) is not {wanted}; correct it or export the model again"
+        "`{text}` in `{element}` number {index} (counted from 0) is not {wanted}; correct it or \
+        export the model again"
     )]
     BadValue {
         /// What stands there.
@@ -376,7 +401,10 @@ pub enum ContentFault {
         wanted: &'static str,
     },
     /// A text STL file with a word out of order.
-    #[error("`{text}` is out of place in triangle {triangle} (counted from 0); {wanted}, or export the model again")]
+    #[error(
+        "`{text}` is out of place in triangle {triangle} (counted from 0); {wanted}, or export the \
+        model again"
+    )]
     BadTriangle {
         /// What stands there.
         text: String,
@@ -387,7 +415,8 @@ pub enum ContentFault {
     },
     /// An STL triangle with a NaN or an infinite coordinate.
     #[error(
-        "triangle {triangle} (counted from 0) has a coordinate that is not a finite number; correct it or export the model again"
+        "triangle {triangle} (counted from 0) has a coordinate that is not a finite number; \
+        correct it or export the model again"
     )]
     TriangleNotFinite {
         /// The triangle.
@@ -437,7 +466,10 @@ impl Located {
     }
 
     pub fn in_file(self, path: &Path) -> IoError {
-        IoError::Content { place: Place { path: path.to_owned(), line: self.line }, fault: self.fault }
+        IoError::Content {
+            place: Place { path: path.to_owned(), line: self.line },
+            fault: self.fault,
+        }
     }
 }
 
@@ -445,6 +477,11 @@ impl Located {
 pub(super) fn excerpt(bytes: &[u8]) -> String {
     const LONGEST: usize = 40;
     let text = String::from_utf8_lossy(&bytes[..bytes.len().min(4 * LONGEST)]);
-    let clean: String = text.trim().chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect();
-    if clean.chars().count() > LONGEST { clean.chars().take(LONGEST).chain(['…']).collect() } else { clean }
+    let clean: String =
+        text.trim().chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect();
+    if clean.chars().count() > LONGEST {
+        clean.chars().take(LONGEST).chain(['…']).collect()
+    } else {
+        clean
+    }
 }

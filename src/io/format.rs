@@ -17,7 +17,8 @@ pub enum MeshFormat {
 }
 
 impl MeshFormat {
-    /// The format that the name tells, by its extension in any case; `-` (a standard stream) is OBJ.
+    /// The format that the name tells, by its extension in any case; `-` (a standard stream) is
+    /// OBJ.
     pub fn of_path(path: &Path) -> Option<Self> {
         if path.as_os_str() == "-" {
             return Some(Self::Obj);
@@ -40,7 +41,10 @@ impl MeshFormat {
             b"OFF" | b"COFF" | b"NOFF" | b"CNOFF" | b"STOFF" => Some(Self::Off),
             _ if super::read::is_binary_stl(bytes) => Some(Self::Stl),
             b"solid" if words.any(|word| word == b"facet") => Some(Self::Stl),
-            _ => start.split(|&b| b == b'\n').any(|line| line.starts_with(b"v ")).then_some(Self::Obj),
+            _ => start
+                .split(|&b| b == b'\n')
+                .any(|line| line.starts_with(b"v "))
+                .then_some(Self::Obj),
         }
     }
 }

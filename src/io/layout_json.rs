@@ -44,13 +44,14 @@ struct SourceEntry {
     copy: usize,
 }
 
-/// The text of `layout.json`; `command` is the command line that made it. Places are written to the digit, sums to six
-/// decimals.
+/// The text of `layout.json`; `command` is the command line that made it. Places are written to the
+/// digit, sums to six decimals.
 pub fn write_layout_json(layout: &Layout, command: &str) -> String {
     write_order_layout_json(layout, &[], command)
 }
 
-/// As [`write_layout_json`]; pieces of an order, for which there are sources, tell where they come from.
+/// As [`write_layout_json`]; pieces of an order, for which there are sources, tell where they come
+/// from.
 pub fn write_order_layout_json(layout: &Layout, sources: &[Source], command: &str) -> String {
     let file = File {
         command,
@@ -65,7 +66,8 @@ pub fn write_order_layout_json(layout: &Layout, sources: &[Source], command: &st
 
 fn sheet(sheet: &Sheet, sources: &[Source]) -> SheetEntry {
     let placed = sheet.placed.iter().map(|p| placed(p, sources)).collect();
-    let places = |points: [DVec2; 2]| points.map(|p| DVec2::new(six_decimals(p.x), six_decimals(p.y)));
+    let places =
+        |points: [DVec2; 2]| points.map(|p| DVec2::new(six_decimals(p.x), six_decimals(p.y)));
     SheetEntry {
         id: sheet.id.to_string(),
         width: sheet.width,
@@ -78,7 +80,8 @@ fn sheet(sheet: &Sheet, sources: &[Source]) -> SheetEntry {
 
 fn placed(placed: &Placed, sources: &[Source]) -> PlacedEntry {
     let Placed { piece, x, y, rotation } = *placed;
-    let source = sources.get(piece.0).map(|s| SourceEntry { file: s.file, id: s.id.clone(), copy: s.copy });
+    let source =
+        sources.get(piece.0).map(|s| SourceEntry { file: s.file, id: s.id.clone(), copy: s.copy });
     PlacedEntry { piece: piece.to_string(), x, y, rotation, source }
 }
 
@@ -96,11 +99,23 @@ mod tests {
     #[test]
     fn the_keys_come_in_the_order_of_the_contract() {
         let placed = vec![Placed { piece: PieceId(11), x: 5.25, y: 7.0, rotation: 90.0 }];
-        let sheets = vec![Sheet { id: SheetId(0), width: 600.0, height: 400.0, placed, ..Sheet::default() }];
-        let layout = Layout { sheets, density: 0.123_456_789, cut_length: 10.0, score_length: 0.1 + 0.2 };
+        let sheets =
+            vec![Sheet { id: SheetId(0), width: 600.0, height: 400.0, placed, ..Sheet::default() }];
+        let layout =
+            Layout { sheets, density: 0.123_456_789, cut_length: 10.0, score_length: 0.1 + 0.2 };
         let text = write_layout_json(&layout, "kerfold nest \"a\"");
-        let keys =
-            ["command", "sheets", "id", "width", "placed", "piece", "\"x\"", "rotation", "density", "score_length"];
+        let keys = [
+            "command",
+            "sheets",
+            "id",
+            "width",
+            "placed",
+            "piece",
+            "\"x\"",
+            "rotation",
+            "density",
+            "score_length",
+        ];
         let places: Vec<_> = keys.iter().map(|k| text.find(k).expect(k)).collect();
         assert!(places.is_sorted(), "{text}");
         let value: serde_json::Value = serde_json::from_str(&text).expect("JSON");

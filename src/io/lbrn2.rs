@@ -1,9 +1,10 @@
 //! Sheets as LightBurn projects.
 //!
-//! XML, millimetres, y up. Cut settings carry the operations in working order (`priority`); index 0 is the outer cut and so
-//! on down its palette, index 30 is a tool layer, which is never run. One group per mark of several strokes, one path per
-//! stroke; the vertices of a path stand in `VertList`, its lines in `PrimList`. Power is the machine's own business and is
-//! not written; speed is, when the material names it.
+//! XML, millimetres, y up. Cut settings carry the operations in working order (`priority`); index 0
+//! is the outer cut and so on down its palette, index 30 is a tool layer, which is never run. One
+//! group per mark of several strokes, one path per stroke; the vertices of a path stand in
+//! `VertList`, its lines in `PrimList`. Power is the machine's own business and is not written;
+//! speed is, when the material names it.
 
 use std::fmt::Write as _;
 
@@ -21,16 +22,22 @@ fn setting(layer: LayerKind) -> (usize, &'static str, usize) {
     }
 }
 
-/// The text of one project for a sheet; `command` is the command line that made it, `speed` the speed of an operation in
-/// mm/s where it is known.
-pub fn write_lbrn2(drawing: &Drawing, speed: impl Fn(LayerKind) -> Option<f64>, command: &str) -> String {
+/// The text of one project for a sheet; `command` is the command line that made it, `speed` the
+/// speed of an operation in mm/s where it is known.
+pub fn write_lbrn2(
+    drawing: &Drawing,
+    speed: impl Fn(LayerKind) -> Option<f64>,
+    command: &str,
+) -> String {
     let mut text = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
-    text += "<LightBurnProject AppVersion=\"1.4.00\" FormatVersion=\"1\" MaterialHeight=\"0\" MirrorX=\"False\" MirrorY=\"False\">\n";
+    text += "<LightBurnProject AppVersion=\"1.4.00\" FormatVersion=\"1\" MaterialHeight=\"0\" \
+    MirrorX=\"False\" MirrorY=\"False\">\n";
     for layer in LayerKind::ALL {
         let (index, name, priority) = setting(layer);
         let kind = if layer == LayerKind::Info { "Tool" } else { "Cut" };
         text += &format!(
-            "  <CutSetting type=\"{kind}\">\n    <index Value=\"{index}\"/>\n    <name Value=\"{name} {}\"/>\n",
+            "  <CutSetting type=\"{kind}\">\n    <index Value=\"{index}\"/>\n    <name \
+            Value=\"{name} {}\"/>\n",
             layer.name()
         );
         if let Some(speed) = speed(layer) {
@@ -42,7 +49,8 @@ pub fn write_lbrn2(drawing: &Drawing, speed: impl Fn(LayerKind) -> Option<f64>, 
         let (index, ..) = setting(layer.kind);
         layer.marks.iter().for_each(|mark| shape(&mut text, mark, index));
     }
-    text += &format!("  <Notes ShowOnLoad=\"0\" Notes=\"{}\"/>\n</LightBurnProject>\n", xml(command));
+    text +=
+        &format!("  <Notes ShowOnLoad=\"0\" Notes=\"{}\"/>\n</LightBurnProject>\n", xml(command));
     text
 }
 

@@ -1,4 +1,5 @@
-//! The assembly map as SVG and PDF: filled outlines and single-stroke names, so that both look alike without a font.
+//! The assembly map as SVG and PDF: filled outlines and single-stroke names, so that both look
+//! alike without a font.
 
 use std::fmt::Write as _;
 
@@ -8,7 +9,8 @@ use super::number::decimal;
 use crate::panel::{AssemblyMap, MapPanel};
 use crate::sheet::lettering;
 
-/// Share of the free room in a panel that its name takes; names are never higher than this, nor drawn below that, in mm.
+/// Share of the free room in a panel that its name takes; names are never higher than this, nor
+/// drawn below that, in mm.
 const NAME_SHARE: f64 = 0.7;
 const NAME_HEIGHTS: [f64; 2] = [0.2, 4.0];
 /// Height of the titles in mm.
@@ -29,7 +31,10 @@ fn shapes(map: &AssemblyMap) -> Vec<Shape> {
     let mut shapes = Vec::new();
     for view in &map.views {
         for panel in &view.panels {
-            shapes.push(Shape::Panel { name: panel.panel.to_string(), outline: panel.outline.clone() });
+            shapes.push(Shape::Panel {
+                name: panel.panel.to_string(),
+                outline: panel.outline.clone(),
+            });
             shapes.extend(name(panel).map(Shape::Text));
         }
         shapes.extend(text(view.title, view.title_at, TITLE).map(Shape::Text));
@@ -61,9 +66,11 @@ fn name(panel: &MapPanel) -> Option<Vec<Vec<DVec2>>> {
 pub fn map_svg(map: &AssemblyMap, command: &str) -> String {
     let (width, height) = (map.width, map.height);
     let mut svg = format!(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}mm\" \
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" \
+        width=\"{width}mm\" \
          height=\"{height}mm\" viewBox=\"0 0 {width} {height}\">\n<metadata>{}</metadata>\n\
-         <g fill=\"none\" stroke=\"#000000\" stroke-width=\"{NAME}\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n",
+         <g fill=\"none\" stroke=\"#000000\" stroke-width=\"{NAME}\" stroke-linejoin=\"round\" \
+         stroke-linecap=\"round\">\n",
         escaped(command)
     );
     let point = |p: &DVec2| format!("{} {}", decimal(p.x), decimal(height - p.y));
@@ -72,7 +79,8 @@ pub fn map_svg(map: &AssemblyMap, command: &str) -> String {
         let _ = match shape {
             Shape::Panel { name, outline } => writeln!(
                 svg,
-                "<path class=\"{name}\" fill=\"#FFFFFF\" stroke=\"#707070\" stroke-width=\"{OUTLINE}\" d=\"M {} Z\"/>",
+                "<path class=\"{name}\" fill=\"#FFFFFF\" stroke=\"#707070\" \
+                stroke-width=\"{OUTLINE}\" d=\"M {} Z\"/>",
                 path(&outline)
             ),
             Shape::Text(strokes) => {
@@ -90,7 +98,9 @@ pub fn map_pdf(map: &AssemblyMap, command: &str) -> Vec<u8> {
     let point = |p: &DVec2| format!("{} {}", decimal(p.x), decimal(p.y));
     for shape in shapes(map) {
         let (setup, strokes, end) = match &shape {
-            Shape::Panel { outline, .. } => (format!("1 g 0.44 G {OUTLINE} w"), std::slice::from_ref(outline), "b"),
+            Shape::Panel { outline, .. } => {
+                (format!("1 g 0.44 G {OUTLINE} w"), std::slice::from_ref(outline), "b")
+            }
             Shape::Text(strokes) => (format!("0 G {NAME} w"), strokes.as_slice(), "S"),
         };
         content += &setup;
@@ -127,8 +137,10 @@ fn pdf_page(width: f64, height: f64, content: &str, command: &str) -> Vec<u8> {
     let table = file.len();
     file.extend(format!("xref\n0 {}\n0000000000 65535 f \n", objects.len() + 1).bytes());
     places.iter().for_each(|place| file.extend(format!("{place:010} 00000 n \n").bytes()));
-    let trailer =
-        format!("trailer\n<< /Size {} /Root 1 0 R /Info 5 0 R >>\nstartxref\n{table}\n%%EOF\n", objects.len() + 1);
+    let trailer = format!(
+        "trailer\n<< /Size {} /Root 1 0 R /Info 5 0 R >>\nstartxref\n{table}\n%%EOF\n",
+        objects.len() + 1
+    );
     file.extend(trailer.bytes());
     file
 }

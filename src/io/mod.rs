@@ -1,7 +1,8 @@
 //! Files in and out, one direction of one format per file.
 //!
-//! [`read_mesh`] reads OBJ, PLY, STL and OFF, [`write_mesh`] writes them; `-` is standard input or output and means OBJ.
-//! Everything that kerfold writes goes through [`output`], so that a file is whole or not there.
+//! [`read_mesh`] reads OBJ, PLY, STL and OFF, [`write_mesh`] writes them; `-` is standard input or
+//! output and means OBJ. Everything that kerfold writes goes through [`output`], so that a file is
+//! whole or not there.
 
 mod base64;
 pub mod bloom_glb;
@@ -34,7 +35,9 @@ pub use error::{ContentFault, IoError, Place};
 pub use format::MeshFormat;
 pub(crate) use number::xml as escaped;
 pub use read::artwork;
-pub use read::{MeshUnit, ReadMesh, ReadNote, ReadOptions, read_mesh, read_mesh_bytes, read_points, read_seams};
+pub use read::{
+    MeshUnit, ReadMesh, ReadNote, ReadOptions, read_mesh, read_mesh_bytes, read_points, read_seams,
+};
 pub use write::glb;
 pub use write::plates;
 pub use write::step;

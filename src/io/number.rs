@@ -9,8 +9,9 @@ pub(super) fn decimal(value: f64) -> String {
     const PARTS: u64 = 10_000;
     let scaled = value * PARTS as f64;
     let nearest = scaled.round();
-    // The product is off by an ulp at most, so where it is not near a half its nearest whole number is the right one. Files of
-    // panels have millions of numbers, and this is several times faster than the exact way.
+    // The product is off by an ulp at most, so where it is not near a half its nearest whole number
+    // is the right one. Files of panels have millions of numbers, and this is several times faster
+    // than the exact way.
     if scaled.abs() < 1e11 && (scaled - nearest).abs() < 0.499 {
         let parts = nearest.abs() as u64;
         let (whole, rest) = (parts / PARTS, parts % PARTS);
@@ -32,7 +33,8 @@ fn exact(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// The points of a stroke as text, without those that four decimals cannot tell apart; y is turned over where a height is given.
+/// The points of a stroke as text, without those that four decimals cannot tell apart; y is turned
+/// over where a height is given.
 pub(super) fn shown_points(stroke: &Stroke, height: Option<f64>) -> Vec<[String; 2]> {
     let shown = |p: &DVec2| [decimal(p.x), decimal(height.map_or(p.y, |h| h - p.y))];
     let mut points: Vec<_> = stroke.points.iter().map(shown).collect();
@@ -48,7 +50,8 @@ pub(super) fn hex([r, g, b]: Rgb) -> String {
     format!("#{r:02X}{g:02X}{b:02X}")
 }
 
-/// Text as XML holds it between tags and in quotes. Control characters cannot be written in XML, not even escaped.
+/// Text as XML holds it between tags and in quotes. Control characters cannot be written in XML,
+/// not even escaped.
 pub(crate) fn xml(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {

@@ -1,8 +1,8 @@
 //! Pieces to be nested: any number of `pieces.json`, ours or anybody's, as one net.
 //!
-//! Of a piece only its `outline` is needed. `holes`, `quantity`, `rotation` and `group` may be there; a file with `mesh` is one
-//! of ours and brings its folds and seams along. Contours may run either way round and may repeat their first corner at the
-//! end; what crosses itself is refused.
+//! Of a piece only its `outline` is needed. `holes`, `quantity`, `rotation` and `group` may be
+//! there; a file with `mesh` is one of ours and brings its folds and seams along. Contours may run
+//! either way round and may repeat their first corner at the end; what crosses itself is refused.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -21,7 +21,8 @@ use crate::sheet::{NestParams, Rotation};
 pub enum OrderError {
     /// Not JSON, or not of the right form.
     #[error(
-        "line {line}, column {column}: {message}; a file of pieces is {{\"units\": \"mm\", \"pieces\": [{{\"outline\": [[x,y], …]}}]}}"
+        "line {line}, column {column}: {message}; a file of pieces is \
+        {{\"units\": \"mm\", \"pieces\": [{{\"outline\": [[x,y], …]}}]}}"
     )]
     Syntax {
         /// Line, counted from 1.
@@ -133,7 +134,13 @@ impl Default for Order {
             rims: Vec::new(),
             proof: Proof::default(),
         };
-        Self { net, sources: Vec::new(), rotations: BTreeMap::new(), groups: BTreeMap::new(), files: 0 }
+        Self {
+            net,
+            sources: Vec::new(),
+            rotations: BTreeMap::new(),
+            groups: BTreeMap::new(),
+            files: 0,
+        }
     }
 }
 
@@ -158,7 +165,11 @@ impl Order {
         };
         let net = checked(net)?;
         let most_copies = file.pieces.iter().map(|e| e.quantity.unwrap_or(1)).max().unwrap_or(0);
-        let count = file.pieces.iter().map(|e| e.quantity.unwrap_or(1)).fold(0_usize, usize::saturating_add);
+        let count = file
+            .pieces
+            .iter()
+            .map(|e| e.quantity.unwrap_or(1))
+            .fold(0_usize, usize::saturating_add);
         let count = count.saturating_mul(quantity).saturating_add(self.net.pieces.len());
         if count > MOST_PIECES {
             return Err(OrderError::Count { count, most: MOST_PIECES });
@@ -176,11 +187,16 @@ impl Order {
                         copy: whole * entry.quantity.unwrap_or(1) + single,
                     });
                     if let Some(rotation) = &entry.rotation {
-                        let rotation = rotation.parse().map_err(|error| OrderError::Rotation { index: *i, error })?;
+                        let rotation = rotation
+                            .parse()
+                            .map_err(|error| OrderError::Rotation { index: *i, error })?;
                         self.rotations.insert(new, rotation);
                     }
                     if let Some(group) = &entry.group {
-                        self.groups.entry((self.files, whole, group.clone())).or_default().insert(new);
+                        self.groups
+                            .entry((self.files, whole, group.clone()))
+                            .or_default()
+                            .insert(new);
                     }
                 }
             }
@@ -189,7 +205,8 @@ impl Order {
         Ok(())
     }
 
-    /// The parameters with what the files say about their pieces; what the parameters say themselves counts more.
+    /// The parameters with what the files say about their pieces; what the parameters say
+    /// themselves counts more.
     ///
     /// # Errors
     /// [`OrderError::Count`] for an order of nothing.
@@ -207,7 +224,8 @@ impl Order {
         Ok(params)
     }
 
-    /// Adds those pieces of a net that are to be made, under new numbers; returns the new name for each place in the net.
+    /// Adds those pieces of a net that are to be made, under new numbers; returns the new name for
+    /// each place in the net.
     fn add_copy(&mut self, net: &Net, is_made: impl Fn(usize) -> bool) -> BTreeMap<usize, PieceId> {
         let base = self.net.counts;
         let mut names = BTreeMap::new();
@@ -222,7 +240,12 @@ impl Order {
                 polygon: f.polygon.clone(),
             };
             let faces = piece.faces.iter().map(face).collect();
-            self.net.pieces.push(Piece { id, faces, outline: piece.outline.clone(), holes: piece.holes.clone() });
+            self.net.pieces.push(Piece {
+                id,
+                faces,
+                outline: piece.outline.clone(),
+                holes: piece.holes.clone(),
+            });
         }
         let ends = |edge: [usize; 2]| edge.map(|v| v + base.vertices);
         let label = |id: EdgeLabel| EdgeLabel(id.0 + base.edges);
@@ -246,16 +269,31 @@ impl Order {
                 (side.piece, side.face) = (piece, side.face + base.faces);
                 if !is_whole {
                     // The partner is not made this time.
-                    self.net.rims.push(Rim { edge: ends(seam.edge), piece, face: side.face, segment: side.segment });
+                    self.net.rims.push(Rim {
+                        edge: ends(seam.edge),
+                        piece,
+                        face: side.face,
+                        segment: side.segment,
+                    });
                 }
             }
             if is_whole {
-                self.net.seams.push(Seam { id: label(seam.id), edge: ends(seam.edge), sides, ..seam.clone() });
+                self.net.seams.push(Seam {
+                    id: label(seam.id),
+                    edge: ends(seam.edge),
+                    sides,
+                    ..seam.clone()
+                });
             }
         }
         for rim in &net.rims {
             if let Some(&piece) = renamed.get(&rim.piece) {
-                self.net.rims.push(Rim { edge: ends(rim.edge), piece, face: rim.face + base.faces, ..rim.clone() });
+                self.net.rims.push(Rim {
+                    edge: ends(rim.edge),
+                    piece,
+                    face: rim.face + base.faces,
+                    ..rim.clone()
+                });
             }
         }
         let labels = net.folds.iter().map(|f| f.id).chain(net.seams.iter().map(|s| s.id));
@@ -278,7 +316,12 @@ fn bare_net(entries: &[Entry]) -> Net {
     let points = |c: &Vec<[f64; 2]>| c.iter().copied().map(DVec2::from).collect::<Vec<_>>();
     let piece = |(i, entry): (usize, &Entry)| {
         let outline = points(&entry.outline);
-        Piece { id: PieceId(i), faces: Vec::new(), outline, holes: entry.holes.iter().map(points).collect() }
+        Piece {
+            id: PieceId(i),
+            faces: Vec::new(),
+            outline,
+            holes: entry.holes.iter().map(points).collect(),
+        }
     };
     Net { pieces: entries.iter().enumerate().map(piece).collect(), ..Order::default().net }
 }
@@ -304,8 +347,10 @@ fn checked(mut net: Net) -> Result<Net, OrderError> {
             }
         }
         if piece.faces.is_empty() {
-            let vertices = (net.counts.vertices..net.counts.vertices + piece.outline.len()).collect();
-            piece.faces = vec![FlatFace { face: net.counts.faces, vertices, polygon: piece.outline.clone() }];
+            let vertices =
+                (net.counts.vertices..net.counts.vertices + piece.outline.len()).collect();
+            piece.faces =
+                vec![FlatFace { face: net.counts.faces, vertices, polygon: piece.outline.clone() }];
             net.counts.vertices += piece.outline.len();
             net.counts.faces += 1;
         }
@@ -329,7 +374,11 @@ fn contour(corners: &mut Vec<DVec2>, sense: f64) -> Result<(), String> {
     for i in 0..n {
         for j in 0..i {
             if segments_cross(corners[i], corners[(i + 1) % n], corners[j], corners[(j + 1) % n]) {
-                return Err(format!("its sides {} and {} cross; divide the piece there", j + 1, i + 1));
+                return Err(format!(
+                    "its sides {} and {} cross; divide the piece there",
+                    j + 1,
+                    i + 1
+                ));
             }
         }
     }
@@ -359,9 +408,13 @@ mod tests {
                 .net
                 .pieces
                 .iter()
-                .all(|p| signed_area(&p.outline) > 0.0 && p.holes.iter().all(|h| signed_area(h) < 0.0))
+                .all(|p| signed_area(&p.outline) > 0.0
+                    && p.holes.iter().all(|h| signed_area(h) < 0.0))
         );
-        assert_eq!(order.sources.iter().filter(|s| s.id == "lid").map(|s| s.copy).collect::<Vec<_>>(), [0, 1]);
+        assert_eq!(
+            order.sources.iter().filter(|s| s.id == "lid").map(|s| s.copy).collect::<Vec<_>>(),
+            [0, 1]
+        );
         let params = order.params(&NestParams::default()).expect("some pieces");
         assert_eq!((params.rotate.0.len(), params.together.0.len()), (6, 2));
     }
@@ -371,16 +424,24 @@ mod tests {
         assert!(refused("[").contains("line 1, column"));
         assert!(refused("{}").contains("pieces"));
         assert!(refused(r#"{"units": "in", "pieces": []}"#).contains("must be \"mm\""));
-        assert!(refused(r#"{"pieces": [{"outline": [[0,0],[1,0]]}]}"#).contains("pieces[0].outline: it needs three"));
-        assert!(refused(r#"{"pieces": [{"outline": [[0,0],[9,9],[9,0],[0,8]]}]}"#).contains("sides 1 and 3 cross"));
-        let hole = r#"{"pieces": [{"outline": [[0,0],[9,0],[0,9]], "holes": [[[8,8],[9,8],[9,9]]]}]}"#;
+        assert!(
+            refused(r#"{"pieces": [{"outline": [[0,0],[1,0]]}]}"#)
+                .contains("pieces[0].outline: it needs three")
+        );
+        assert!(
+            refused(r#"{"pieces": [{"outline": [[0,0],[9,9],[9,0],[0,8]]}]}"#)
+                .contains("sides 1 and 3 cross")
+        );
+        let hole =
+            r#"{"pieces": [{"outline": [[0,0],[9,0],[0,9]], "holes": [[[8,8],[9,8],[9,9]]]}]}"#;
         assert!(refused(hole).contains("pieces[0].holes[0]: it lies outside"));
         assert!(
             refused(r#"{"pieces": [{"outline": [[0,0],[9,0],[0,9]], "rotation": "45"}]}"#)
                 .contains("pieces[0].rotation")
         );
         assert!(
-            refused(r#"{"pieces": [{"outline": [[0,0],[9,0],[0,9]], "quantity": 200000}]}"#).contains("200000 pieces")
+            refused(r#"{"pieces": [{"outline": [[0,0],[9,0],[0,9]], "quantity": 200000}]}"#)
+                .contains("200000 pieces")
         );
     }
 }

@@ -1,7 +1,8 @@
 //! Writing files safely: a file is whole or not there, and what was there before is never lost.
 //!
-//! Every file is written beside its place under a temporary name and then renamed. [`OutputFolder`] does so for several
-//! files at once: all are written before the first is renamed, and when a rename fails, the earlier ones are undone.
+//! Every file is written beside its place under a temporary name and then renamed. [`OutputFolder`]
+//! does so for several files at once: all are written before the first is renamed, and when a
+//! rename fails, the earlier ones are undone.
 
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{ErrorKind, Write as _};
@@ -10,11 +11,12 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::IoError;
 
-/// Writes `bytes` to `path`: whole, or not at all. An existing file is replaced and keeps its permissions; a device or a
-/// pipe (`/dev/null`) is written to as it is. `-` is standard output.
+/// Writes `bytes` to `path`: whole, or not at all. An existing file is replaced and keeps its
+/// permissions; a device or a pipe (`/dev/null`) is written to as it is. `-` is standard output.
 ///
 /// # Errors
-/// When the folder does not exist, a folder stands in the way, or the system refuses; then nothing has changed.
+/// When the folder does not exist, a folder stands in the way, or the system refuses; then nothing
+/// has changed.
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), IoError> {
     if path.as_os_str() == "-" {
         let mut out = std::io::stdout().lock();
@@ -61,12 +63,13 @@ impl OutputFolder {
         self.files.iter().map(|(name, _)| name.as_str())
     }
 
-    /// Writes all files, making the folder and its parents when they are missing, and returns their paths.
-    /// Other files in the folder stay as they are.
+    /// Writes all files, making the folder and its parents when they are missing, and returns their
+    /// paths. Other files in the folder stay as they are.
     ///
     /// # Errors
-    /// When the folder cannot be made, a folder stands where a file should go, or the system refuses. Then new folders and
-    /// files are removed again, and files that were there before are as before.
+    /// When the folder cannot be made, a folder stands where a file should go, or the system
+    /// refuses. Then new folders and files are removed again, and files that were there before are
+    /// as before.
     pub fn commit(self) -> Result<Vec<PathBuf>, IoError> {
         let made = MadeFolders::make(&self.folder)?;
         let mut staged = Vec::with_capacity(self.files.len());
@@ -88,7 +91,10 @@ fn publish_all(staged: Vec<Staged>) -> Result<(), IoError> {
     let places: Vec<PathBuf> = staged.iter().map(|file| file.target.path.clone()).collect();
     for (i, file) in staged.into_iter().enumerate() {
         if let Err(error) = file.publish() {
-            places[..i].iter().zip(&mut backups).for_each(|(place, backup)| restore(place, backup.as_mut()));
+            places[..i]
+                .iter()
+                .zip(&mut backups)
+                .for_each(|(place, backup)| restore(place, backup.as_mut()));
             return Err(error);
         }
     }
@@ -132,7 +138,8 @@ impl Target {
             return Ok(None);
         }
         let backup = Temporary::beside(&self.path);
-        let saved = fs::hard_link(&self.path, &backup.path).or_else(|_| fs::copy(&self.path, &backup.path).map(drop));
+        let saved = fs::hard_link(&self.path, &backup.path)
+            .or_else(|_| fs::copy(&self.path, &backup.path).map(drop));
         saved.map_err(|source| unwritable(&self.path, source)).map(|()| Some(backup))
     }
 }
@@ -146,10 +153,15 @@ struct Staged {
 impl Staged {
     fn write(target: Target, bytes: &[u8]) -> Result<Self, IoError> {
         let temporary = Temporary::beside(&target.path);
-        let written = OpenOptions::new().write(true).create_new(true).open(&temporary.path).and_then(|file| {
-            fill(file, bytes)?;
-            target.existing.as_ref().map_or(Ok(()), |there| fs::set_permissions(&temporary.path, there.permissions()))
-        });
+        let written =
+            OpenOptions::new().write(true).create_new(true).open(&temporary.path).and_then(
+                |file| {
+                    fill(file, bytes)?;
+                    target.existing.as_ref().map_or(Ok(()), |there| {
+                        fs::set_permissions(&temporary.path, there.permissions())
+                    })
+                },
+            );
         match written {
             Ok(()) => Ok(Self { temporary, target }),
             Err(source) => Err(unwritable(&target.path, source)),
@@ -157,7 +169,8 @@ impl Staged {
     }
 
     fn publish(mut self) -> Result<(), IoError> {
-        fs::rename(&self.temporary.path, &self.target.path).map_err(|source| unwritable(&self.target.path, source))?;
+        fs::rename(&self.temporary.path, &self.target.path)
+            .map_err(|source| unwritable(&self.target.path, source))?;
         self.temporary.is_kept = true;
         Ok(())
     }
@@ -200,7 +213,8 @@ struct MadeFolders {
 impl MadeFolders {
     fn make(folder: &Path) -> Result<Self, IoError> {
         let is_missing = |f: &&Path| !f.as_os_str().is_empty() && fs::symlink_metadata(f).is_err();
-        let missing: Vec<PathBuf> = folder.ancestors().take_while(is_missing).map(Path::to_owned).collect();
+        let missing: Vec<PathBuf> =
+            folder.ancestors().take_while(is_missing).map(Path::to_owned).collect();
         let mut made = Self { innermost_first: Vec::new() };
         check_is_folder(folder.ancestors().nth(missing.len()).unwrap_or(folder), folder)?;
         for folder in missing.into_iter().rev() {

@@ -1,7 +1,9 @@
-//! The schedule of panels as tables: CSV as of RFC 4180, lengths in millimetres, angles in degrees, masses in kilograms.
+//! The schedule of panels as tables: CSV as of RFC 4180, lengths in millimetres, angles in degrees,
+//! masses in kilograms.
 //!
-//! The first line holds the names of the columns, with their units; the command line stands in the last column of the first
-//! row. Several values in one field are separated by spaces. Numbers have at most six decimals.
+//! The first line holds the names of the columns, with their units; the command line stands in the
+//! last column of the first row. Several values in one field are separated by spaces. Numbers have
+//! at most six decimals.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -15,7 +17,11 @@ use crate::sheet::Layout;
 
 /// On which sheet every panel lies.
 pub(super) fn sheet_of(layout: &Layout) -> BTreeMap<PieceId, String> {
-    layout.sheets.iter().flat_map(|s| s.placed.iter().map(|p| (p.piece, s.id.to_string()))).collect()
+    layout
+        .sheets
+        .iter()
+        .flat_map(|s| s.placed.iter().map(|p| (p.piece, s.id.to_string())))
+        .collect()
 }
 
 /// `panels.csv`: one row for each panel.
@@ -35,13 +41,19 @@ pub fn panels_csv(schedule: &Schedule, plates: &Plates, layout: &Layout, command
 
 fn panel(row: &PanelRow, plate: &Plate, sheet: &str) -> Vec<String> {
     let frame = &row.frame;
-    let mut fields = vec![row.id.to_string(), row.face.to_string(), row.layer.clone().unwrap_or_default()];
+    let mut fields =
+        vec![row.id.to_string(), row.face.to_string(), row.layer.clone().unwrap_or_default()];
     fields.extend([group_name(row.group), yes(row.is_mirrored), row.copies.to_string()]);
     fields.extend([row.thickness, row.area, row.blank_area, row.volume, row.mass].map(number));
     fields.extend([row.size[0], row.size[1], row.perimeter, row.bevelled].map(number));
     fields.extend([row.sides.len().to_string(), edge_names(&row.edges)]);
     fields.extend([&row.sides, &row.angles, &row.bevels].map(|values| numbers(values)));
-    fields.extend([number(row.planarity), yes(row.is_concave), row.holes.to_string(), sheet.to_owned()]);
+    fields.extend([
+        number(row.planarity),
+        yes(row.is_concave),
+        row.holes.to_string(),
+        sheet.to_owned(),
+    ]);
     fields.extend([frame.origin, frame.x, frame.y, frame.normal].map(vector));
     fields.extend([&plate.front, &plate.back].map(|outline| points(outline)));
     fields
@@ -58,7 +70,11 @@ pub fn edges_csv(schedule: &Schedule, command: &str) -> String {
         let panel = |p: Option<PieceId>| p.map(|p| p.to_string()).unwrap_or_default();
         let maybe = |value: Option<f64>| value.map(number).unwrap_or_default();
         let (wanted, why) = row.fallback.map_or(("", ""), |(kind, why)| (kind.name(), why.name()));
-        let mut fields = vec![edge_name(row.id), node_name(row.nodes[0].index()), node_name(row.nodes[1].index())];
+        let mut fields = vec![
+            edge_name(row.id),
+            node_name(row.nodes[0].index()),
+            node_name(row.nodes[1].index()),
+        ];
         fields.extend(row.panels.map(panel));
         fields.extend([number(row.length), maybe(row.dihedral)]);
         fields.extend(row.mitres.map(maybe));
@@ -82,7 +98,8 @@ pub fn nodes_csv(schedule: &Schedule, command: &str) -> String {
 
 fn node(row: &NodeRow) -> Vec<String> {
     let node = &row.node;
-    let mut fields = vec![node_name(node.vertex.index()), node.valence.to_string(), yes(node.is_rim)];
+    let mut fields =
+        vec![node_name(node.vertex.index()), node.valence.to_string(), yes(node.is_rim)];
     fields.extend([edge_names(&row.edges), numbers(&row.angles), numbers(&row.tilts)]);
     fields.extend([row.position, node.axis, node.front, node.back].map(vector));
     fields.extend([format!("{:.3e}", node.residual), number(node.miss_mm)]);
@@ -106,9 +123,16 @@ fn group(row: &GroupRow, panels: &[PanelRow]) -> Vec<String> {
     let first = &panels[row.first.0];
     let count = row.panels.len();
     let sum = |of: fn(&PanelRow) -> f64| number(row.panels.iter().map(|p| of(&panels[p.0])).sum());
-    let mut fields = vec![group_name(row.number), count.to_string(), row.copies.to_string(), row.mirrored.to_string()];
+    let mut fields = vec![
+        group_name(row.number),
+        count.to_string(),
+        row.copies.to_string(),
+        row.mirrored.to_string(),
+    ];
     fields.extend([yes(row.turns_over), row.first.to_string()]);
-    fields.extend([first.thickness, first.size[0], first.size[1], first.area, first.mass].map(number));
+    fields.extend(
+        [first.thickness, first.size[0], first.size[1], first.area, first.mass].map(number),
+    );
     fields.extend([sum(|p| p.mass), sum(|p| p.perimeter), sum(|p| p.bevelled)]);
     fields.push(row.panels.iter().map(ToString::to_string).collect::<Vec<_>>().join(" "));
     fields
@@ -180,7 +204,11 @@ fn vector(v: DVec3) -> String {
 }
 
 fn points(outline: &[DVec2]) -> String {
-    outline.iter().map(|p| format!("{} {}", number(p.x), number(p.y))).collect::<Vec<_>>().join("; ")
+    outline
+        .iter()
+        .map(|p| format!("{} {}", number(p.x), number(p.y)))
+        .collect::<Vec<_>>()
+        .join("; ")
 }
 
 #[cfg(test)]
@@ -192,7 +220,10 @@ mod tests {
         let mut table = Table::new("a,b", "kerfold panels \"x, y\"");
         table.row(&["1".to_owned(), "p, q".to_owned()]);
         table.row(&["2".to_owned(), "r".to_owned()]);
-        assert_eq!(table.text, "a,b,command\r\n1,\"p, q\",\"kerfold panels \"\"x, y\"\"\"\r\n2,r,\r\n");
+        assert_eq!(
+            table.text,
+            "a,b,command\r\n1,\"p, q\",\"kerfold panels \"\"x, y\"\"\"\r\n2,r,\r\n"
+        );
         assert_eq!([1.5, -1e-9, 2.0, 1e3].map(number), ["1.5", "0", "2", "1000"]);
     }
 }

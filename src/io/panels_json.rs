@@ -1,7 +1,8 @@
-//! `panels.json`: plates, edges and nodes with all their digits; lengths in millimetres, angles in degrees, masses in kilograms.
+//! `panels.json`: plates, edges and nodes with all their digits; lengths in millimetres, angles in
+//! degrees, masses in kilograms.
 //!
-//! A flat point (x, y) of a panel's front is at `origin + x·x_axis + y·y_axis` in space, one of its back at that minus the
-//! thickness along `normal`. One panel, edge, node or group to a line.
+//! A flat point (x, y) of a panel's front is at `origin + x·x_axis + y·y_axis` in space, one of its
+//! back at that minus the thickness along `normal`. One panel, edge, node or group to a line.
 
 use glam::{DVec2, DVec3};
 use serde::Serialize;
@@ -10,7 +11,9 @@ use serde_json::{Value, json};
 use super::panels_csv::{edge_name, group_name, node_name, sheet_of};
 use crate::code::Coded;
 use crate::net::PieceId;
-use crate::panel::{EdgeRow, GroupRow, NodeRow, PanelFinding, PanelRequirement, PanelRow, Plate, Plates, Schedule};
+use crate::panel::{
+    EdgeRow, GroupRow, NodeRow, PanelFinding, PanelRequirement, PanelRow, Plate, Plates, Schedule,
+};
 use crate::sheet::Layout;
 
 /// The text of `panels.json`; `command` is the command line that made it.
@@ -22,7 +25,11 @@ pub fn panels_json(
     command: &str,
 ) -> String {
     let sheets = sheet_of(layout);
-    let panels = schedule.panels.iter().zip(&plates.plates).map(|(row, plate)| compact(&panel(row, plate, &sheets)));
+    let panels = schedule
+        .panels
+        .iter()
+        .zip(&plates.plates)
+        .map(|(row, plate)| compact(&panel(row, plate, &sheets)));
     let totals = &schedule.totals;
     let sums = json!({
         "panels": schedule.panels.len(), "groups": schedule.groups.len(), "area_mm2": totals.area, "mass_kg": totals.mass,
@@ -43,7 +50,11 @@ pub fn panels_json(
     format!("{{\n{body}\n}}\n")
 }
 
-fn panel(row: &PanelRow, plate: &Plate, sheets: &std::collections::BTreeMap<PieceId, String>) -> Value {
+fn panel(
+    row: &PanelRow,
+    plate: &Plate,
+    sheets: &std::collections::BTreeMap<PieceId, String>,
+) -> Value {
     let holes: Vec<Value> = plate
         .holes
         .iter()

@@ -1,7 +1,9 @@
-//! Sheets as PDF 1.5, written out by hand: a page has a handful of objects, and coordinates must keep four decimals.
+//! Sheets as PDF 1.5, written out by hand: a page has a handful of objects, and coordinates must
+//! keep four decimals.
 //!
-//! One page as large as the sheet, user space in millimetres by one matrix, hairlines as in the SVG. Every operation is a
-//! layer (an optional content group) of its name; `info` is switched off for printing. See [`tiles`] for paper.
+//! One page as large as the sheet, user space in millimetres by one matrix, hairlines as in the
+//! SVG. Every operation is a layer (an optional content group) of its name; `info` is switched off
+//! for printing. See [`tiles`] for paper.
 
 pub mod tiles;
 
@@ -20,7 +22,8 @@ struct Page {
     content: String,
 }
 
-/// The bytes of a PDF with the sheet at true size on one page; `command` is the command line that made it.
+/// The bytes of a PDF with the sheet at true size on one page; `command` is the command line that
+/// made it.
 pub fn write_pdf(drawing: &Drawing, style: impl Into<Style>, command: &str) -> Vec<u8> {
     let style = style.into();
     let mut content = String::new();
@@ -62,20 +65,29 @@ fn document(pages: &[Page], title: &str, command: &str, extra: Option<&str>) -> 
     // 1 the catalogue, 2 the pages, 3 the information, then the layers, then two objects a page.
     let layer = |i: usize| 4 + i;
     let page_at = |i: usize| 4 + layers + 2 * i;
-    let list = |numbers: Vec<usize>| numbers.iter().map(|n| format!("{n} 0 R")).collect::<Vec<_>>().join(" ");
+    let list = |numbers: Vec<usize>| {
+        numbers.iter().map(|n| format!("{n} 0 R")).collect::<Vec<_>>().join(" ")
+    };
     let all_layers = list((0..layers).map(layer).collect());
     let info = layer(LayerKind::ALL.len() - 1);
     file.add(&format!(
-        "<< /Type /Catalog /Pages 2 0 R /OCProperties << /OCGs [{all_layers}] /D << /Order [{all_layers}] /ON [{all_layers}] \
+        "<< /Type /Catalog /Pages 2 0 R /OCProperties << /OCGs [{all_layers}] /D << /Order \
+        [{all_layers}] /ON [{all_layers}] \
          /AS [<< /Event /Print /Category [/Print] /OCGs [{info} 0 R] >>] >> >> >>"
     ));
     let kids = list((0..pages.len()).map(page_at).collect());
     file.add(&format!("<< /Type /Pages /Count {} /Kids [{kids}] >>", pages.len()));
-    file.add(&format!("<< /Title {} /Subject {} /Creator (kerfold) >>", text(title), text(command)));
+    file.add(&format!(
+        "<< /Title {} /Subject {} /Creator (kerfold) >>",
+        text(title),
+        text(command)
+    ));
     for kind in LayerKind::ALL {
         let state = if kind == LayerKind::Info { "OFF" } else { "ON" };
         let name = kind.name();
-        file.add(&format!("<< /Type /OCG /Name ({name}) /Usage << /Print << /PrintState /{state} >> >> >>"));
+        file.add(&format!(
+            "<< /Type /OCG /Name ({name}) /Usage << /Print << /PrintState /{state} >> >> >>"
+        ));
     }
     if let Some(name) = extra {
         file.add(&format!("<< /Type /OCG /Name ({name}) >>"));
@@ -151,7 +163,10 @@ impl Objects {
         for offset in &self.offsets {
             let _ = writeln!(end, "{offset:010} 00000 n ");
         }
-        let _ = write!(end, "trailer\n<< /Size {count} /Root 1 0 R /Info 3 0 R >>\nstartxref\n{start}\n%%EOF\n");
+        let _ = write!(
+            end,
+            "trailer\n<< /Size {count} /Root 1 0 R /Info 3 0 R >>\nstartxref\n{start}\n%%EOF\n"
+        );
         self.bytes.extend(end.bytes());
         self.bytes
     }

@@ -1,7 +1,9 @@
-//! `pieces.json`, written and read (`docs/formats.md`): the contract between unfolding and everything that comes after.
+//! `pieces.json`, written and read (`docs/formats.md`): the contract between unfolding and
+//! everything that comes after.
 //!
-//! Written by hand rather than by derive: the keys come in a fixed order, one piece's face, fold, seam or rim to a line, and
-//! numbers are the shortest that read back as the same double. Read through paths, so that every complaint names its field.
+//! Written by hand rather than by derive: the keys come in a fixed order, one piece's face, fold,
+//! seam or rim to a line, and numbers are the shortest that read back as the same double. Read
+//! through paths, so that every complaint names its field.
 
 use std::fmt::{self, Write as _};
 
@@ -10,7 +12,8 @@ use serde_json::Value;
 
 use crate::code::codes;
 use crate::net::{
-    EdgeLabel, FlatFace, Fold, FoldKind, MeshCounts, Net, Piece, PieceId, Proof, Rim, Seam, SeamSide, Segment,
+    EdgeLabel, FlatFace, Fold, FoldKind, MeshCounts, Net, Piece, PieceId, Proof, Rim, Seam,
+    SeamSide, Segment,
 };
 
 /// Why a `pieces.json` could not be read.
@@ -18,7 +21,9 @@ use crate::net::{
 #[non_exhaustive]
 pub enum PiecesJsonError {
     /// Not JSON at all.
-    #[error("pieces.json, line {line}, column {column}: {message}; write the file anew with `unfold`")]
+    #[error(
+        "pieces.json, line {line}, column {column}: {message}; write the file anew with `unfold`"
+    )]
     Syntax {
         /// Line, counted from 1.
         line: usize,
@@ -63,7 +68,8 @@ pub fn write_pieces_json(net: &Net, command: &str) -> String {
 /// Reads the text of a `pieces.json`: the net, and the command line that made it.
 ///
 /// # Errors
-/// See [`PiecesJsonError`]. Unknown keys are ignored. Whether the net is right is for [`crate::unfold::prove`] to say.
+/// See [`PiecesJsonError`]. Unknown keys are ignored. Whether the net is right is for
+/// [`crate::unfold::prove`] to say.
 pub fn read_pieces_json(text: &str) -> Result<(Net, String), PiecesJsonError> {
     let value: Value = serde_json::from_str(text).map_err(|e| PiecesJsonError::Syntax {
         line: e.line(),
@@ -75,11 +81,16 @@ pub fn read_pieces_json(text: &str) -> Result<(Net, String), PiecesJsonError> {
     Ok((read_net(&file)?, file.member("command")?.text()?.to_owned()))
 }
 
-// ---- writing ---------------------------------------------------------------------------------------------------------
+// ---- writing ------------------------------------------------------------------------------------
 
 fn write_net(out: &mut String, net: &Net, command: &str) -> fmt::Result {
     let counts = net.counts;
-    write!(out, "{{ \"command\": {},\n  \"units\": \"mm\", \"scale\": {}, ", Quoted(command), Number(net.scale))?;
+    write!(
+        out,
+        "{{ \"command\": {},\n  \"units\": \"mm\", \"scale\": {}, ",
+        Quoted(command),
+        Number(net.scale)
+    )?;
     writeln!(
         out,
         "\"mesh\": {{\"vertices\": {}, \"edges\": {}, \"faces\": {}}},",
@@ -98,7 +109,12 @@ fn write_net(out: &mut String, net: &Net, command: &str) -> fmt::Result {
     )
 }
 
-fn list<T>(out: &mut String, key: &str, items: &[T], write: fn(&mut String, &T) -> fmt::Result) -> fmt::Result {
+fn list<T>(
+    out: &mut String,
+    key: &str,
+    items: &[T],
+    write: fn(&mut String, &T) -> fmt::Result,
+) -> fmt::Result {
     write!(out, "  \"{key}\": [")?;
     for (i, item) in items.iter().enumerate() {
         out.push_str(if i == 0 { "\n    " } else { ",\n    " });
@@ -109,7 +125,12 @@ fn list<T>(out: &mut String, key: &str, items: &[T], write: fn(&mut String, &T) 
 }
 
 fn write_piece(out: &mut String, piece: &Piece) -> fmt::Result {
-    write!(out, "{{\"id\": \"{}\", \"outline\": {}, \"holes\": [", piece.id, Points(&piece.outline))?;
+    write!(
+        out,
+        "{{\"id\": \"{}\", \"outline\": {}, \"holes\": [",
+        piece.id,
+        Points(&piece.outline)
+    )?;
     for (i, hole) in piece.holes.iter().enumerate() {
         write!(out, "{}{}", if i == 0 { "" } else { ", " }, Points(hole))?;
     }
@@ -117,7 +138,12 @@ fn write_piece(out: &mut String, piece: &Piece) -> fmt::Result {
     for (i, flat) in piece.faces.iter().enumerate() {
         out.push_str(if i == 0 { "\n      " } else { ",\n      " });
         let FlatFace { face, vertices, polygon } = flat;
-        write!(out, "{{\"face\": {face}, \"vertices\": {}, \"polygon\": {}}}", Indices(vertices), Points(polygon))?;
+        write!(
+            out,
+            "{{\"face\": {face}, \"vertices\": {}, \"polygon\": {}}}",
+            Indices(vertices),
+            Points(polygon)
+        )?;
     }
     out.push_str("]}");
     Ok(())
@@ -126,7 +152,8 @@ fn write_piece(out: &mut String, piece: &Piece) -> fmt::Result {
 fn write_fold(out: &mut String, fold: &Fold) -> fmt::Result {
     write!(
         out,
-        "{{\"id\": \"{}\", \"edge\": {}, \"piece\": \"{}\", \"faces\": {}, \"segment\": {}, \"fold_angle\": {}, \
+        "{{\"id\": \"{}\", \"edge\": {}, \"piece\": \"{}\", \"faces\": {}, \"segment\": \
+        {}, \"fold_angle\": {}, \
          \"kind\": \"{}\"}}",
         fold.id,
         Indices(&fold.edge),
@@ -150,7 +177,11 @@ fn write_seam(out: &mut String, seam: &Seam) -> fmt::Result {
     for (i, side) in seam.sides.iter().enumerate() {
         let SeamSide { piece, face, segment } = side;
         let comma = if i == 0 { "" } else { ", " };
-        write!(out, "{comma}{{\"piece\": \"{piece}\", \"face\": {face}, \"segment\": {}}}", Points(segment))?;
+        write!(
+            out,
+            "{comma}{{\"piece\": \"{piece}\", \"face\": {face}, \"segment\": {}}}",
+            Points(segment)
+        )?;
     }
     out.push_str("]}");
     Ok(())
@@ -216,7 +247,7 @@ impl fmt::Display for Indices<'_> {
     }
 }
 
-// ---- reading ---------------------------------------------------------------------------------------------------------
+// ---- reading ------------------------------------------------------------------------------------
 
 /// A value and the way to it.
 struct Field<'a> {
@@ -239,7 +270,8 @@ impl<'a> Field<'a> {
 
     fn member(&self, key: &str) -> Read<Field<'a>> {
         let object = self.value.as_object().ok_or_else(|| self.wrong("an object"))?;
-        let path = if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) };
+        let path =
+            if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) };
         match object.get(key) {
             Some(value) => Ok(Field { path, value }),
             None => Err(PiecesJsonError::Missing { field: path }),
@@ -292,7 +324,10 @@ impl<'a> Field<'a> {
     }
 
     fn piece_id(&self) -> Read<PieceId> {
-        let number = self.value.as_str().and_then(|id| id.strip_prefix('P')?.parse::<usize>().ok()?.checked_sub(1));
+        let number = self
+            .value
+            .as_str()
+            .and_then(|id| id.strip_prefix('P')?.parse::<usize>().ok()?.checked_sub(1));
         number.map(PieceId).ok_or_else(|| self.wrong("a piece id like \"P01\""))
     }
 
@@ -340,7 +375,8 @@ fn read_piece(field: &Field) -> Read<Piece> {
 }
 
 fn read_fold(field: &Field) -> Read<Fold> {
-    let kinds = [FoldKind::Mountain, FoldKind::Valley, FoldKind::Flat].map(|kind| (kind_name(kind), kind));
+    let kinds =
+        [FoldKind::Mountain, FoldKind::Valley, FoldKind::Flat].map(|kind| (kind_name(kind), kind));
     Ok(Fold {
         id: field.member("id")?.edge_label()?,
         edge: field.member("edge")?.pair()?,
@@ -388,15 +424,23 @@ mod tests {
 
     /// Two thirds of a tent: an open strip of a square, a slanted square and a triangle.
     fn net() -> Net {
-        let points =
-            [(0., 0., 0.), (1., 0., 0.), (1., 1., 0.1), (0., 1., 0.1), (1., 2., 0.), (0., 2., 0.), (2., 0., 1.)];
+        let points = [
+            (0., 0., 0.),
+            (1., 0., 0.),
+            (1., 1., 0.1),
+            (0., 1., 0.1),
+            (1., 2., 0.),
+            (0., 2., 0.),
+            (2., 0., 1.),
+        ];
         let mesh = Mesh::from_faces(
             points.map(|(x, y, z)| DVec3::new(x, y, z) / 3.0),
             [vec![0, 1, 2, 3], vec![3, 2, 4, 5], vec![1, 6, 2]],
         );
         let mesh = mesh.expect("an open strip");
         let mut net =
-            unfold(&mesh, &Seams::Free, &UnfoldParams::default(), &Source::default(), &Silent).expect("a net");
+            unfold(&mesh, &Seams::Free, &UnfoldParams::default(), &Source::default(), &Silent)
+                .expect("a net");
         net.proof.refold_mm = 4e-13;
         net
     }
@@ -415,9 +459,12 @@ mod tests {
     #[test]
     fn keys_come_in_the_order_of_the_contract() {
         let text = write_pieces_json(&net(), "c");
-        let keys =
-            ["command", "units", "scale", "mesh", "pieces", "outline", "holes", "folds", "seams", "rims", "proof"];
-        let places: Vec<_> = keys.iter().map(|k| text.find(&format!("\"{k}\":")).expect(k)).collect();
+        let keys = [
+            "command", "units", "scale", "mesh", "pieces", "outline", "holes", "folds", "seams",
+            "rims", "proof",
+        ];
+        let places: Vec<_> =
+            keys.iter().map(|k| text.find(&format!("\"{k}\":")).expect(k)).collect();
         assert!(places.is_sorted(), "{places:?}");
     }
 
@@ -429,8 +476,14 @@ mod tests {
             read_pieces_json(&text.replacen(from, to, 1)).expect_err(to).to_string()
         };
         assert!(complaint("\"outline\"", "\"outlines\"").contains("pieces[0].outline is missing"));
-        assert!(complaint("\"face\": 0", "\"face\": -1").contains("pieces[0].faces[0].face must be a whole number"));
-        assert!(complaint("\"kind\": \"", "\"kind\": \"x").contains("folds[0].kind must be \"mountain\""));
+        assert!(
+            complaint("\"face\": 0", "\"face\": -1")
+                .contains("pieces[0].faces[0].face must be a whole number")
+        );
+        assert!(
+            complaint("\"kind\": \"", "\"kind\": \"x")
+                .contains("folds[0].kind must be \"mountain\"")
+        );
         assert!(complaint("\"mm\"", "\"in\"").contains("units must be \"mm\", but is \"in\""));
         assert!(complaint("\"P01\"", "\"P00\"").contains("piece id like"));
         assert!(complaint("{ \"command\"", "{ ").contains("line 1, column"));

@@ -1,6 +1,7 @@
 //! Half-spaces from a CSV file: `nx,ny,nz,d` on each line for nx·x + ny·y + nz·z ≤ d.
 //!
-//! Blank lines and what follows a `#` are skipped; a first line of names is a header. Numbers may be fractions (`1/3`).
+//! Blank lines and what follows a `#` are skipped; a first line of names is a header. Numbers may
+//! be fractions (`1/3`).
 
 use std::path::{Path, PathBuf};
 
@@ -22,7 +23,8 @@ pub struct PlaneFile {
 impl PlaneFile {
     /// Why the half-spaces of this file bound no solid, with the lines of those concerned.
     pub fn no_solid(&self, file: &Path, reason: HalfSpaceError) -> PlanesError {
-        let lines = reason.half_spaces().iter().filter_map(|&i| self.lines.get(i).copied()).collect();
+        let lines =
+            reason.half_spaces().iter().filter_map(|&i| self.lines.get(i).copied()).collect();
         PlanesError::NoSolid { file: file.to_owned(), reason, lines }
     }
 }
@@ -40,7 +42,8 @@ pub enum PlanesError {
         source: std::io::Error,
     },
     /// The file holds no half-space.
-    #[error("{}: there are no half-spaces; write one on each line as nx,ny,nz,d for nx·x + ny·y + nz·z <= d", file.display())]
+    #[error("{}: there are no half-spaces; write one on each line as nx,ny,nz,d for nx·x + ny·y + \
+    nz·z <= d", file.display())]
     Empty {
         /// Which file.
         file: PathBuf,
@@ -109,7 +112,8 @@ fn on_lines(lines: &[usize]) -> String {
 /// # Errors
 /// [`PlanesError`] with file and line.
 pub fn read_planes(file: &Path) -> Result<PlaneFile, PlanesError> {
-    let text = std::fs::read_to_string(file).map_err(|source| PlanesError::Read { file: file.to_owned(), source })?;
+    let text = std::fs::read_to_string(file)
+        .map_err(|source| PlanesError::Read { file: file.to_owned(), source })?;
     parse_planes(&text, file)
 }
 
@@ -133,7 +137,11 @@ pub fn parse_planes(text: &str, file: &Path) -> Result<PlaneFile, PlanesError> {
         planes.half_spaces.push(half_space(&fields, line, file)?);
         planes.lines.push(line);
     }
-    if planes.lines.is_empty() { Err(PlanesError::Empty { file: file.to_owned() }) } else { Ok(planes) }
+    if planes.lines.is_empty() {
+        Err(PlanesError::Empty { file: file.to_owned() })
+    } else {
+        Ok(planes)
+    }
 }
 
 /// The fields of a line, each with the column where it begins, counted from 1.
@@ -149,14 +157,23 @@ fn fields(content: &str) -> Vec<(usize, &str)> {
     columns.into_iter().zip(content.split(',').map(str::trim)).collect()
 }
 
-fn half_space(fields: &[(usize, &str)], line: usize, file: &Path) -> Result<HalfSpace, PlanesError> {
+fn half_space(
+    fields: &[(usize, &str)],
+    line: usize,
+    file: &Path,
+) -> Result<HalfSpace, PlanesError> {
     let file = || file.to_owned();
     if fields.len() != 4 {
         let column = fields[fields.len().min(5) - 1].0;
         return Err(PlanesError::Fields { file: file(), line, column, found: fields.len() });
     }
     let number = |&(column, text): &(usize, &str)| {
-        parse_number(text).map_err(|_| PlanesError::NotANumber { file: file(), line, column, text: text.to_owned() })
+        parse_number(text).map_err(|_| PlanesError::NotANumber {
+            file: file(),
+            line,
+            column,
+            text: text.to_owned(),
+        })
     };
     let numbers: Vec<f64> = fields.iter().map(number).collect::<Result<_, _>>()?;
     let normal = DVec3::new(numbers[0], numbers[1], numbers[2]);
@@ -166,7 +183,8 @@ fn half_space(fields: &[(usize, &str)], line: usize, file: &Path) -> Result<Half
     Ok(HalfSpace { normal, offset: numbers[3] })
 }
 
-/// Whether a field is the name of a column: it begins with a letter and is no word for a number that is none.
+/// Whether a field is the name of a column: it begins with a letter and is no word for a number
+/// that is none.
 fn is_name(field: &str) -> bool {
     let is_odd_number = ["nan", "inf", "infinity"].contains(&field.to_lowercase().as_str());
     field.trim_matches('"').starts_with(char::is_alphabetic) && !is_odd_number
@@ -186,7 +204,10 @@ mod tests {
         let planes = parse(text).expect("two half-spaces");
         assert_eq!(planes.lines, [3, 5]);
         assert_eq!(planes.half_spaces[0], HalfSpace { normal: DVec3::X, offset: 2.0 });
-        assert_eq!(planes.half_spaces[1], HalfSpace { normal: DVec3::new(0.0, -0.5, 0.0), offset: 1e-3 });
+        assert_eq!(
+            planes.half_spaces[1],
+            HalfSpace { normal: DVec3::new(0.0, -0.5, 0.0), offset: 1e-3 }
+        );
     }
 
     #[test]
@@ -209,7 +230,10 @@ mod tests {
         let planes = parse("# gap\n0,0,1,1\n0,0,-1,-2\n").expect("two");
         let reason = HalfSpaceError::NoVolume { half_spaces: vec![0, 1] };
         let message = planes.no_solid(Path::new("walls.csv"), reason).to_string();
-        assert!(message.starts_with("walls.csv: ") && message.ends_with("(on the lines 2, 3)"), "{message}");
+        assert!(
+            message.starts_with("walls.csv: ") && message.ends_with("(on the lines 2, 3)"),
+            "{message}"
+        );
         let error = read_planes(Path::new("no/such/file.csv")).expect_err("no file");
         assert!(error.to_string().starts_with("no/such/file.csv: "), "{error}");
     }

@@ -5,11 +5,13 @@ use std::fmt::Write;
 
 use crate::check::{Element, Report};
 
-/// One row per face: `face,sides,mm,permille,degrees,percent,verdict,command`. `percent` is empty for faces without four
-/// sides; the verdict is `fail` for a face with any finding. The command line stands in the first row only. Numbers have a
-/// point and read back to the same bits; lines end with CR LF.
+/// One row per face: `face,sides,mm,permille,degrees,percent,verdict,command`. `percent` is empty
+/// for faces without four sides; the verdict is `fail` for a face with any finding. The command
+/// line stands in the first row only. Numbers have a point and read back to the same bits; lines
+/// end with CR LF.
 pub fn check_csv(report: &Report, command: &str) -> String {
-    let failed: HashSet<usize> = report.findings.iter().filter(|f| f.element == Element::Face).map(|f| f.id).collect();
+    let failed: HashSet<usize> =
+        report.findings.iter().filter(|f| f.element == Element::Face).map(|f| f.id).collect();
     let mut out = String::from("face,sides,mm,permille,degrees,percent,verdict,command\r\n");
     let mut command = quoted(command);
     for f in &report.faces {
@@ -50,7 +52,8 @@ mod tests {
         mesh.set_position(VertexId::new(0), DVec3::new(-1.0, -1.0, -2.0), true);
         let report = check(&mesh, &CheckParams::default()).expect("good limits");
         let csv = check_csv(&report, "kerfold check \"a, b.obj\"");
-        let rows: Vec<Vec<&str>> = csv.split_terminator("\r\n").map(|row| row.splitn(8, ',').collect()).collect();
+        let rows: Vec<Vec<&str>> =
+            csv.split_terminator("\r\n").map(|row| row.splitn(8, ',').collect()).collect();
         assert_eq!(rows.len(), 7);
         assert_eq!(rows[0].join(","), "face,sides,mm,permille,degrees,percent,verdict,command");
         assert_eq!(rows[1][7], "\"kerfold check \"\"a, b.obj\"\"\"");
@@ -67,8 +70,13 @@ mod tests {
     fn only_quads_have_a_percentage() {
         let ell = check(&ell_prism(), &CheckParams::default()).expect("good limits");
         let csv = check_csv(&ell, "kerfold");
-        assert!(csv.lines().nth(1).is_some_and(|row| row.starts_with("0,6,") && row.ends_with(",,pass,kerfold")));
-        let triangle = Mesh::from_faces(cube_corners().into_iter().take(3), [[0, 1, 2]]).expect("a triangle");
+        assert!(
+            csv.lines()
+                .nth(1)
+                .is_some_and(|row| row.starts_with("0,6,") && row.ends_with(",,pass,kerfold"))
+        );
+        let triangle =
+            Mesh::from_faces(cube_corners().into_iter().take(3), [[0, 1, 2]]).expect("a triangle");
         let report = check(&triangle, &CheckParams::default()).expect("good limits");
         assert_eq!(check_csv(&report, "k").lines().nth(1), Some("0,3,0.0,0.0,0.0,,pass,k"));
     }

@@ -1,7 +1,7 @@
 //! The report of `check` as one page: HTML that loads nothing, its pictures inside.
 //!
-//! The page is XHTML-clean, so that any XML parser reads it. Every figure stands in a `<data>` element whose `value` reads
-//! back to the same bits; what is shown has four digits.
+//! The page is XHTML-clean, so that any XML parser reads it. Every figure stands in a `<data>`
+//! element whose `value` reads back to the same bits; what is shown has four digits.
 
 mod chart;
 mod style;
@@ -11,31 +11,40 @@ use std::fmt::Write as _;
 use super::base64::base64;
 use super::number::xml;
 use super::report_page::words::{shown, verdict};
-use super::report_page::{Block, Content, KIND, PanelCard, ReportPage, Section, Table, Word, content};
+use super::report_page::{
+    Block, Content, KIND, PanelCard, ReportPage, Section, Table, Word, content,
+};
 
 /// The page.
 pub fn check_html(page: &ReportPage<'_>) -> String {
     let content = content(page);
     let title = xml(content.title);
     let mut html = format!(
-        "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
+        "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n<meta \
+        charset=\"utf-8\"/>\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
-         <meta name=\"generator\" content=\"kerfold\"/>\n<title>{title}: planarity and valence</title>\n\
+         <meta name=\"generator\" content=\"kerfold\"/>\n<title>{title}: planarity and \
+         valence</title>\n\
          <style>{}</style>\n</head>\n<body>\n",
         style::SHEET
     );
     html += &head(&content);
     html += &views(&content);
     content.sections.iter().for_each(|part| html += &section(part));
-    let _ = write!(html, "<footer>Made by <code>{}</code></footer>\n</body>\n</html>\n", xml(content.command));
+    let _ = write!(
+        html,
+        "<footer>Made by <code>{}</code></footer>\n</body>\n</html>\n",
+        xml(content.command)
+    );
     html
 }
 
 fn head(content: &Content<'_>) -> String {
     let (is_kept, said) = &content.verdict;
     let facts = content.facts.iter();
-    let facts: String =
-        facts.map(|(name, value)| format!("<div><dt>{name}</dt><dd>{}</dd></div>\n", words(value))).collect();
+    let facts: String = facts
+        .map(|(name, value)| format!("<div><dt>{name}</dt><dd>{}</dd></div>\n", words(value)))
+        .collect();
     format!(
         "<header><p class=\"kind\">{KIND}</p>\n<h1>{}</h1>\n<p class=\"verdict {}\">{said}</p>\n\
          <dl class=\"facts\">\n{facts}</dl></header>\n",
@@ -47,7 +56,10 @@ fn head(content: &Content<'_>) -> String {
 fn views(content: &Content<'_>) -> String {
     let figures = content.views.iter().map(|view| {
         let caption = xml(&view.caption);
-        format!("<figure>{}<figcaption>{caption}</figcaption></figure>\n", image(&view.png, &caption))
+        format!(
+            "<figure>{}<figcaption>{caption}</figcaption></figure>\n",
+            image(&view.png, &caption)
+        )
     });
     format!("<section class=\"views\">\n{}</section>\n", figures.collect::<String>())
 }
@@ -67,10 +79,14 @@ fn section(section: &Section<'_>) -> String {
             Block::Table(rows) => table(rows),
             Block::Chart(chart) => chart::bars(chart),
             Block::Panels(cards) => {
-                format!("<div class=\"panels\">\n{}</div>\n", cards.iter().map(panel).collect::<String>())
+                format!(
+                    "<div class=\"panels\">\n{}</div>\n",
+                    cards.iter().map(panel).collect::<String>()
+                )
             }
             Block::Terms(terms) => {
-                let list = terms.iter().map(|(name, words)| format!("<dt>{name}</dt><dd>{words}</dd>\n"));
+                let list =
+                    terms.iter().map(|(name, words)| format!("<dt>{name}</dt><dd>{words}</dd>\n"));
                 format!("<dl>\n{}</dl>\n", list.collect::<String>())
             }
         };
@@ -80,11 +96,13 @@ fn section(section: &Section<'_>) -> String {
 
 fn panel(card: &PanelCard<'_>) -> String {
     let figures = card.figures.iter();
-    let rows: String =
-        figures.map(|(figure, unit)| format!("<tr><td>{}</td><th>{unit}</th></tr>", words(figure))).collect();
+    let rows: String = figures
+        .map(|(figure, unit)| format!("<tr><td>{}</td><th>{unit}</th></tr>", words(figure)))
+        .collect();
     let name = &card.name;
     format!(
-        "<article class=\"panel\"><h3>{name} {}</h3>{}{}\n<p>{}</p><table>{rows}</table></article>\n",
+        "<article class=\"panel\"><h3>{name} \
+        {}</h3>{}{}\n<p>{}</p><table>{rows}</table></article>\n",
         word(&Word::Verdict(card.is_kept)),
         image(&card.pictures.close, &format!("{name} with its neighbours")),
         image(&card.pictures.place, &format!("{name} on the model")),
@@ -93,8 +111,10 @@ fn panel(card: &PanelCard<'_>) -> String {
 }
 
 fn table(table: &Table) -> String {
-    let head: String = table.head.iter().map(|name| format!("<th scope=\"col\">{name}</th>")).collect();
-    let mut html = format!("<table class=\"{}\"><thead><tr>{head}</tr></thead>\n<tbody>\n", table.class);
+    let head: String =
+        table.head.iter().map(|name| format!("<th scope=\"col\">{name}</th>")).collect();
+    let mut html =
+        format!("<table class=\"{}\"><thead><tr>{head}</tr></thead>\n<tbody>\n", table.class);
     for row in &table.rows {
         html += "<tr>";
         row.iter().for_each(|cell| html.extend(["<td>", &words(cell), "</td>"]));

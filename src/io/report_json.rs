@@ -1,7 +1,7 @@
 //! `report.json` and what `info --json` prints (`formats.md`).
 //!
-//! Keys come in the order of the contract, further ones after it. Numbers have as many digits as read back to the same
-//! bits, and no more; ids are those of the input file.
+//! Keys come in the order of the contract, further ones after it. Numbers have as many digits as
+//! read back to the same bits, and no more; ids are those of the input file.
 
 use std::collections::BTreeMap;
 
@@ -32,12 +32,21 @@ pub fn check_json_with(report: &Report, details: Option<&Details>, command: &str
         ("findings", lines(report.findings.iter().map(|f| compact(&finding(f))))),
         ("verdict", compact(report.verdict().name())),
         ("profile", compact(&profile(report))),
-        ("profiles", compact(&report.profiles.iter().map(|&(p, ok)| (p.name(), ok)).collect::<BTreeMap<_, _>>())),
+        (
+            "profiles",
+            compact(
+                &report.profiles.iter().map(|&(p, ok)| (p.name(), ok)).collect::<BTreeMap<_, _>>(),
+            ),
+        ),
         ("concave", compact(&concave(report))),
         (
             "conical",
             lines(report.conical.iter().map(|node| {
-                compact(&Conical { vertex: node.vertex.index(), valence: node.valence, residual: node.residual })
+                compact(&Conical {
+                    vertex: node.vertex.index(),
+                    valence: node.valence,
+                    residual: node.residual,
+                })
             })),
         ),
     ];
@@ -73,7 +82,12 @@ pub fn info_json(summary: &Summary, notes: &[String], command: &str) -> String {
             volume_mm3: c.volume,
         })
     });
-    let lengths = summary.edge_lengths.map(|l| Lengths { min: l.min, mean: l.mean, max: l.max, total: l.total });
+    let lengths = summary.edge_lengths.map(|l| Lengths {
+        min: l.min,
+        mean: l.mean,
+        max: l.max,
+        total: l.total,
+    });
     let groups = summary.groups.iter().map(|g| compact(&Group { name: &g.name, faces: g.faces }));
     object(&[
         ("command", compact(command)),
@@ -238,7 +252,8 @@ fn planarity(report: &Report) -> String {
     ];
     fields.extend(worst.percent.map(|percent| ("max_percent", compact(&percent))));
     fields.extend(report.carried_mm.map(|mm| ("carried_mm", compact(&mm))));
-    let fields: Vec<String> = fields.into_iter().map(|(name, value)| format!("\"{name}\":{value}")).collect();
+    let fields: Vec<String> =
+        fields.into_iter().map(|(name, value)| format!("\"{name}\":{value}")).collect();
     format!("{{{}}}", fields.join(","))
 }
 
@@ -319,7 +334,8 @@ fn lines(items: impl Iterator<Item = String>) -> String {
 
 /// An object with one key a line; the values are written already.
 fn object(fields: &[(&str, String)]) -> String {
-    let fields: Vec<String> = fields.iter().map(|(name, value)| format!("  \"{name}\": {value}")).collect();
+    let fields: Vec<String> =
+        fields.iter().map(|(name, value)| format!("  \"{name}\": {value}")).collect();
     format!("{{\n{}\n}}\n", fields.join(",\n"))
 }
 
@@ -332,8 +348,10 @@ mod tests {
     use serde_json::{Value, json};
 
     fn keys_in_order(text: &str, keys: &[&str]) {
-        let places: Vec<usize> =
-            keys.iter().map(|key| text.find(&format!("\"{key}\"")).unwrap_or_else(|| panic!("no {key}"))).collect();
+        let places: Vec<usize> = keys
+            .iter()
+            .map(|key| text.find(&format!("\"{key}\"")).unwrap_or_else(|| panic!("no {key}")))
+            .collect();
         assert!(places.is_sorted(), "{keys:?} at {places:?}");
     }
 
@@ -342,8 +360,23 @@ mod tests {
         let params = CheckParams { require: vec![Requirement::Convex], ..CheckParams::default() };
         let report = check(&ell_prism(), &params).expect("good limits");
         let text = check_json(&report, "kerfold check \"ell\".obj");
-        keys_in_order(&text, &["command", "model", "planarity", "valence", "convex", "findings", "verdict", "profile"]);
-        keys_in_order(&text, &["max_mm", "max_permille", "max_degrees", "face", "histogram", "other"]);
+        keys_in_order(
+            &text,
+            &[
+                "command",
+                "model",
+                "planarity",
+                "valence",
+                "convex",
+                "findings",
+                "verdict",
+                "profile",
+            ],
+        );
+        keys_in_order(
+            &text,
+            &["max_mm", "max_permille", "max_degrees", "face", "histogram", "other"],
+        );
         let value: Value = serde_json::from_str(&text).expect("JSON");
         assert_eq!(value["command"], json!("kerfold check \"ell\".obj"));
         let model = json!({"vertices": 12, "edges": 18, "faces": 8, "components": 1, "genus": 0, "rims": 0, "size_mm": [2.0, 2.0, 1.0]});
@@ -370,9 +403,16 @@ mod tests {
         let all = |key: &str| -> Vec<f64> {
             let key = format!("\"{key}\":");
             let parts = text.split(&key).skip(1);
-            parts.map(|part| part[..part.find([',', '}']).expect("an end")].parse().expect("a number")).collect()
+            parts
+                .map(|part| {
+                    part[..part.find([',', '}']).expect("an end")].parse().expect("a number")
+                })
+                .collect()
         };
-        assert_eq!(all("degrees"), report.faces.iter().map(|f| f.planarity.degrees).collect::<Vec<_>>());
+        assert_eq!(
+            all("degrees"),
+            report.faces.iter().map(|f| f.planarity.degrees).collect::<Vec<_>>()
+        );
         assert_eq!(all("max_mm")[0], report.worst.mm);
     }
 
@@ -381,16 +421,25 @@ mod tests {
         let report = check(&octahedron(), &CheckParams::default()).expect("good limits");
         let value: Value = serde_json::from_str(&check_json(&report, "")).expect("JSON");
         assert_eq!(value["valence"]["other"], json!([0, 1, 2, 3, 4, 5]));
-        assert_eq!((&value["conical"][5]["vertex"], &value["conical"][5]["valence"]), (&json!(5), &json!(4)));
+        assert_eq!(
+            (&value["conical"][5]["vertex"], &value["conical"][5]["valence"]),
+            (&json!(5), &json!(4))
+        );
         assert_eq!(value["verdict"], json!("pass"));
     }
 
     #[test]
     fn the_info_says_the_same_as_the_summary() {
-        let value: Value =
-            serde_json::from_str(&info_json(&summary(&open_box()), &["a note".into()], "kerfold info x"))
-                .expect("JSON");
-        assert_eq!((&value["model"]["rims"], &value["model"]["euler_number"]), (&json!(1), &json!(1)));
+        let value: Value = serde_json::from_str(&info_json(
+            &summary(&open_box()),
+            &["a note".into()],
+            "kerfold info x",
+        ))
+        .expect("JSON");
+        assert_eq!(
+            (&value["model"]["rims"], &value["model"]["euler_number"]),
+            (&json!(1), &json!(1))
+        );
         assert_eq!(value["components"][0]["volume_mm3"], Value::Null);
         assert_eq!(value["edge_lengths_mm"]["total"], json!(24.0));
         assert_eq!(value["notes"], json!(["a note"]));

@@ -1,7 +1,8 @@
-//! The report of `check` for people who were not there: what stands on its pages, in order, before it is HTML or PDF.
+//! The report of `check` for people who were not there: what stands on its pages, in order, before
+//! it is HTML or PDF.
 //!
-//! Both writers are fed with the same content, so neither can say more than the other. Pictures come as bytes, since
-//! drawing is not this room's work.
+//! Both writers are fed with the same content, so neither can say more than the other. Pictures
+//! come as bytes, since drawing is not this room's work.
 
 mod sections;
 pub(super) mod words;
@@ -131,7 +132,8 @@ pub(super) struct Chart {
     /// What stands below all bars.
     pub(super) axis: &'static str,
     pub(super) bars: Vec<Bar>,
-    /// A dashed line before the bar of that number, or between two if it has a fraction, and what it says.
+    /// A dashed line before the bar of that number, or between two if it has a fraction, and what
+    /// it says.
     pub(super) limit: Option<(f64, &'static str)>,
 }
 

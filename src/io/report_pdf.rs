@@ -1,7 +1,8 @@
-//! The report of `check` as a PDF of A4 pages: the same content as the HTML page, with pictures inside and charts as lines.
+//! The report of `check` as a PDF of A4 pages: the same content as the HTML page, with pictures
+//! inside and charts as lines.
 //!
-//! The file is PDF 1.5 and needs no font but Helvetica, which every reader has; signs beyond Western European ones become
-//! question marks.
+//! The file is PDF 1.5 and needs no font but Helvetica, which every reader has; signs beyond
+//! Western European ones become question marks.
 
 mod blocks;
 mod font;
@@ -72,7 +73,12 @@ fn facts(paper: &mut Paper, content: &Content<'_>) {
             paper.line([x, paper.y], [x + width, paper.y], LINE, 0.6);
             paper.text([x, paper.y + 11.0], Anchor::Start, SMALL, name);
             for (k, line) in lines.iter().enumerate() {
-                paper.text([x, paper.y + 24.0 + k as f64 * BOLD.leading()], Anchor::Start, BOLD, line);
+                paper.text(
+                    [x, paper.y + 24.0 + k as f64 * BOLD.leading()],
+                    Anchor::Start,
+                    BOLD,
+                    line,
+                );
             }
         }
         paper.y += 20.0 + tallest as f64 * BOLD.leading();
@@ -90,7 +96,9 @@ fn views(paper: &mut Paper, views: &[ReportPicture]) {
 fn row_of_views(paper: &mut Paper, views: &[ReportPicture], width: f64) {
     let shown: Vec<(Raster, Vec<String>)> = views
         .iter()
-        .filter_map(|v| Some((Raster::of_png(&v.png)?, SMALL.font.wrap(&v.caption, SMALL.size, width))))
+        .filter_map(|v| {
+            Some((Raster::of_png(&v.png)?, SMALL.font.wrap(&v.caption, SMALL.size, width)))
+        })
         .collect();
     let height = |(raster, lines): &(Raster, Vec<String>)| {
         width * raster.height as f64 / raster.width as f64 + lines.len() as f64 * SMALL.leading()
@@ -102,7 +110,12 @@ fn row_of_views(paper: &mut Paper, views: &[ReportPicture], width: f64) {
         let x = LEFT + i as f64 * (width + GUTTER);
         let below = top + paper.image([x, top], width, raster);
         for (k, line) in lines.iter().enumerate() {
-            paper.text([x, below + 3.0 + (k as f64 + 0.8) * SMALL.leading()], Anchor::Start, SMALL, line);
+            paper.text(
+                [x, below + 3.0 + (k as f64 + 0.8) * SMALL.leading()],
+                Anchor::Start,
+                SMALL,
+                line,
+            );
         }
     }
     paper.y = top + tallest + 2.0 * GAP;

@@ -12,7 +12,8 @@ use crate::measure::{Planarity, Summary};
 const WORST: usize = 10;
 /// Findings that are written out; the rest is counted.
 const SHOWN: usize = 40;
-/// Below this share of the model's size a concave edge is likely the rounding of a file with seven digits.
+/// Below this share of the model's size a concave edge is likely the rounding of a file with seven
+/// digits.
 const FILE_DIGITS: f64 = 1e-6;
 
 /// The report of `check`: model, measures, worst faces, findings, verdict, advice.
@@ -36,10 +37,14 @@ pub fn check_text(report: &Report, command: &str) -> String {
     page.row("Profile", &[&format!("{}: at most {}", report.profile, limits(&report.limits))]);
     page.more(&["limits are kerfold's own defaults or yours, not norms"]);
     page.row("Planarity", &[&format!("largest {}", measures(&report.worst))]);
-    let kept: Vec<String> = report.profiles.iter().map(|(p, ok)| format!("{p} {}", yes(*ok))).collect();
+    let kept: Vec<String> =
+        report.profiles.iter().map(|(p, ok)| format!("{p} {}", yes(*ok))).collect();
     page.more(&[&format!("profiles kept: {}", kept.join(", "))]);
     if let Some(mm) = report.carried_mm {
-        page.more(&[&format!("largest distance of a corner from the plane that its face carries: {} mm", short(mm))]);
+        page.more(&[&format!(
+            "largest distance of a corner from the plane that its face carries: {} mm",
+            short(mm)
+        )]);
     }
     page.row("Valence", &[&format!("{} (edges: vertices)", histogram(&report.valence.histogram))]);
     nodes(&mut page, report);
@@ -162,12 +167,16 @@ fn convexity(report: &Report) -> String {
 }
 
 fn worst_faces(page: &mut Page, report: &Report) {
-    let worst: Vec<&FaceReport> = report.worst_faces(WORST).into_iter().filter(|f| f.sides > 3).collect();
+    let worst: Vec<&FaceReport> =
+        report.worst_faces(WORST).into_iter().filter(|f| f.sides > 3).collect();
     page.blank();
     if worst.is_empty() {
         return page.line("No face has more than three corners, so all are planar exactly.");
     }
-    page.line(&format!("{:>8} {:>6} {:>10} {:>10} {:>10} {:>10}  limit used", "face", "sides", "mm", "‰", "°", "%"));
+    page.line(&format!(
+        "{:>8} {:>6} {:>10} {:>10} {:>10} {:>10}  limit used",
+        "face", "sides", "mm", "‰", "°", "%"
+    ));
     for f in worst {
         let p = &f.planarity;
         let percent = p.percent.map_or("-".into(), short);
@@ -182,8 +191,14 @@ fn worst_faces(page: &mut Page, report: &Report) {
             percent
         ));
     }
-    page.line("mm: largest distance of a corner from the least-squares plane; ‰: the same over the face's diameter;");
-    page.line("°: largest angle between the face's normal and that of a corner; %: gap of a quad's diagonals over their length.");
+    page.line(
+        "mm: largest distance of a corner from the least-squares plane; ‰: the same over the \
+    face's diameter;",
+    );
+    page.line(
+        "°: largest angle between the face's normal and that of a corner; %: gap of a quad's \
+    diagonals over their length.",
+    );
 }
 
 fn findings(page: &mut Page, report: &Report) {
@@ -196,7 +211,10 @@ fn findings(page: &mut Page, report: &Report) {
         page.line(&format!("{} {:width$}  {}", f.check.code(), f.check.name(), f.message));
     }
     if report.findings.len() > SHOWN {
-        page.line(&format!("... and {} more; --report FILE.json lists all", report.findings.len() - SHOWN));
+        page.line(&format!(
+            "... and {} more; --report FILE.json lists all",
+            report.findings.len() - SHOWN
+        ));
     }
 }
 
@@ -206,36 +224,54 @@ fn advice(report: &Report) -> Vec<String> {
     let mut lines = Vec::new();
     if has(CheckKind::DegenerateFace) || has(CheckKind::ZeroLengthEdge) {
         lines.push(
-            "faces without area and edges without length: weld their vertices (--weld) or remove them".to_owned(),
+            "faces without area and edges without length: weld their vertices (--weld) or remove \
+            them"
+                .to_owned(),
         );
     }
     if has(CheckKind::SelfIntersection) {
-        lines.push("faces that cross themselves cannot be cut out of a sheet: redraw or divide them".to_owned());
+        lines.push(
+            "faces that cross themselves cannot be cut out of a sheet: redraw or divide them"
+                .to_owned(),
+        );
     }
     if has(CheckKind::Planarity) {
         lines.push("to flatten the faces: kerfold planarize IN -o OUT".to_owned());
-        let kept: Vec<&str> = report.profiles.iter().filter(|(_, ok)| *ok).map(|(p, _)| p.name()).collect();
+        let kept: Vec<&str> =
+            report.profiles.iter().filter(|(_, ok)| *ok).map(|(p, _)| p.name()).collect();
         if !kept.is_empty() {
-            lines.push(format!("the model keeps the profile {} (--profile) as it is", kept.join(", ")));
+            lines.push(format!(
+                "the model keeps the profile {} (--profile) as it is",
+                kept.join(", ")
+            ));
         }
     }
     if !report.conical.is_empty() {
-        lines
-            .push("to leave three edges at every vertex: kerfold cut vertex IN --select 'valence>3' -o OUT".to_owned());
+        lines.push(
+            "to leave three edges at every vertex: kerfold cut vertex IN --select \
+            'valence>3' -o OUT"
+                .to_owned(),
+        );
     }
     if has(CheckKind::Closed) {
         lines.push(
-            "rims are cut like any outline; to close the model, add the missing faces where it was drawn".to_owned(),
+            "rims are cut like any outline; to close the model, add the missing faces where it was \
+            drawn".to_owned(),
         );
     }
     if has(CheckKind::Convex) {
         lines.push("for the convex hull: kerfold hull IN -o OUT".to_owned());
         if report.convexity.deepest_mm < FILE_DIGITS * report.model.size_mm.length() {
-            lines.push("what is concave is so by a hair: the file may have too few digits".to_owned());
+            lines.push(
+                "what is concave is so by a hair: the file may have too few digits".to_owned(),
+            );
         }
     }
     if has(CheckKind::Manifold) {
-        lines.push("vertices at one place: weld them (--weld), or pull apart what should not touch".to_owned());
+        lines.push(
+            "vertices at one place: weld them (--weld), or pull apart what should not touch"
+                .to_owned(),
+        );
     }
     if !report.has_findings() {
         lines.push("to unfold it into sheets: kerfold unfold IN -o DIR".to_owned());
@@ -306,19 +342,24 @@ fn extent(size: DVec3) -> String {
 }
 
 fn measures(p: &Planarity) -> String {
-    let quads = p.percent.map(|percent| format!(", quads {} %", short(percent))).unwrap_or_default();
+    let quads =
+        p.percent.map(|percent| format!(", quads {} %", short(percent))).unwrap_or_default();
     format!("{} mm, {} ‰, {}°{quads}", short(p.mm), short(p.permille), short(p.degrees))
 }
 
 fn limits(limits: &Limits) -> String {
-    let parts = [(limits.mm, " mm"), (limits.permille, " ‰ of the face's diameter"), (limits.degrees, "°")];
-    let parts: Vec<String> =
-        parts.into_iter().filter_map(|(limit, unit)| Some(format!("{}{unit}", short(limit?)))).collect();
+    let parts =
+        [(limits.mm, " mm"), (limits.permille, " ‰ of the face's diameter"), (limits.degrees, "°")];
+    let parts: Vec<String> = parts
+        .into_iter()
+        .filter_map(|(limit, unit)| Some(format!("{}{unit}", short(limit?))))
+        .collect();
     parts.join(" and ")
 }
 
 fn histogram(counts: &BTreeMap<usize, usize>) -> String {
-    let parts: Vec<String> = counts.iter().map(|(value, count)| format!("{value}: {count}")).collect();
+    let parts: Vec<String> =
+        counts.iter().map(|(value, count)| format!("{value}: {count}")).collect();
     if parts.is_empty() { "none".into() } else { parts.join(", ") }
 }
 
@@ -358,7 +399,8 @@ Convex     yes
 ";
         let text = check_text(&report, "kerfold check cube.obj");
         assert!(text.starts_with(wanted), "{text}");
-        let end = "\nVerdict    pass: no findings\nAdvice     to unfold it into sheets: kerfold unfold IN -o DIR\n";
+        let end = "\nVerdict    pass: no findings\nAdvice     to unfold it into sheets: kerfold \
+        unfold IN -o DIR\n";
         assert!(text.ends_with(end), "{text}");
     }
 
@@ -366,8 +408,11 @@ Convex     yes
     fn a_bent_concave_and_crowded_model_gets_advice() {
         let mut mesh = ell_prism();
         mesh.set_position(VertexId::new(0), DVec3::new(0.0, 0.0, -0.5), true);
-        let params =
-            CheckParams { profile: Profile::Paper, require: vec![Requirement::Convex], ..CheckParams::default() };
+        let params = CheckParams {
+            profile: Profile::Paper,
+            require: vec![Requirement::Convex],
+            ..CheckParams::default()
+        };
         let text = check_text(&check(&mesh, &params).expect("good limits"), "kerfold");
         for part in [
             "Verdict    fail: ",
@@ -378,7 +423,10 @@ Convex     yes
         ] {
             assert!(text.contains(part), "no {part} in\n{text}");
         }
-        let text = check_text(&check(&octahedron(), &CheckParams::default()).expect("good limits"), "kerfold");
+        let text = check_text(
+            &check(&octahedron(), &CheckParams::default()).expect("good limits"),
+            "kerfold",
+        );
         for part in ["6 vertices have more than three edges", "valence>3", "planar exactly"] {
             assert!(text.contains(part), "no {part} in\n{text}");
         }
@@ -388,7 +436,8 @@ Convex     yes
     fn the_info_shows_rims_groups_and_notes() {
         let mut mesh = open_box();
         mesh.set_group(crate::mesh::FaceId::new(0), "floor");
-        let text = info_text(&summary(&mesh), &["three vertices welded".into()], "kerfold info box.obj");
+        let text =
+            info_text(&summary(&mesh), &["three vertices welded".into()], "kerfold info box.obj");
         for part in [
             "Rims       1 rim, 4 edges, 8 mm",
             "Groups     floor (1 face)",

@@ -1,4 +1,5 @@
-//! All files of a set of sheets, as names and bytes: in every format that was asked for, tiled, and part by part.
+//! All files of a set of sheets, as names and bytes: in every format that was asked for, tiled, and
+//! part by part.
 
 use super::dxf::write_dxf;
 use super::lbrn2::write_lbrn2;
@@ -8,12 +9,19 @@ use super::svg::write_svg;
 use crate::sheet::{Drawing, PartFiles, SheetError, SheetFormat, SheetParams};
 
 /// The bytes of one drawing in one format.
-pub fn sheet_bytes(drawing: &Drawing, format: SheetFormat, params: &SheetParams, command: &str) -> Vec<u8> {
+pub fn sheet_bytes(
+    drawing: &Drawing,
+    format: SheetFormat,
+    params: &SheetParams,
+    command: &str,
+) -> Vec<u8> {
     match format {
         SheetFormat::Svg => write_svg(drawing, params.style(), command).into_bytes(),
         SheetFormat::Dxf => write_dxf(drawing, command).into_bytes(),
         SheetFormat::Pdf => write_pdf(drawing, params.style(), command),
-        SheetFormat::Lbrn2 => write_lbrn2(drawing, |layer| params.speed(layer), command).into_bytes(),
+        SheetFormat::Lbrn2 => {
+            write_lbrn2(drawing, |layer| params.speed(layer), command).into_bytes()
+        }
     }
 }
 

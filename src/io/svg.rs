@@ -1,8 +1,8 @@
 //! Sheets as SVG, written through the `svg` crate.
 //!
-//! One user unit is one millimetre; (x, y) of a drawing becomes (x, height − y). One layer per operation in working order,
-//! one path per mark, no transforms, no text elements, at most four decimals. Colours and widths come from the preset; what
-//! a line means is also in its `class`.
+//! One user unit is one millimetre; (x, y) of a drawing becomes (x, height − y). One layer per
+//! operation in working order, one path per mark, no transforms, no text elements, at most four
+//! decimals. Colours and widths come from the preset; what a line means is also in its `class`.
 
 use svg::node::Text;
 use svg::node::element::{Element, Group, Path, SVG};
@@ -54,7 +54,8 @@ fn path(mark: &Mark, height: f64) -> Path {
 
 /// `M x,y L x,y … Z`, without points that four decimals cannot tell apart.
 fn path_data(stroke: &Stroke, height: f64) -> String {
-    let points: Vec<String> = shown_points(stroke, Some(height)).iter().map(|p| p.join(",")).collect();
+    let points: Vec<String> =
+        shown_points(stroke, Some(height)).iter().map(|p| p.join(",")).collect();
     let end = if stroke.closed { " Z" } else { "" };
     format!("M {}{end}", points.join(" L "))
 }

@@ -75,7 +75,15 @@ impl Operation {
     pub fn of_name(name: &str) -> Option<Self> {
         let name = name.to_ascii_lowercase();
         let has = |words: &[&str]| words.iter().any(|w| name.contains(w));
-        if has(&["info", "guide", "construction", "dimension", "defpoints", "reference", "sheet border"]) {
+        if has(&[
+            "info",
+            "guide",
+            "construction",
+            "dimension",
+            "defpoints",
+            "reference",
+            "sheet border",
+        ]) {
             Some(Self::Info)
         } else if has(&["engrav", "etch", "mark", "raster", "letter"]) {
             Some(Self::Engrave)
@@ -111,10 +119,13 @@ impl Operation {
 }
 
 impl Artwork {
-    /// Gives every path without a telling layer an operation by its colour: where red is used, blue is scored, black and
-    /// green are engraved; everything else is cut. `colours` are those of the paths, `None` where the layer told.
+    /// Gives every path without a telling layer an operation by its colour: where red is used, blue
+    /// is scored, black and green are engraved; everything else is cut. `colours` are those of the
+    /// paths, `None` where the layer told.
     pub fn operations_by_colour(&mut self, colours: &[Option<[u8; 3]>]) {
-        let is = |c: [u8; 3], want: [bool; 3]| (0..3).all(|i| if want[i] { c[i] > 200 } else { c[i] < 60 });
+        let is = |c: [u8; 3], want: [bool; 3]| {
+            (0..3).all(|i| if want[i] { c[i] > 200 } else { c[i] < 60 })
+        };
         let red = |c: &Option<[u8; 3]>| c.is_some_and(|c| is(c, [true, false, false]));
         let has_red = colours.iter().any(red);
         for (path, colour) in self.paths.iter_mut().zip(colours) {

@@ -19,7 +19,9 @@ impl Contours {
             .iter()
             .enumerate()
             .filter(|(_, l)| l.closed && l.operation.is_cut())
-            .filter_map(|(i, l)| bounds(&l.points).map(|(low, high)| (signed_area(&l.points).abs(), i, low, high)))
+            .filter_map(|(i, l)| {
+                bounds(&l.points).map(|(low, high)| (signed_area(&l.points).abs(), i, low, high))
+            })
             .collect();
         closed.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let around = |i: usize| -> Vec<usize> {
@@ -36,7 +38,10 @@ impl Contours {
             closed.iter().filter(holds).map(|c| c.1).collect()
         };
         let all: Vec<Vec<usize>> = (0..lines.len()).map(around).collect();
-        Self { parent: all.iter().map(|a| a.first().copied()).collect(), depth: all.iter().map(Vec::len).collect() }
+        Self {
+            parent: all.iter().map(|a| a.first().copied()).collect(),
+            depth: all.iter().map(Vec::len).collect(),
+        }
     }
 
     /// Whether a closed cut takes material away instead of bounding a part.
@@ -44,11 +49,13 @@ impl Contours {
         self.depth[i] % 2 == 1
     }
 
-    /// Whether material of one part lies between two closed cuts: a hole and its outline, or two holes of one outline.
+    /// Whether material of one part lies between two closed cuts: a hole and its outline, or two
+    /// holes of one outline.
     pub fn share_material(&self, i: usize, j: usize) -> bool {
         let (hole, other) = if self.is_hole(i) { (i, j) } else { (j, i) };
         self.is_hole(hole)
-            && (self.parent[hole] == Some(other) || (self.is_hole(other) && self.parent[other] == self.parent[hole]))
+            && (self.parent[hole] == Some(other)
+                || (self.is_hole(other) && self.parent[other] == self.parent[hole]))
     }
 }
 

@@ -17,7 +17,12 @@ pub(super) fn units(artwork: &Artwork, report: &mut LintReport) {
     match artwork.unit {
         UnitState::Known => {}
         UnitState::Missing(assumed) => {
-            report.add(Check::Units, None, "", format!("the file does not say its unit; {assumed}"));
+            report.add(
+                Check::Units,
+                None,
+                "",
+                format!("the file does not say its unit; {assumed}"),
+            );
         }
         UnitState::Contradictory(how) => report.add(Check::Units, None, "", how.to_owned()),
     }
@@ -25,7 +30,8 @@ pub(super) fn units(artwork: &Artwork, report: &mut LintReport) {
         let extent = (high - low).max_element();
         let limit = if extent < PLAUSIBLE[0] { PLAUSIBLE[0] } else { PLAUSIBLE[1] };
         if extent > 0.0 && !(PLAUSIBLE[0]..=PLAUSIBLE[1]).contains(&extent) {
-            let words = format!("the drawing is {} mm large; is it in another unit?", short(extent));
+            let words =
+                format!("the drawing is {} mm large; is it in another unit?", short(extent));
             report.measured(Check::Units, Some(low), "", words, Some((extent, limit)));
         }
     }
@@ -38,7 +44,12 @@ pub(super) fn texts(artwork: &Artwork, report: &mut LintReport) {
     }
 }
 
-pub(super) fn size(artwork: &Artwork, lines: &[Line], params: &LintParams, report: &mut LintReport) {
+pub(super) fn size(
+    artwork: &Artwork,
+    lines: &[Line],
+    params: &LintParams,
+    report: &mut LintReport,
+) {
     let asked = params.sheet.map(|s| DVec2::new(s.width, s.height));
     // Written sizes have some decimals less than ours.
     let slack = params.gap.mm();
@@ -80,12 +91,22 @@ pub(super) fn stray_points(artwork: &Artwork, lines: &[Line], report: &mut LintR
         let extent = bounds(&path.points).map_or(0.0, |(low, high)| (high - low).max_element());
         // Lines that were joined to others are not lost; those without extent are.
         if !kept[i] && extent <= 0.01 {
-            report.add(Check::StrayPoint, path.points.first().copied(), &label(path, i), "has no length".to_owned());
+            report.add(
+                Check::StrayPoint,
+                path.points.first().copied(),
+                &label(path, i),
+                "has no length".to_owned(),
+            );
         }
     }
 }
 
-pub(super) fn open_contours(lines: &[Line], contours: &Contours, params: &LintParams, report: &mut LintReport) {
+pub(super) fn open_contours(
+    lines: &[Line],
+    contours: &Contours,
+    params: &LintParams,
+    report: &mut LintReport,
+) {
     let on = On::of(lines, params.gap.mm());
     for (i, line) in lines.iter().enumerate().filter(|(_, l)| !l.closed && l.operation.is_cut()) {
         // A slit in a part: on the layer of inner cuts, inside an outline.
@@ -98,7 +119,13 @@ pub(super) fn open_contours(lines: &[Line], contours: &Contours, params: &LintPa
             continue;
         }
         let words = format!("its ends are {} mm apart", short(a.distance(b)));
-        report.measured(Check::OpenContour, Some(b), &line.label, words, Some((a.distance(b), params.gap.mm())));
+        report.measured(
+            Check::OpenContour,
+            Some(b),
+            &line.label,
+            words,
+            Some((a.distance(b), params.gap.mm())),
+        );
     }
 }
 
@@ -110,14 +137,22 @@ fn collide(a: Operation, b: Operation) -> bool {
 
 pub(super) fn doubled(lines: &[Line], pairs: &Pairs, report: &mut LintReport) {
     for (&(i, j), common) in &pairs.common {
-        let Some((length, at)) = common.overlap.filter(|_| collide(lines[i].operation, lines[j].operation)) else {
+        let Some((length, at)) =
+            common.overlap.filter(|_| collide(lines[i].operation, lines[j].operation))
+        else {
             continue;
         };
         let shorter = lines[i].length().min(lines[j].length());
         let longer = lines[i].length().max(lines[j].length());
         if i != j && length >= 0.95 * longer {
             let words = format!("lies on {} over its whole length", lines[i].label);
-            report.measured(Check::Duplicate, Some(at), &lines[j].label, words, Some((length, 0.0)));
+            report.measured(
+                Check::Duplicate,
+                Some(at),
+                &lines[j].label,
+                words,
+                Some((length, 0.0)),
+            );
         } else {
             let other = if i == j { "itself" } else { &lines[i].label };
             let words = format!("runs along {other} for {} mm", short(length.min(shorter)));
@@ -129,16 +164,27 @@ pub(super) fn doubled(lines: &[Line], pairs: &Pairs, report: &mut LintReport) {
 pub(super) fn crossings(lines: &[Line], pairs: &Pairs, report: &mut LintReport) {
     for (&(i, j), common) in &pairs.common {
         let Some(at) = common.crossing else { continue };
-        let both_engraved = lines[i].operation == Operation::Engrave && lines[j].operation == Operation::Engrave;
+        let both_engraved =
+            lines[i].operation == Operation::Engrave && lines[j].operation == Operation::Engrave;
         if i == j && !both_engraved {
             report.add(Check::SelfCrossing, Some(at), &lines[i].label, "crosses itself".to_owned());
         } else if i != j && !both_engraved {
-            report.add(Check::Crossing, Some(at), &lines[j].label, format!("crosses {}", lines[i].label));
+            report.add(
+                Check::Crossing,
+                Some(at),
+                &lines[j].label,
+                format!("crosses {}", lines[i].label),
+            );
         }
     }
 }
 
-pub(super) fn small_holes(lines: &[Line], contours: &Contours, params: &LintParams, report: &mut LintReport) {
+pub(super) fn small_holes(
+    lines: &[Line],
+    contours: &Contours,
+    params: &LintParams,
+    report: &mut LintReport,
+) {
     let Some(thickness) = params.thickness else { return };
     let least = 1.5 * thickness.mm();
     for (i, line) in lines.iter().enumerate() {
@@ -147,8 +193,18 @@ pub(super) fn small_holes(lines: &[Line], contours: &Contours, params: &LintPara
         }
         let width = least_width(&line.points) + params.kerf();
         if width < least {
-            let words = format!("this hole is {} mm wide, at least {} is wanted", short(width), short(least));
-            report.measured(Check::SmallHole, line.points.first().copied(), &line.label, words, Some((width, least)));
+            let words = format!(
+                "this hole is {} mm wide, at least {} is wanted",
+                short(width),
+                short(least)
+            );
+            report.measured(
+                Check::SmallHole,
+                line.points.first().copied(),
+                &line.label,
+                words,
+                Some((width, least)),
+            );
         }
     }
 }
@@ -184,7 +240,9 @@ pub(super) fn thin_webs(
     };
     let is_contour = |i: usize| lines[i].closed && lines[i].operation.is_cut();
     for (&(i, j), common) in &pairs.common {
-        let Some((distance, at)) = common.nearest.filter(|_| i != j && is_contour(i) && is_contour(j)) else {
+        let Some((distance, at)) =
+            common.nearest.filter(|_| i != j && is_contour(i) && is_contour(j))
+        else {
             continue;
         };
         if contours.share_material(i, j) && common.overlap.is_none() && common.crossing.is_none() {
@@ -192,14 +250,16 @@ pub(super) fn thin_webs(
         }
     }
     for i in (0..lines.len()).filter(|&i| is_contour(i)) {
-        if let Some((distance, at)) = neck(&lines[i].points, contours.is_hole(i), params.web() + params.kerf()) {
+        if let Some((distance, at)) =
+            neck(&lines[i].points, contours.is_hole(i), params.web() + params.kerf())
+        {
             tell(at, &lines[i].label, distance, "itself");
         }
     }
 }
 
-/// The thinnest neck of a contour below a width: from a corner that points into the material to another stretch of the
-/// contour, through the material. Tips, which are thin everywhere, are none.
+/// The thinnest neck of a contour below a width: from a corner that points into the material to
+/// another stretch of the contour, through the material. Tips, which are thin everywhere, are none.
 fn neck(points: &[DVec2], is_hole: bool, web: f64) -> Option<(f64, DVec2)> {
     let n = points.len();
     let turn = if (signed_area(points) > 0.0) != is_hole { 1.0 } else { -1.0 };
@@ -212,7 +272,8 @@ fn neck(points: &[DVec2], is_hole: bool, web: f64) -> Option<(f64, DVec2)> {
     for i in 0..n {
         let (p, before, after) = (points[i], points[(i + n - 1) % n], points[(i + 1) % n]);
         let (into, out) = ((p - before).normalize_or_zero(), (after - p).normalize_or_zero());
-        // Corners of flattened curves turn less than that; a neck between two curves has none and is not looked for.
+        // Corners of flattened curves turn less than that; a neck between two curves has none and
+        // is not looked for.
         if turn * into.perp_dot(out) > -0.2 {
             continue;
         }

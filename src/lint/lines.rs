@@ -1,4 +1,5 @@
-//! Lines as the machine follows them: pieces that meet end to end are one line, whatever entities the file made of them.
+//! Lines as the machine follows them: pieces that meet end to end are one line, whatever entities
+//! the file made of them.
 
 use glam::DVec2;
 
@@ -21,7 +22,12 @@ pub(super) struct Line {
 impl Line {
     /// Its segments.
     pub fn segments(&self) -> impl Iterator<Item = [DVec2; 2]> + '_ {
-        let closing = self.points.last().zip(self.points.first()).filter(|_| self.closed).map(|(a, b)| [*a, *b]);
+        let closing = self
+            .points
+            .last()
+            .zip(self.points.first())
+            .filter(|_| self.closed)
+            .map(|(a, b)| [*a, *b]);
         self.points.windows(2).map(|w| [w[0], w[1]]).chain(closing)
     }
 
@@ -53,16 +59,20 @@ impl<'a> On<'a> {
     pub fn is_closed_by_cuts(&self, i: usize) -> bool {
         let points = &self.lines[i].points;
         let last = points.len() - 1;
-        [(points[0], 0), (points[last], last - 1)]
-            .into_iter()
-            .all(|(end, own)| (0..self.lines.len()).any(|j| self.touches(j, end, |segment| j != i || segment != own)))
+        [(points[0], 0), (points[last], last - 1)].into_iter().all(|(end, own)| {
+            (0..self.lines.len()).any(|j| self.touches(j, end, |segment| j != i || segment != own))
+        })
     }
 
     /// Whether one of the segments that are asked for, of a cut, runs through a point.
     fn touches(&self, i: usize, p: DVec2, is_asked: impl Fn(usize) -> bool) -> bool {
         let grown = DVec2::splat(self.gap);
-        self.bounds[i].is_some_and(|(low, high)| p.cmpge(low - grown).all() && p.cmple(high + grown).all())
-            && self.lines[i].segments().enumerate().any(|(k, s)| is_asked(k) && distance(p, s).0 <= self.gap)
+        self.bounds[i]
+            .is_some_and(|(low, high)| p.cmpge(low - grown).all() && p.cmple(high + grown).all())
+            && self.lines[i]
+                .segments()
+                .enumerate()
+                .any(|(k, s)| is_asked(k) && distance(p, s).0 <= self.gap)
     }
 }
 
@@ -75,8 +85,9 @@ pub(super) fn label(path: &ArtPath, i: usize) -> String {
     }
 }
 
-/// All lines: closed paths, and open cuts joined where exactly two ends of one layer meet, not further apart than `reach`.
-/// Points that coincide within the gap are one. Paths without length are left out.
+/// All lines: closed paths, and open cuts joined where exactly two ends of one layer meet, not
+/// further apart than `reach`. Points that coincide within the gap are one. Paths without length
+/// are left out.
 pub(super) fn join(artwork: &Artwork, gap: f64, reach: f64) -> Vec<Line> {
     let mut lines = Vec::new();
     let mut open = Vec::new();
@@ -84,8 +95,8 @@ pub(super) fn join(artwork: &Artwork, gap: f64, reach: f64) -> Vec<Line> {
         let mut points = path.points.clone();
         points.dedup_by(|a, b| a.distance(*b) <= gap);
         let apart = |points: &[DVec2]| points[0].distance(points[points.len() - 1]);
-        let ends_meet =
-            points.len() > 2 && (apart(&points) <= gap || path.operation.is_cut() && apart(&points) <= reach);
+        let ends_meet = points.len() > 2
+            && (apart(&points) <= gap || path.operation.is_cut() && apart(&points) <= reach);
         if points.len() > 1 && apart(&points) <= gap {
             points.pop();
         }
@@ -93,7 +104,8 @@ pub(super) fn join(artwork: &Artwork, gap: f64, reach: f64) -> Vec<Line> {
             continue;
         }
         let closed = (path.closed || ends_meet) && points.len() > 2;
-        let line = Line { points, closed, operation: path.operation, label: label(path, i), first: i };
+        let line =
+            Line { points, closed, operation: path.operation, label: label(path, i), first: i };
         if closed || !path.operation.is_cut() { lines.push(line) } else { open.push(line) }
     }
     let chains = chains(open, &lines, artwork, (gap, reach));
@@ -103,14 +115,21 @@ pub(super) fn join(artwork: &Artwork, gap: f64, reach: f64) -> Vec<Line> {
 }
 
 /// Joins open cuts of the same layer end to end.
-fn chains(open: Vec<Line>, rings: &[Line], artwork: &Artwork, (gap, reach): (f64, f64)) -> Vec<Line> {
-    let ends: Vec<[DVec2; 2]> = open.iter().map(|l| [l.points[0], l.points[l.points.len() - 1]]).collect();
+fn chains(
+    open: Vec<Line>,
+    rings: &[Line],
+    artwork: &Artwork,
+    (gap, reach): (f64, f64),
+) -> Vec<Line> {
+    let ends: Vec<[DVec2; 2]> =
+        open.iter().map(|l| [l.points[0], l.points[l.points.len() - 1]]).collect();
     let partner = partners((&open, rings), &ends, artwork, (gap, reach));
     let mut used = vec![false; open.len()];
     let mut joined = Vec::new();
     // First those with a free end, then the rings that are left.
     let has_free = |i: usize| partner[2 * i].is_none() || partner[2 * i + 1].is_none();
-    let order = (0..open.len()).filter(|&i| has_free(i)).chain((0..open.len()).filter(|&i| !has_free(i)));
+    let order =
+        (0..open.len()).filter(|&i| has_free(i)).chain((0..open.len()).filter(|&i| !has_free(i)));
     for start in order {
         if used[start] {
             continue;
@@ -168,7 +187,12 @@ fn partners(
     let is_free = |end: usize| !third.is_cut(flat[end]);
     let one = |end: usize| match meeting[end].as_slice() {
         // Where three or more ends meet nobody can tell which belong together.
-        [other] if meeting[*other].len() == 1 && other / 2 != end / 2 && is_free(end) && is_free(*other) => {
+        [other]
+            if meeting[*other].len() == 1
+                && other / 2 != end / 2
+                && is_free(end)
+                && is_free(*other) =>
+        {
             Some(*other)
         }
         _ => None,

@@ -1,7 +1,8 @@
-//! Judges a drawing that is to be cut, anybody's, as a shop would: what it would send back, with the place and what to do.
+//! Judges a drawing that is to be cut, anybody's, as a shop would: what it would send back, with
+//! the place and what to do.
 //!
-//! The room knows lines with an operation and a layer, in millimetres; no file format and no net. It shares nothing with
-//! `sheet` but the geometry of `geom`, so that it can judge our own sheets.
+//! The room knows lines with an operation and a layer, in millimetres; no file format and no net.
+//! It shares nothing with `sheet` but the geometry of `geom`, so that it can judge our own sheets.
 
 mod artwork;
 mod contours;

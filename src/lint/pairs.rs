@@ -40,7 +40,8 @@ impl Cells {
         ((p - self.low) / self.cell).to_array().map(|x| (x.max(0.0) as usize).min(self.side - 1))
     }
 
-    /// Calls `meet` once for every pair of boxes that touch, the smaller index first, in a fixed order.
+    /// Calls `meet` once for every pair of boxes that touch, the smaller index first, in a fixed
+    /// order.
     pub fn pairs(&self, mut meet: impl FnMut(usize, usize)) {
         for (c, cell) in self.cells.iter().enumerate() {
             let here = [c % self.side, c / self.side];
@@ -50,7 +51,8 @@ impl Cells {
                     if p.0.cmpgt(q.1).any() || q.0.cmpgt(p.1).any() {
                         continue;
                     }
-                    // A pair that shares several cells counts in the one with the lower left corner of its common box.
+                    // A pair that shares several cells counts in the one with the lower left corner
+                    // of its common box.
                     if self.at(p.0.max(q.0)) == here {
                         meet(a as usize, b as usize);
                     }
@@ -71,7 +73,8 @@ pub(super) struct Common {
     pub nearest: Option<(f64, DVec2)>,
 }
 
-/// All pairs of lines that come near one another, the smaller index first; a line with itself for its own segments.
+/// All pairs of lines that come near one another, the smaller index first; a line with itself for
+/// its own segments.
 pub(super) struct Pairs {
     pub common: BTreeMap<(usize, usize), Common>,
 }
@@ -86,12 +89,18 @@ impl Pairs {
     /// `gap` is how near lines count as one, `reach` how far apart they may be to be kept.
     pub fn of(lines: &[Line], gap: f64, reach: f64) -> Self {
         let own = |(line, l): (usize, &Line)| {
-            l.segments().enumerate().map(|(index, ends)| Segment { line, index, ends }).collect::<Vec<_>>()
+            l.segments()
+                .enumerate()
+                .map(|(index, ends)| Segment { line, index, ends })
+                .collect::<Vec<_>>()
         };
         let is_judged = |l: &&(usize, &Line)| l.1.operation != super::Operation::Info;
-        let segments: Vec<Segment> = lines.iter().enumerate().filter(|l| is_judged(&l)).flat_map(own).collect();
+        let segments: Vec<Segment> =
+            lines.iter().enumerate().filter(|l| is_judged(&l)).flat_map(own).collect();
         let grow = DVec2::splat(reach.max(gap) / 2.0);
-        let boxes = segments.iter().map(|s| (s.ends[0].min(s.ends[1]) - grow, s.ends[0].max(s.ends[1]) + grow));
+        let boxes = segments
+            .iter()
+            .map(|s| (s.ends[0].min(s.ends[1]) - grow, s.ends[0].max(s.ends[1]) + grow));
         let mut common: BTreeMap<(usize, usize), Common> = BTreeMap::new();
         Cells::of(boxes.collect()).pairs(|i, j| {
             let (a, b) = (&segments[i], &segments[j]);
@@ -126,7 +135,11 @@ fn compare(a: &Segment, b: &Segment, lines: &[Line], gap: f64, reach: f64) -> Op
     let [p, q] = a.ends;
     let [r, s] = b.ends;
     let mut found = Common { overlap: overlap(a.ends, b.ends, gap), ..Common::default() };
-    if found.overlap.is_none() && !is_neighbour && segments_cross(p, q, r, s) && !is_touch(a.ends, b.ends, gap) {
+    if found.overlap.is_none()
+        && !is_neighbour
+        && segments_cross(p, q, r, s)
+        && !is_touch(a.ends, b.ends, gap)
+    {
         found.crossing = Some(crossing_point(a.ends, b.ends));
     }
     if !is_own {
@@ -135,10 +148,12 @@ fn compare(a: &Segment, b: &Segment, lines: &[Line], gap: f64, reach: f64) -> Op
             found.nearest = Some((distance, at));
         }
     }
-    (found.overlap.is_some() || found.crossing.is_some() || found.nearest.is_some()).then_some(found)
+    (found.overlap.is_some() || found.crossing.is_some() || found.nearest.is_some())
+        .then_some(found)
 }
 
-/// The length along which two segments run on one another, and its middle. Ends that only meet are no overlap.
+/// The length along which two segments run on one another, and its middle. Ends that only meet are
+/// no overlap.
 fn overlap(a: [DVec2; 2], b: [DVec2; 2], gap: f64) -> Option<(f64, DVec2)> {
     let (long, short) = if a[0].distance(a[1]) >= b[0].distance(b[1]) { (a, b) } else { (b, a) };
     let length = long[0].distance(long[1]);
@@ -156,7 +171,8 @@ fn overlap(a: [DVec2; 2], b: [DVec2; 2], gap: f64) -> Option<(f64, DVec2)> {
     };
     let is_near = common > 0.0 && side(first).abs() <= gap && side(last).abs() <= gap;
     // A stretch that is not much longer than the gap is where two ends meet at a flat angle.
-    (is_near && common > 20.0 * gap && span > gap).then(|| (common, long[0] + along * (first + last) / 2.0))
+    (is_near && common > 20.0 * gap && span > gap)
+        .then(|| (common, long[0] + along * (first + last) / 2.0))
 }
 
 /// Whether an end of one lies on the other within the gap: they touch and need not cross.

@@ -8,11 +8,13 @@ use crate::units::Length;
 /// What a drawing is measured against.
 #[derive(Debug, Clone, PartialEq, clap::Args, Deserialize)]
 pub struct LintParams {
-    /// Width and height of the sheet that must hold the drawing, as in 600x400; else the page of the file
+    /// Width and height of the sheet that must hold the drawing, as in 600x400; else the page of
+    /// the file
     #[arg(long, value_name = "SIZE")]
     #[serde(default)]
     pub sheet: Option<SheetLimit>,
-    /// Thickness of the material: holes narrower than 1.5 times it are findings; not judged without it
+    /// Thickness of the material: holes narrower than 1.5 times it are findings; not judged without
+    /// it
     #[arg(long, value_name = "LENGTH")]
     #[serde(default)]
     pub thickness: Option<Length>,
@@ -95,13 +97,22 @@ impl LintParams {
         let thickness = optional("thickness", self.thickness);
         for (name, length) in thickness.into_iter().chain([("gap", self.gap)]) {
             if !(length.mm() > 0.0 && length.mm().is_finite()) {
-                return Err(LimitError { name, value: length.mm(), wanted: "more than 0 and finite" });
+                return Err(LimitError {
+                    name,
+                    value: length.mm(),
+                    wanted: "more than 0 and finite",
+                });
             }
         }
-        let others = [optional("kerf", self.kerf), optional("web", self.web), optional("tabs", self.tabs)];
+        let others =
+            [optional("kerf", self.kerf), optional("web", self.web), optional("tabs", self.tabs)];
         for (name, length) in others.into_iter().flatten() {
             if !(length.mm() >= 0.0 && length.mm().is_finite()) {
-                return Err(LimitError { name, value: length.mm(), wanted: "0 or more and finite" });
+                return Err(LimitError {
+                    name,
+                    value: length.mm(),
+                    wanted: "0 or more and finite",
+                });
             }
         }
         Ok(())
@@ -117,7 +128,9 @@ impl std::str::FromStr for SheetLimit {
             example: "600x400 or 24inx12in",
         };
         let (width, height) = text.split_once(['x', '×']).ok_or_else(wrong)?;
-        let mm = |t: &str| t.parse::<Length>().map(Length::mm).ok().filter(|&mm| mm > 0.0).ok_or_else(wrong);
+        let mm = |t: &str| {
+            t.parse::<Length>().map(Length::mm).ok().filter(|&mm| mm > 0.0).ok_or_else(wrong)
+        };
         Ok(Self { width: mm(width)?, height: mm(height)? })
     }
 }

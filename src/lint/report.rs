@@ -71,16 +71,21 @@ impl Check {
     pub const fn advice(self) -> &'static str {
         match self {
             Self::OpenContour => {
-                "join its ends; if it is a fold or lettering, put it on a layer named score or engrave"
+                "join its ends; if it is a fold or lettering, put it on a layer named score or \
+                engrave"
             }
             Self::Duplicate => "delete one of the two, or the machine cuts twice",
             Self::Overlap => "keep the common stretch in one of them only",
             Self::Text => "turn text into single lines (stroke font) or paths",
-            Self::Units => "save with millimetres: SVG width=\"..mm\" with a viewBox, DXF $INSUNITS 4",
+            Self::Units => {
+                "save with millimetres: SVG width=\"..mm\" with a viewBox, DXF $INSUNITS 4"
+            }
             Self::OffSheet => "move it onto the sheet, or take a larger one",
             Self::SmallHole => "widen the hole, or take thinner material",
             Self::ThinWeb => "move the cuts apart, or it burns or breaks",
-            Self::Order => "order layers engrave, score, inner cuts, outer cuts, and what lies inside first",
+            Self::Order => {
+                "order layers engrave, score, inner cuts, outer cuts, and what lies inside first"
+            }
             Self::StrayPoint => "delete it",
             Self::SelfCrossing => "draw it without the crossing; a crossed contour bounds no part",
             Self::Crossing => "move one of them, or cut it where it crosses",
@@ -132,6 +137,13 @@ impl LintReport {
         numbers: Option<(f64, f64)>,
     ) {
         let (measured, limit) = numbers.unzip();
-        self.findings.push(Finding { check, at, element: element.to_owned(), measured, limit, words });
+        self.findings.push(Finding {
+            check,
+            at,
+            element: element.to_owned(),
+            measured,
+            limit,
+            words,
+        });
     }
 }

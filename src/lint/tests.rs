@@ -51,7 +51,15 @@ fn crossings_touches_and_overlaps_are_told_apart() {
 
 #[test]
 fn a_contour_that_runs_back_on_itself_overlaps_itself() {
-    let spike = [(10.0, 10.0), (50.0, 10.0), (50.0, 30.0), (80.0, 30.0), (50.0, 30.0), (50.0, 50.0), (10.0, 50.0)];
+    let spike = [
+        (10.0, 10.0),
+        (50.0, 10.0),
+        (50.0, 30.0),
+        (80.0, 30.0),
+        (50.0, 30.0),
+        (50.0, 50.0),
+        (10.0, 50.0),
+    ];
     assert_eq!(checks(vec![path(&spike, true, Operation::CutOuter)]), [Check::Overlap]);
 }
 
@@ -92,7 +100,8 @@ fn necks_are_found_and_tips_are_not() {
 #[test]
 fn everything_scales_but_the_limits() {
     let at = |scale: f64, shift: f64| {
-        let moved: Vec<_> = SQUARE.iter().map(|p| (p.0 * scale + shift, p.1 * scale + shift)).collect();
+        let moved: Vec<_> =
+            SQUARE.iter().map(|p| (p.0 * scale + shift, p.1 * scale + shift)).collect();
         let paths = vec![path(&moved, true, Operation::Cut), path(&moved, true, Operation::Cut)];
         let artwork = Artwork { paths, ..Artwork::default() };
         let params = LintParams { gap: Length::from_mm(0.005 * scale), ..LintParams::default() };

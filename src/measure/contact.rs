@@ -7,11 +7,12 @@ use crate::geom::predicate::orient2d;
 use crate::geom::{Plane, fit_plane};
 use crate::mesh::{EdgeId, FaceId, Mesh};
 
-/// Two sides of a face that cross, touch or fold back onto each other; the first such pair around the face.
+/// Two sides of a face that cross, touch or fold back onto each other; the first such pair around
+/// the face.
 ///
-/// Judged in the face's plane: along the axis nearest to its normal the corners are looked at with their own two other
-/// coordinates, so the signs are exact. Sides of length zero are passed over. `None` for a simple polygon, and for a face
-/// whose corners are collinear.
+/// Judged in the face's plane: along the axis nearest to its normal the corners are looked at with
+/// their own two other coordinates, so the signs are exact. Sides of length zero are passed over.
+/// `None` for a simple polygon, and for a face whose corners are collinear.
 pub fn self_contact(mesh: &Mesh, f: FaceId) -> Option<[EdgeId; 2]> {
     let corners = mesh.face_positions(f);
     if corners.len() <= 3 {
@@ -45,7 +46,8 @@ pub(super) fn dropped_axis(normal: DVec3) -> usize {
     }
 }
 
-/// The two coordinates other than `axis`, in the order that keeps counter-clockwise as it is for a positive normal.
+/// The two coordinates other than `axis`, in the order that keeps counter-clockwise as it is for a
+/// positive normal.
 pub(super) fn flat(p: DVec3, axis: usize) -> DVec2 {
     match axis {
         0 => DVec2::new(p.y, p.z),
@@ -79,11 +81,13 @@ impl Side {
 
     /// Whether the next side runs back over this one.
     fn folds_back(&self, next: &Self) -> bool {
-        orient2d(self.from, self.to, next.to) == 0.0 && (self.to - self.from).dot(next.to - next.from) < 0.0
+        orient2d(self.from, self.to, next.to) == 0.0
+            && (self.to - self.from).dot(next.to - next.from) < 0.0
     }
 }
 
-/// Sweeps over the sides by their lower ends along the longer extent; the lowest pair of positions wins.
+/// Sweeps over the sides by their lower ends along the longer extent; the lowest pair of positions
+/// wins.
 fn first_contact(sides: &[Side]) -> Option<(usize, usize)> {
     let (low, high) = crate::geom::polygon::bounds(sides.iter().map(|s| &s.from))?;
     let along = usize::from((high - low).x < (high - low).y);
@@ -144,7 +148,9 @@ mod tests {
         // A spike that runs back over its own side.
         assert_eq!(contact(&[[0., 0.], [4., 0.], [2., 0.], [2., 2.]]), Some([0, 1]));
         // A pentagram.
-        let star = (0..5).map(|i| (f64::from(i) * 0.4 * std::f64::consts::TAU).sin_cos()).map(|(s, c)| [c, s]);
+        let star = (0..5)
+            .map(|i| (f64::from(i) * 0.4 * std::f64::consts::TAU).sin_cos())
+            .map(|(s, c)| [c, s]);
         assert_eq!(contact(&star.collect::<Vec<_>>()), Some([0, 2]));
     }
 }

@@ -1,14 +1,16 @@
 //! Whether a mesh bounds a convex solid, and where it does not.
 //!
-//! A closed connected surface without handles whose faces are convex, whose edges are nowhere concave, and which winds
-//! once around a point that lies behind all its faces, bounds a convex solid: seen from that point it covers the sphere of
-//! directions exactly once. Local tests alone would let a double pyramid over a five-pointed star pass. (The idea of a
-//! local test and one global one: Mehlhorn et al. 1999, "Checking geometric programs or verification of geometric
+//! A closed connected surface without handles whose faces are convex, whose edges are nowhere
+//! concave, and which winds once around a point that lies behind all its faces, bounds a convex
+//! solid: seen from that point it covers the sphere of directions exactly once. Local tests alone
+//! would let a double pyramid over a five-pointed star pass. (The idea of a local test and one
+//! global one: Mehlhorn et al. 1999, "Checking geometric programs or verification of geometric
 //! structures".)
 //!
-//! Signs are exact ([`orient3d`], [`orient2d`]) where triangles meet and at corners. What stands out by less than the
-//! rounding bound (1e-12 of the model, [`RoundingBound`]) is flat, since coplanar faces hold rounded corners; beside a
-//! face with more than three corners its own deviation from planar is added, since its plane is not known better.
+//! Signs are exact ([`orient3d`], [`orient2d`]) where triangles meet and at corners. What stands
+//! out by less than the rounding bound (1e-12 of the model, [`RoundingBound`]) is flat, since
+//! coplanar faces hold rounded corners; beside a face with more than three corners its own
+//! deviation from planar is added, since its plane is not known better.
 
 use std::f64::consts::PI;
 
@@ -31,15 +33,18 @@ pub struct Convexity {
     pub concave_faces: Vec<FaceId>,
     /// How far the surface stands out at the worst of these, in mm.
     pub deepest_mm: f64,
-    /// Whether the surface winds exactly once around its middle, with every face looking away from it. Not judged (false)
-    /// when something above is wrong.
+    /// Whether the surface winds exactly once around its middle, with every face looking away from
+    /// it. Not judged (false) when something above is wrong.
     pub winds_once: bool,
 }
 
 impl Convexity {
     /// Whether the mesh bounds a convex solid. A flat solid without volume is none.
     pub fn is_convex(&self) -> bool {
-        self.is_ball && self.concave_edges.is_empty() && self.concave_faces.is_empty() && self.winds_once
+        self.is_ball
+            && self.concave_edges.is_empty()
+            && self.concave_faces.is_empty()
+            && self.winds_once
     }
 }
 
@@ -59,8 +64,8 @@ pub fn concave_edges(mesh: &Mesh) -> Vec<EdgeId> {
     convexity(mesh).concave_edges
 }
 
-/// Judges a mesh of which the faces' deviations from planar, and whether it is closed, of one part and without handles,
-/// are known already.
+/// Judges a mesh of which the faces' deviations from planar, and whether it is closed, of one part
+/// and without handles, are known already.
 pub(crate) fn convexity_of(mesh: &Mesh, deviations: &FaceMap<f64>, is_ball: bool) -> Convexity {
     let Some((low, high)) = mesh.bounds() else { return Convexity::default() };
     let judge = Judge { mesh, deviations, bound: RoundingBound::of_box(low, high).length() };
@@ -91,7 +96,8 @@ struct FarCorner {
 }
 
 impl Judge<'_> {
-    /// How far one face of a concave edge stands out over the other; `None` when the edge is convex, flat or a rim.
+    /// How far one face of a concave edge stands out over the other; `None` when the edge is
+    /// convex, flat or a rim.
     fn edge_depth(&self, e: EdgeId) -> Option<f64> {
         if self.mesh.is_rim(e) {
             return None;
@@ -101,7 +107,10 @@ impl Judge<'_> {
         // The larger face says where the plane is, the smaller is judged: nothing is extrapolated.
         let (base, plane_corner, judged) =
             if left.distance >= right.distance { (h, left, right) } else { (g, right, left) };
-        let [a, b] = [self.mesh.position(self.mesh.origin(base)), self.mesh.position(self.mesh.target(base))];
+        let [a, b] = [
+            self.mesh.position(self.mesh.origin(base)),
+            self.mesh.position(self.mesh.target(base)),
+        ];
         let faces = self.mesh.edge_faces(e);
         let (height, slack) = if faces.iter().all(|&f| self.is_triangle(f)) {
             // Positive when the judged corner lies behind the plane.
@@ -129,11 +138,13 @@ impl Judge<'_> {
         }
         let inwards = mesh.plane(f)?.normal().cross(along);
         let corners = mesh.face_vertices(f).map(|v| mesh.position(v));
-        let far = corners.map(|position| FarCorner { position, distance: inwards.dot(position - from) });
+        let far =
+            corners.map(|position| FarCorner { position, distance: inwards.dot(position - from) });
         far.reduce(|best, c| if c.distance > best.distance { c } else { best })
     }
 
-    /// How far the deepest reflex corner of a face lies inside the line between its neighbours; `None` without one.
+    /// How far the deepest reflex corner of a face lies inside the line between its neighbours;
+    /// `None` without one.
     fn face_depth(&self, f: FaceId) -> Option<f64> {
         let corners = self.mesh.face_positions(f);
         if corners.len() <= 3 {
@@ -143,12 +154,16 @@ impl Judge<'_> {
         let axis = dropped_axis(normal);
         let side = normal[axis].signum();
         let depth = |i: usize| {
-            let [before, at, after] = [i + corners.len() - 1, i, i + 1].map(|k| corners[k % corners.len()]);
+            let [before, at, after] =
+                [i + corners.len() - 1, i, i + 1].map(|k| corners[k % corners.len()]);
             let turn = orient2d(flat(before, axis), flat(at, axis), flat(after, axis)) * side;
             let chord = before.distance(after);
             // A spike has no chord; it stands out by its whole length.
-            let height =
-                if chord > 0.0 { (at - before).cross(after - at).length() / chord } else { at.distance(before) };
+            let height = if chord > 0.0 {
+                (at - before).cross(after - at).length() / chord
+            } else {
+                at.distance(before)
+            };
             if turn < 0.0 { height } else { 0.0 }
         };
         let deepest = (0..corners.len()).map(depth).fold(0.0, f64::max);
@@ -156,7 +171,8 @@ impl Judge<'_> {
     }
 }
 
-/// Whether the middle of the vertices lies behind every face and the faces cover the sphere around it once.
+/// Whether the middle of the vertices lies behind every face and the faces cover the sphere around
+/// it once.
 fn winds_once(mesh: &Mesh) -> bool {
     let Some((low, high)) = mesh.bounds() else { return false };
     let anchor = low.midpoint(high);
@@ -167,8 +183,10 @@ fn winds_once(mesh: &Mesh) -> bool {
         if mesh.plane(f).is_none_or(|plane| plane.signed_distance(centre) >= 0.0) {
             return false;
         }
-        let corners: Vec<DVec3> = mesh.face_vertices(f).map(|v| mesh.position(v) - centre).collect();
-        covered += corners.windows(2).skip(1).map(|w| solid_angle(corners[0], w[0], w[1])).sum::<f64>();
+        let corners: Vec<DVec3> =
+            mesh.face_vertices(f).map(|v| mesh.position(v) - centre).collect();
+        covered +=
+            corners.windows(2).skip(1).map(|w| solid_angle(corners[0], w[0], w[1])).sum::<f64>();
     }
     // A whole number of windings up to rounding.
     (covered / (4.0 * PI)).round() == 1.0
@@ -184,7 +202,9 @@ fn solid_angle(a: DVec3, b: DVec3, c: DVec3) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::fixtures::{CUBE_FACES, cube, cube_corners, ell_prism, octahedron, open_box, prism, torus};
+    use crate::measure::fixtures::{
+        CUBE_FACES, cube, cube_corners, ell_prism, octahedron, open_box, prism, torus,
+    };
     use proptest::prelude::*;
 
     #[test]
@@ -266,8 +286,8 @@ mod tests {
     }
 
     proptest! {
-        /// Prisms over polygons of a circle are convex wherever they lie and however large they are; with one corner
-        /// pulled inside the chord of its neighbours they are not.
+        /// Prisms over polygons of a circle are convex wherever they lie and however large they
+        /// are; with one corner pulled inside the chord of its neighbours they are not.
         #[test]
         fn motions_and_scales_change_nothing(
             sides in 4_usize..9,

@@ -5,7 +5,8 @@ use glam::DVec3;
 use crate::geom::{Double, Frame, Plane, triangulate, triple_product};
 use crate::mesh::{FaceId, Mesh};
 
-/// The area of a face by its Newell vector; for a face that is not planar, of its projection along the Newell normal.
+/// The area of a face by its Newell vector; for a face that is not planar, of its projection along
+/// the Newell normal.
 pub fn face_area(mesh: &Mesh, f: FaceId) -> f64 {
     area_vector(&mesh.face_positions(f)).length()
 }
@@ -24,7 +25,10 @@ pub fn face_centroid(mesh: &Mesh, f: FaceId) -> DVec3 {
 /// The largest distance between two corners of a face.
 pub fn face_diameter(mesh: &Mesh, f: FaceId) -> f64 {
     let corners = mesh.face_positions(f);
-    let pairs = corners.iter().enumerate().flat_map(|(i, &a)| corners[..i].iter().map(move |&b| a.distance_squared(b)));
+    let pairs = corners
+        .iter()
+        .enumerate()
+        .flat_map(|(i, &a)| corners[..i].iter().map(move |&b| a.distance_squared(b)));
     pairs.fold(0.0, f64::max).sqrt()
 }
 
@@ -33,8 +37,9 @@ pub fn surface_area(mesh: &Mesh) -> f64 {
     mesh.faces().map(|f| face_area(mesh, f)).sum()
 }
 
-/// The signed volume enclosed by the faces; holes are closed as if by a fan. Positive when the faces look outwards. Right to the
-/// last digits of the given positions, for needles and far from the origin, too.
+/// The signed volume enclosed by the faces; holes are closed as if by a fan. Positive when the
+/// faces look outwards. Right to the last digits of the given positions, for needles and far from
+/// the origin, too.
 pub fn volume(mesh: &Mesh) -> f64 {
     let Some((low, high)) = mesh.bounds() else { return 0.0 };
     let centre = low.midpoint(high);
@@ -59,10 +64,13 @@ pub fn volume(mesh: &Mesh) -> f64 {
     sum.value() / 6.0
 }
 
-/// Whether the fan from the first corner covers much more than the polygon, so that what its corners are off their plane by would
-/// count many times. Only faces that carry a plane are cut another way: for others the volume would depend on how.
+/// Whether the fan from the first corner covers much more than the polygon, so that what its
+/// corners are off their plane by would count many times. Only faces that carry a plane are cut
+/// another way: for others the volume would depend on how.
 fn folds_over(corners: &[DVec3]) -> bool {
-    let Some((&first, rest)) = corners.split_first().filter(|_| corners.len() > 4) else { return false };
+    let Some((&first, rest)) = corners.split_first().filter(|_| corners.len() > 4) else {
+        return false;
+    };
     let fan = || rest.windows(2).map(|w| doubled_area([first, w[0], w[1]]));
     fan().map(DVec3::length).sum::<f64>() > 4.0 * fan().sum::<DVec3>().length()
 }
@@ -77,8 +85,8 @@ fn area_vector(corners: &[DVec3]) -> DVec3 {
     corners.windows(2).map(|w| doubled_area([first, w[0], w[1]])).sum::<DVec3>() / 2.0
 }
 
-/// Twice the area vector of a triangle, from its two shortest sides: rounding is relative to their product, so that a needle keeps
-/// its digits however far it reaches.
+/// Twice the area vector of a triangle, from its two shortest sides: rounding is relative to their
+/// product, so that a needle keeps its digits however far it reaches.
 fn doubled_area([a, b, c]: [DVec3; 3]) -> DVec3 {
     let sides = [b - a, c - b, a - c];
     let lengths = sides.map(DVec3::length_squared);
@@ -98,9 +106,11 @@ mod tests {
     #[test]
     fn a_box_far_away_keeps_its_volume() {
         let far = DVec3::new(1e6, -2e6, 3e6);
-        let corner =
-            |i: usize| far + DVec3::new((i & 1) as f64 * 2.0, (i >> 1 & 1) as f64 * 3.0, (i >> 2) as f64 * 5.0);
-        let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let corner = |i: usize| {
+            far + DVec3::new((i & 1) as f64 * 2.0, (i >> 1 & 1) as f64 * 3.0, (i >> 2) as f64 * 5.0)
+        };
+        let faces =
+            [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
         let mesh = Mesh::from_faces((0..8).map(corner), faces).expect("a box");
         assert!((volume(&mesh) - 30.0).abs() < 1e-8);
         assert!((surface_area(&mesh) - 62.0).abs() < 1e-8);
@@ -112,11 +122,13 @@ mod tests {
 
     #[test]
     fn a_needle_keeps_the_digits_of_its_volume() {
-        // A prism over a right triangle with legs of 2^-24, 18 long and askew; its corners are exact.
+        // A prism over a right triangle with legs of 2^-24, 18 long and askew; its corners are
+        // exact.
         let (along, width) = (DVec3::new(16.0, 14.0, -3.0), 2.0_f64.powi(-24));
         let base = [DVec3::ZERO, DVec3::X * width, DVec3::Y * width];
         let points: Vec<DVec3> = base.iter().copied().chain(base.map(|p| p + along)).collect();
-        let faces: [&[usize]; 5] = [&[0, 1, 2], &[5, 4, 3], &[1, 0, 3, 4], &[2, 1, 4, 5], &[0, 2, 5, 3]];
+        let faces: [&[usize]; 5] =
+            [&[0, 1, 2], &[5, 4, 3], &[1, 0, 3, 4], &[2, 1, 4, 5], &[0, 2, 5, 3]];
         let mesh = Mesh::from_faces(points, faces.map(<[usize]>::to_vec)).expect("a prism");
         let exact = 3.0 * width * width / 2.0;
         assert!((volume(&mesh) - exact).abs() < 1e-8 * exact, "{} for {exact}", volume(&mesh));

@@ -6,7 +6,11 @@ use crate::mesh::Mesh;
 
 /// The eight corners of a cube of side 2 around the origin; bit 0 is x, bit 1 y, bit 2 z.
 pub(crate) fn cube_corners() -> Vec<DVec3> {
-    (0..8).map(|i| DVec3::new((i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2) as f64) * 2.0 - DVec3::ONE).collect()
+    (0..8)
+        .map(|i| {
+            DVec3::new((i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2) as f64) * 2.0 - DVec3::ONE
+        })
+        .collect()
 }
 
 pub(crate) const CUBE_FACES: [[usize; 4]; 6] =
@@ -19,7 +23,8 @@ pub(crate) fn cube() -> Mesh {
 
 /// A cube of side 2 without its top.
 pub(crate) fn open_box() -> Mesh {
-    Mesh::from_faces(cube_corners(), CUBE_FACES.into_iter().filter(|f| f[0] != 4 || f[1] != 5)).expect("a box")
+    Mesh::from_faces(cube_corners(), CUBE_FACES.into_iter().filter(|f| f[0] != 4 || f[1] != 5))
+        .expect("a box")
 }
 
 /// An octahedron with corners at distance 1.
@@ -37,7 +42,8 @@ pub(crate) fn ell_prism() -> Mesh {
 /// A prism of height 1 over a polygon that runs counter-clockwise.
 pub(crate) fn prism(base: &[[f64; 2]]) -> Mesh {
     let n = base.len();
-    let points = [0.0, 1.0].into_iter().flat_map(|z| base.iter().map(move |p| DVec3::new(p[0], p[1], z)));
+    let points =
+        [0.0, 1.0].into_iter().flat_map(|z| base.iter().map(move |p| DVec3::new(p[0], p[1], z)));
     let mut faces = vec![(0..n).rev().collect::<Vec<_>>(), (n..2 * n).collect()];
     faces.extend((0..n).map(|i| vec![i, (i + 1) % n, n + (i + 1) % n, n + i]));
     Mesh::from_faces(points, faces).expect("a prism")

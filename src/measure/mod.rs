@@ -19,7 +19,8 @@ pub use extent::{face_area, face_centroid, face_diameter, size, surface_area, vo
 pub use planarity::{Planarity, planarity, plane_deviation, polygon_planarity};
 pub use summary::{ComponentSummary, EdgeLengths, GroupSummary, Summary, edge_lengths, summary};
 pub use topology::{
-    Rim, euler_number, genus, other_valences, rims, sides_histogram, stray_vertices, valence_histogram,
+    Rim, euler_number, genus, other_valences, rims, sides_histogram, stray_vertices,
+    valence_histogram,
 };
 pub(crate) use vertex::conical_residual_of;
 pub use vertex::{angle_deficit, conical_residual, corner_angle};

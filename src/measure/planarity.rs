@@ -5,8 +5,9 @@ use glam::DVec3;
 use crate::geom::{Plane, fit_plane};
 use crate::mesh::{FaceId, Mesh};
 
-/// A corner that stands out from the line between its neighbours by less than this share of the face's diameter is
-/// straight: its normal is chance, since the seventh digit of a file would turn it. On a panel of 1 m that is 0.01 mm.
+/// A corner that stands out from the line between its neighbours by less than this share of the
+/// face's diameter is straight: its normal is chance, since the seventh digit of a file would turn
+/// it. On a panel of 1 m that is 0.01 mm.
 const STRAIGHT: f64 = 1e-5;
 
 /// How far a face is from planar. All zero for triangles, exactly.
@@ -16,14 +17,17 @@ pub struct Planarity {
     pub mm: f64,
     /// The same over the face's diameter (its largest corner distance), in per mille.
     pub permille: f64,
-    /// Largest angle between the face's Newell normal and the normal of a corner, in degrees in [0, 90]. Straight corners
-    /// have no normal and are left out; normals of reflex corners are turned to the face's side.
+    /// Largest angle between the face's Newell normal and the normal of a corner, in degrees in [0,
+    /// 90]. Straight corners have no normal and are left out; normals of reflex corners are turned
+    /// to the face's side.
     pub degrees: f64,
-    /// For faces with four sides: distance between the diagonals over their mean length, in per cent.
+    /// For faces with four sides: distance between the diagonals over their mean length, in per
+    /// cent.
     pub percent: Option<f64>,
 }
 
-/// Measures one face. A face whose corners are collinear counts as planar: every plane through the line fits.
+/// Measures one face. A face whose corners are collinear counts as planar: every plane through the
+/// line fits.
 pub fn planarity(mesh: &Mesh, f: FaceId) -> Planarity {
     polygon_planarity(&mesh.face_positions(f))
 }
@@ -38,15 +42,21 @@ pub fn polygon_planarity(corners: &[DVec3]) -> Planarity {
     Planarity {
         mm,
         permille: if diameter > 0.0 { 1000.0 * mm / diameter } else { 0.0 },
-        degrees: Plane::newell(corners).map_or(0.0, |plane| twist(corners, plane.normal(), diameter).to_degrees()),
+        degrees: Plane::newell(corners)
+            .map_or(0.0, |plane| twist(corners, plane.normal(), diameter).to_degrees()),
         percent: <[DVec3; 4]>::try_from(corners).ok().map(diagonal_gap),
     }
 }
 
-/// The largest distance of a corner from the plane that the face carries, in mm; `None` when it carries none.
+/// The largest distance of a corner from the plane that the face carries, in mm; `None` when it
+/// carries none.
 pub fn plane_deviation(mesh: &Mesh, f: FaceId) -> Option<f64> {
     let plane = mesh.carried_plane(f)?;
-    Some(mesh.face_vertices(f).map(|v| plane.signed_distance(mesh.position(v)).abs()).fold(0.0, f64::max))
+    Some(
+        mesh.face_vertices(f)
+            .map(|v| plane.signed_distance(mesh.position(v)).abs())
+            .fold(0.0, f64::max),
+    )
 }
 
 fn deviation(corners: &[DVec3], plane: &Plane) -> f64 {
@@ -55,7 +65,10 @@ fn deviation(corners: &[DVec3], plane: &Plane) -> f64 {
 
 /// The largest distance between two of the corners.
 pub(super) fn diameter(corners: &[DVec3]) -> f64 {
-    let pairs = corners.iter().enumerate().flat_map(|(i, &a)| corners[..i].iter().map(move |&b| a.distance_squared(b)));
+    let pairs = corners
+        .iter()
+        .enumerate()
+        .flat_map(|(i, &a)| corners[..i].iter().map(move |&b| a.distance_squared(b)));
     pairs.fold(0.0, f64::max).sqrt()
 }
 
@@ -100,7 +113,8 @@ mod tests {
         let found = polygon_planarity(&quad);
         assert!((found.mm - 0.1).abs() < 1e-14);
         assert!((found.permille - 1000.0 * 0.1 / 8f64.sqrt()).abs() < 1e-10);
-        // Corner at (1, 1): edges (-2, 0, -0.2) and (0, -2, -0.2); its normal leans by atan(0.1 √2).
+        // Corner at (1, 1): edges (-2, 0, -0.2) and (0, -2, -0.2); its normal leans by atan(0.1
+        // √2).
         assert!((found.degrees - (0.1 * 2f64.sqrt()).atan().to_degrees()).abs() < 1e-10);
         // The diagonals of length √8 pass each other at a distance of 0.2.
         let percent = found.percent.expect("a quad");
@@ -115,8 +129,15 @@ mod tests {
 
     #[test]
     fn concave_faces_and_straight_corners_are_not_twisted() {
-        let ell =
-            points(&[[0., 0., 0.], [1., 0., 0.], [2., 0., 0.], [2., 1., 0.], [1., 1., 0.], [1., 2., 0.], [0., 2., 0.]]);
+        let ell = points(&[
+            [0., 0., 0.],
+            [1., 0., 0.],
+            [2., 0., 0.],
+            [2., 1., 0.],
+            [1., 1., 0.],
+            [1., 2., 0.],
+            [0., 2., 0.],
+        ]);
         let found = polygon_planarity(&ell);
         assert!(found.mm < 1e-15 && found.degrees < 1e-12, "{found:?}");
         // The straight corner a hair off its line, as a file with seven digits would have it.
@@ -129,7 +150,14 @@ mod tests {
 
     #[test]
     fn a_dent_of_a_concave_face_is_measured() {
-        let mut ell = points(&[[0., 0., 0.], [2., 0., 0.], [2., 1., 0.], [1., 1., 0.], [1., 2., 0.], [0., 2., 0.]]);
+        let mut ell = points(&[
+            [0., 0., 0.],
+            [2., 0., 0.],
+            [2., 1., 0.],
+            [1., 1., 0.],
+            [1., 2., 0.],
+            [0., 2., 0.],
+        ]);
         ell[3].z = 0.3;
         let found = polygon_planarity(&ell);
         assert!(found.mm > 0.1 && found.mm < 0.3);
@@ -148,7 +176,8 @@ mod tests {
     }
 
     proptest! {
-        /// Planar polygons stay planar under any motion and scale, and a corner moved out by h is off by less than h.
+        /// Planar polygons stay planar under any motion and scale, and a corner moved out by h is
+        /// off by less than h.
         #[test]
         fn motions_and_scales_change_nothing(
             radii in prop::collection::vec(0.2_f64..1.0, 4..12),

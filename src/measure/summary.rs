@@ -4,7 +4,10 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use super::{edge_length, euler_number, rims, sides_histogram, size, stray_vertices, surface_area, valence_histogram};
+use super::{
+    edge_length, euler_number, rims, sides_histogram, size, stray_vertices, surface_area,
+    valence_histogram,
+};
 use crate::mesh::{Component, Mesh, VertexMap};
 
 /// Counts and sizes of a model, in mm.
@@ -140,7 +143,8 @@ fn volumes(mesh: &Mesh, components: &[Component]) -> Vec<f64> {
     let mut volumes = vec![0.0; components.len()];
     for f in mesh.faces() {
         let Some(i) = mesh.face_vertices(f).next().map(|v| part[v]) else { continue };
-        let corners: Vec<DVec3> = mesh.face_vertices(f).map(|v| mesh.position(v) - anchors[i]).collect();
+        let corners: Vec<DVec3> =
+            mesh.face_vertices(f).map(|v| mesh.position(v) - anchors[i]).collect();
         let fan = corners.windows(2).skip(1).map(|w| corners[0].dot(w[0].cross(w[1])));
         volumes[i] += fan.sum::<f64>() / 6.0;
     }
@@ -171,11 +175,21 @@ mod tests {
         mesh.set_seam(EdgeId::new(0), true);
         let found = summary(&mesh);
         assert_eq!((found.vertices, found.edges, found.faces, found.euler_number), (8, 12, 6, 2));
-        assert_eq!(found.edge_lengths, Some(EdgeLengths { min: 2.0, mean: 2.0, max: 2.0, total: 24.0 }));
+        assert_eq!(
+            found.edge_lengths,
+            Some(EdgeLengths { min: 2.0, mean: 2.0, max: 2.0, total: 24.0 })
+        );
         assert_eq!((found.size, found.area), (DVec3::splat(2.0), 24.0));
         assert_eq!(found.groups, [GroupSummary { name: "front".into(), faces: 1 }]);
         assert_eq!((found.seams, found.stray_vertices), (1, 0));
-        let part = ComponentSummary { vertices: 8, edges: 12, faces: 6, genus: 0, rims: 0, volume: Some(8.0) };
+        let part = ComponentSummary {
+            vertices: 8,
+            edges: 12,
+            faces: 6,
+            genus: 0,
+            rims: 0,
+            volume: Some(8.0),
+        };
         assert_eq!(found.components, [part]);
     }
 
@@ -183,7 +197,8 @@ mod tests {
     fn components_have_their_own_volume_and_open_ones_none() {
         let mut builder = MeshBuilder::new();
         let mut add = |mesh: &Mesh, shift: f64| {
-            let ids: Vec<usize> = mesh.vertices().map(|v| builder.vertex(mesh.position(v) + shift)).collect();
+            let ids: Vec<usize> =
+                mesh.vertices().map(|v| builder.vertex(mesh.position(v) + shift)).collect();
             for f in mesh.faces() {
                 builder.face(mesh.face_vertices(f).map(|v| ids[v.index()]));
             }

@@ -8,8 +8,8 @@ use crate::code::codes;
 
 /// Collects vertices and faces and builds a mesh of them.
 ///
-/// Faces are numbered in the order in which they come, vertices likewise. A vertex that no face uses leaves a gap in the
-/// numbering, so that the other ids stay those of the file.
+/// Faces are numbered in the order in which they come, vertices likewise. A vertex that no face
+/// uses leaves a gap in the numbering, so that the other ids stay those of the file.
 #[derive(Debug, Clone, Default)]
 pub struct MeshBuilder {
     positions: Vec<DVec3>,
@@ -17,7 +17,8 @@ pub struct MeshBuilder {
     ends: Vec<usize>,
 }
 
-/// Why vertices and faces do not make a mesh. Faces and vertices are numbered from 0 in the order of the input.
+/// Why vertices and faces do not make a mesh. Faces and vertices are numbered from 0 in the order
+/// of the input.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum BuildError {
@@ -51,7 +52,9 @@ pub enum BuildError {
         corners: usize,
     },
     /// A face that visits a vertex twice.
-    #[error("face {face} visits vertex {vertex} twice; divide it into faces that visit each vertex once")]
+    #[error(
+        "face {face} visits vertex {vertex} twice; divide it into faces that visit each vertex once"
+    )]
     RepeatedCorner {
         /// The face.
         face: usize,
@@ -60,7 +63,8 @@ pub enum BuildError {
     },
     /// Two corners of a face that follow each other lie at one point.
     #[error(
-        "face {face} has an edge of length zero: vertices {a} and {b} both lie at {position}; weld them (--weld 0)"
+        "face {face} has an edge of length zero: vertices {a} and {b} both lie at {position}; weld \
+        them (--weld 0)"
     )]
     ZeroLengthEdge {
         /// The face.
@@ -73,14 +77,18 @@ pub enum BuildError {
         position: DVec3,
     },
     /// A face without area: all its corners lie on one line.
-    #[error("face {face} has no area: its corners all lie on one line; remove it or weld its neighbours over it")]
+    #[error(
+        "face {face} has no area: its corners all lie on one line; remove it or weld its \
+        neighbours over it"
+    )]
     DegenerateFace {
         /// The face.
         face: usize,
     },
     /// Three faces meet at one edge.
     #[error(
-        "the edge between vertices {a} and {b} has more than two faces ({}, {} and {}); a surface has at most two, remove the extra ones",
+        "the edge between vertices {a} and {b} has more than two faces ({}, {} and {}); a surface \
+        has at most two, remove the extra ones",
         faces[0], faces[1], faces[2]
     )]
     ThreeFacesAtEdge {
@@ -93,7 +101,8 @@ pub enum BuildError {
     },
     /// Two neighbours run along their common edge in the same direction.
     #[error(
-        "faces {first} and {second} run along the edge from vertex {a} to vertex {b} in the same direction; turn one of them around"
+        "faces {first} and {second} run along the edge from vertex {a} to vertex {b} in the same \
+        direction; turn one of them around"
     )]
     FlippedFace {
         /// The edge's start.
@@ -149,16 +158,18 @@ impl MeshBuilder {
         self.positions.len() - 1
     }
 
-    /// Adds a face by the numbers of its vertices, counter-clockwise seen from outside, and returns its number.
-    /// Vertices may be added later; the numbers are checked by [`Self::build`].
+    /// Adds a face by the numbers of its vertices, counter-clockwise seen from outside, and returns
+    /// its number. Vertices may be added later; the numbers are checked by [`Self::build`].
     pub fn face(&mut self, vertices: impl IntoIterator<Item = usize>) -> usize {
-        // A number beyond u32 cannot exist; the largest u32 never exists either, and build() says so.
+        // A number beyond u32 cannot exist; the largest u32 never exists either, and build() says
+        // so.
         self.corners.extend(vertices.into_iter().map(|v| u32::try_from(v).unwrap_or(u32::MAX)));
         self.ends.push(self.corners.len());
         self.ends.len() - 1
     }
 
-    /// Builds the mesh. Edges with one face are closed by holes; a vertex with several fans is split.
+    /// Builds the mesh. Edges with one face are closed by holes; a vertex with several fans is
+    /// split.
     ///
     /// # Errors
     /// The first fault of the input in the order vertices, faces, edges; see [`BuildError`].
@@ -217,7 +228,12 @@ impl MeshBuilder {
             let b = corners[(i + 1) % corners.len()];
             let position = self.positions[a as usize];
             if position == self.positions[b as usize] {
-                return Err(BuildError::ZeroLengthEdge { face, a: a as usize, b: b as usize, position });
+                return Err(BuildError::ZeroLengthEdge {
+                    face,
+                    a: a as usize,
+                    b: b as usize,
+                    position,
+                });
             }
             used[a as usize] = true;
         }
@@ -227,7 +243,8 @@ impl MeshBuilder {
     /// Whether all corners lie exactly on one line, seen from the first edge along all three axes.
     fn is_collinear(&self, corners: &[u32]) -> bool {
         let p = |i: usize| self.positions[corners[i] as usize];
-        let flat = |q: DVec3| [q.truncate(), glam::DVec2::new(q.y, q.z), glam::DVec2::new(q.z, q.x)];
+        let flat =
+            |q: DVec3| [q.truncate(), glam::DVec2::new(q.y, q.z), glam::DVec2::new(q.z, q.x)];
         let (a, b) = (flat(p(0)), flat(p(1)));
         (2..corners.len()).all(|i| {
             let c = flat(p(i));
@@ -247,20 +264,24 @@ impl MeshBuilder {
             let corners = self.corners(face);
             for (i, &a) in corners.iter().enumerate() {
                 let b = corners[(i + 1) % corners.len()];
-                let h = edges.side(&mut table, a, b).map_err(|SideTaken| self.edge_error(a, b, face))?;
+                let h = edges
+                    .side(&mut table, a, b)
+                    .map_err(|SideTaken| self.edge_error(a, b, face))?;
                 edges.walk.push(h);
             }
         }
         Ok(edges)
     }
 
-    /// Three faces at an edge, or two that run the same way: tells which, with all faces at the edge.
+    /// Three faces at an edge, or two that run the same way: tells which, with all faces at the
+    /// edge.
     fn edge_error(&self, a: u32, b: u32, face: usize) -> BuildError {
         let runs = |f: usize, a: u32, b: u32| {
             let c = self.corners(f);
             (0..c.len()).any(|i| c[i] == a && c[(i + 1) % c.len()] == b)
         };
-        let at_edge: Vec<usize> = (0..self.ends.len()).filter(|&f| runs(f, a, b) || runs(f, b, a)).take(3).collect();
+        let at_edge: Vec<usize> =
+            (0..self.ends.len()).filter(|&f| runs(f, a, b) || runs(f, b, a)).take(3).collect();
         let (a, b) = (a as usize, b as usize);
         match at_edge[..] {
             [x, y, z] => BuildError::ThreeFacesAtEdge { a, b, faces: [x, y, z] },
@@ -271,7 +292,9 @@ impl MeshBuilder {
 
 fn first_repeated(corners: &[u32]) -> Option<u32> {
     if corners.len() <= 16 {
-        return (1..corners.len()).find(|&i| corners[..i].contains(&corners[i])).map(|i| corners[i]);
+        return (1..corners.len())
+            .find(|&i| corners[..i].contains(&corners[i]))
+            .map(|i| corners[i]);
     }
     let mut seen = std::collections::HashSet::with_capacity(corners.len());
     corners.iter().copied().find(|&v| !seen.insert(v))
@@ -280,7 +303,8 @@ fn first_repeated(corners: &[u32]) -> Option<u32> {
 /// A half-edge was asked for a second time.
 struct SideTaken;
 
-/// The edges of the input: their ends, the half-edges of all faces in order, and which sides have a face.
+/// The edges of the input: their ends, the half-edges of all faces in order, and which sides have a
+/// face.
 struct Edges {
     ends: Vec<(VertexId, VertexId)>,
     walk: Vec<HalfEdgeId>,
@@ -300,15 +324,18 @@ impl Edges {
         if taken { Err(SideTaken) } else { Ok(h) }
     }
 
-    /// The walks of the half-edges without a face. At a vertex with several rims the walks take the nearest one, so that
-    /// each fan keeps its own rim.
+    /// The walks of the half-edges without a face. At a vertex with several rims the walks take the
+    /// nearest one, so that each fan keeps its own rim.
     fn hole_walks(&self, face_ends: &[usize]) -> Vec<Vec<HalfEdgeId>> {
-        let rim: Vec<HalfEdgeId> =
-            (0..self.sides.len() as u32).map(HalfEdgeId).filter(|h| !self.sides[h.index()]).collect();
+        let rim: Vec<HalfEdgeId> = (0..self.sides.len() as u32)
+            .map(HalfEdgeId)
+            .filter(|h| !self.sides[h.index()])
+            .collect();
         if rim.is_empty() {
             return Vec::new();
         }
-        // Around the target of a rim half-edge, against its twin: prev of the twin's face walk, until a rim turns up.
+        // Around the target of a rim half-edge, against its twin: prev of the twin's face walk,
+        // until a rim turns up.
         let prev = self.previous_in_walk(face_ends);
         let successor = |h: HalfEdgeId| {
             let mut out = h.twin();
@@ -460,9 +487,13 @@ mod tests {
 
     #[test]
     fn an_open_strip_gets_one_rim() {
-        let mesh = Mesh::from_faces(points(6), [vec![0, 1, 2, 3], vec![3, 2, 4, 5]]).expect("two quads");
+        let mesh =
+            Mesh::from_faces(points(6), [vec![0, 1, 2, 3], vec![3, 2, 4, 5]]).expect("two quads");
         assert_sound(&mesh);
-        assert_eq!((mesh.vertex_count(), mesh.edge_count(), mesh.face_count(), mesh.hole_count()), (6, 7, 2, 1));
+        assert_eq!(
+            (mesh.vertex_count(), mesh.edge_count(), mesh.face_count(), mesh.hole_count()),
+            (6, 7, 2, 1)
+        );
     }
 
     #[test]
@@ -490,10 +521,14 @@ mod tests {
     #[test]
     fn every_fault_of_the_input_is_named() {
         let build = |n: usize, faces: &[&[usize]]| {
-            Mesh::from_faces(points(n), faces.iter().map(|f| f.iter().copied())).expect_err("a fault")
+            Mesh::from_faces(points(n), faces.iter().map(|f| f.iter().copied()))
+                .expect_err("a fault")
         };
         assert_eq!(build(3, &[]), BuildError::NoFaces);
-        assert_eq!(build(3, &[&[0, 1, 3]]), BuildError::MissingVertex { face: 0, vertex: 3, count: 3 });
+        assert_eq!(
+            build(3, &[&[0, 1, 3]]),
+            BuildError::MissingVertex { face: 0, vertex: 3, count: 3 }
+        );
         assert_eq!(build(3, &[&[0, 1]]), BuildError::TooFewCorners { face: 0, corners: 2 });
         assert_eq!(build(4, &[&[0, 1, 2, 1]]), BuildError::RepeatedCorner { face: 0, vertex: 1 });
         let three = build(5, &[&[0, 1, 2], &[1, 0, 3], &[0, 1, 4]]);
@@ -501,8 +536,12 @@ mod tests {
         let flipped = build(4, &[&[0, 1, 2], &[0, 1, 3]]);
         assert_eq!(flipped, BuildError::FlippedFace { a: 0, b: 1, first: 0, second: 1 });
         let line: Vec<DVec3> = (0..3).map(|i| DVec3::splat(f64::from(i))).collect();
-        assert_eq!(Mesh::from_faces(line, [[0, 1, 2]]).expect_err("a line"), BuildError::DegenerateFace { face: 0 });
-        let doubled = Mesh::from_faces([DVec3::X, DVec3::X, DVec3::Y], [[0, 1, 2]]).expect_err("no length");
+        assert_eq!(
+            Mesh::from_faces(line, [[0, 1, 2]]).expect_err("a line"),
+            BuildError::DegenerateFace { face: 0 }
+        );
+        let doubled =
+            Mesh::from_faces([DVec3::X, DVec3::X, DVec3::Y], [[0, 1, 2]]).expect_err("no length");
         assert_eq!(doubled, BuildError::ZeroLengthEdge { face: 0, a: 0, b: 1, position: DVec3::X });
         let nan = Mesh::from_faces([DVec3::NAN, DVec3::X, DVec3::Y], [[0, 1, 2]]).expect_err("NaN");
         assert!(matches!(nan, BuildError::NotFinite { vertex: 0, .. }));

@@ -5,7 +5,8 @@ use std::fmt::Debug;
 use super::{FaceId, HalfEdgeId, Mesh, VertexId, VertexMap};
 use crate::code::codes;
 
-/// A broken invariant. A sound mesh has none; operators never make one, so a fault is a bug of ours.
+/// A broken invariant. A sound mesh has none; operators never make one, so a fault is a bug of
+/// ours.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {
@@ -69,7 +70,8 @@ codes!(error Fault {
 });
 
 impl Mesh {
-    /// Every fault of the mesh, with ids; empty for a sound mesh. Takes time proportional to the mesh.
+    /// Every fault of the mesh, with ids; empty for a sound mesh. Takes time proportional to the
+    /// mesh.
     pub fn faults(&self) -> Vec<Fault> {
         let mut faults = self.half_edge_faults();
         // Walking further over dangling links could run anywhere.
@@ -85,7 +87,11 @@ impl Mesh {
         for h in self.half_edges() {
             let (next, prev) = (self.next(h), self.prev(h));
             let exists = |g: HalfEdgeId| self.has_edge(g.edge());
-            if !exists(next) || !exists(prev) || !self.has_vertex(self.origin(h)) || !self.has_face(self.face(h)) {
+            if !exists(next)
+                || !exists(prev)
+                || !self.has_vertex(self.origin(h))
+                || !self.has_face(self.face(h))
+            {
                 faults.push(Fault::DanglingHalfEdge(h));
                 continue;
             }
@@ -113,7 +119,9 @@ impl Mesh {
             }
             match self.vertex_start(v) {
                 None => {
-                    let belongs = self.lone_face(v).is_some_and(|f| self.has_face(f) && self.lone_vertex(f) == Some(v));
+                    let belongs = self
+                        .lone_face(v)
+                        .is_some_and(|f| self.has_face(f) && self.lone_vertex(f) == Some(v));
                     if !belongs || leaving[v] > 0 {
                         faults.push(Fault::PointSphere(v));
                     }
@@ -139,8 +147,9 @@ impl Mesh {
         for f in self.faces_and_holes() {
             match self.face_start(f) {
                 None => {
-                    let belongs =
-                        self.lone_vertex(f).is_some_and(|v| self.has_vertex(v) && self.lone_face(v) == Some(f));
+                    let belongs = self
+                        .lone_vertex(f)
+                        .is_some_and(|v| self.has_vertex(v) && self.lone_face(v) == Some(f));
                     if !belongs || naming[f] > 0 {
                         faults.push(Fault::FaceStart(f));
                     }

@@ -59,7 +59,8 @@ id!(
     "v"
 );
 id!(
-    /// A half-edge: one of the two directed sides of an edge. It leaves its origin and has its face on the left.
+    /// A half-edge: one of the two directed sides of an edge. It leaves its origin and has its face
+    /// on the left.
     HalfEdgeId,
     "h"
 );
@@ -120,7 +121,8 @@ pub type EdgeMap<T> = SideTable<EdgeId, T>;
 pub type FaceMap<T> = SideTable<FaceId, T>;
 
 impl<I: Id, T> SideTable<I, T> {
-    /// A table of `slots` copies of `value`; take `slots` from the mesh ([`super::Mesh::vertex_slots`] and its kin).
+    /// A table of `slots` copies of `value`; take `slots` from the mesh
+    /// ([`super::Mesh::vertex_slots`] and its kin).
     pub fn filled(slots: usize, value: T) -> Self
     where
         T: Clone,

@@ -10,7 +10,9 @@ mod walks;
 
 pub use build::{BuildError, MeshBuilder, SplitVertex};
 pub use faults::{Fault, assert_sound};
-pub use id::{EdgeId, EdgeMap, FaceId, FaceMap, HalfEdgeId, HalfEdgeMap, Id, SideTable, VertexId, VertexMap};
+pub use id::{
+    EdgeId, EdgeMap, FaceId, FaceMap, HalfEdgeId, HalfEdgeMap, Id, SideTable, VertexId, VertexMap,
+};
 pub use operators::OperatorError;
 pub(crate) use store::Region;
 pub use store::{Corner, FaceKind, LinkError, Mesh, Renumbering};

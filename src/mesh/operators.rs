@@ -44,15 +44,20 @@ impl Mesh {
         self.split_edge(e, a.midpoint(b)).0
     }
 
-    /// Connects two faces by a pipe (Srinivasan 2004, III.3): corner is joined to corner, starting with the given pair and
-    /// running opposite ways around the two faces. E + n, F + n − 2. With one component the genus grows by one, two
-    /// components become one. The face with fewer sides first has its last edges divided until both have n.
+    /// Connects two faces by a pipe (Srinivasan 2004, III.3): corner is joined to corner, starting
+    /// with the given pair and running opposite ways around the two faces. E + n, F + n − 2. With
+    /// one component the genus grows by one, two components become one. The face with fewer sides
+    /// first has its last edges divided until both have n.
     ///
     /// Returns the new faces, one for each pair of sides.
     ///
     /// # Errors
     /// [`OperatorError::SameFace`] when both corners lie on one face.
-    pub fn create_pipe(&mut self, from: HalfEdgeId, to: HalfEdgeId) -> Result<Vec<FaceId>, OperatorError> {
+    pub fn create_pipe(
+        &mut self,
+        from: HalfEdgeId,
+        to: HalfEdgeId,
+    ) -> Result<Vec<FaceId>, OperatorError> {
         let (f, g) = (self.face(from), self.face(to));
         if f == g {
             return Err(OperatorError::SameFace(f));
@@ -66,15 +71,21 @@ impl Mesh {
         let mut rungs = Vec::with_capacity(sides);
         for i in 0..sides {
             let before_b = self.prev(b);
-            rungs.push(self.insert_edge(Corner::At(a), Corner::At(b)).expect("half-edges are corners").half_edge());
+            rungs.push(
+                self.insert_edge(Corner::At(a), Corner::At(b))
+                    .expect("half-edges are corners")
+                    .half_edge(),
+            );
             (a, b) = (forwards[(start + i + 1) % sides], before_b);
         }
-        // Each rung after the first closed the quad on its left; the first bounds what was left over.
+        // Each rung after the first closed the quad on its left; the first bounds what was left
+        // over.
         rungs.rotate_left(1);
         Ok(rungs.into_iter().map(|rung| self.face(rung)).collect())
     }
 
-    /// Divides the edges before the corner until its face has `sides` sides; the later half of each stays at the corner.
+    /// Divides the edges before the corner until its face has `sides` sides; the later half of each
+    /// stays at the corner.
     fn subdivide_face(&mut self, corner: HalfEdgeId, sides: usize) {
         let mut last = self.prev(corner);
         for _ in self.sides(self.face(corner))..sides {
@@ -90,12 +101,15 @@ impl Mesh {
         }
     }
 
-    /// Makes a component of two faces back to back over `corners` (Srinivasan 2004, III.4): V + n, E + n, F + 2.
-    /// Returns the front face, whose corners run as given, and the back face.
+    /// Makes a component of two faces back to back over `corners` (Srinivasan 2004, III.4): V + n,
+    /// E + n, F + 2. Returns the front face, whose corners run as given, and the back face.
     ///
     /// # Errors
     /// [`OperatorError::TooFewCorners`] below three corners.
-    pub fn create_face_manifold(&mut self, corners: &[DVec3]) -> Result<(FaceId, FaceId), OperatorError> {
+    pub fn create_face_manifold(
+        &mut self,
+        corners: &[DVec3],
+    ) -> Result<(FaceId, FaceId), OperatorError> {
         if corners.len() < 3 {
             return Err(OperatorError::TooFewCorners(corners.len()));
         }
@@ -114,8 +128,9 @@ impl Mesh {
 
     /// Connects two half-edges by a new face between them (Srinivasan 2004, III.5): E + 2.
     ///
-    /// The first edge runs from the start of `a` to the end of `b`, the second from the start of `b` to the end of `a`.
-    /// Within one face F + 2; between two faces F stays and a handle is made. Returns the new face.
+    /// The first edge runs from the start of `a` to the end of `b`, the second from the start of
+    /// `b` to the end of `a`. Within one face F + 2; between two faces F stays and a handle is
+    /// made. Returns the new face.
     pub fn connect_edges(&mut self, a: HalfEdgeId, b: HalfEdgeId) -> FaceId {
         let (end_of_a, end_of_b) = (self.next(a), self.next(b));
         self.insert_edge(Corner::At(a), Corner::At(end_of_b)).expect("half-edges are corners");
@@ -123,9 +138,11 @@ impl Mesh {
         self.face(a)
     }
 
-    /// Merges the two ends of an edge into one vertex at its middle (Srinivasan 2004, III.6): V − 1, E − 1.
+    /// Merges the two ends of an edge into one vertex at its middle (Srinivasan 2004, III.6): V −
+    /// 1, E − 1.
     ///
-    /// Triangles at the edge become 2-gons, as in the thesis. The end at the edge's first half-edge stays.
+    /// Triangles at the edge become 2-gons, as in the thesis. The end at the edge's first half-edge
+    /// stays.
     ///
     /// # Errors
     /// [`OperatorError::SelfLoop`] when both ends are one vertex.
@@ -148,7 +165,8 @@ mod tests {
 
     fn cube() -> Mesh {
         let corner = |i: usize| DVec3::new((i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2) as f64);
-        let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let faces =
+            [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
         Mesh::from_faces((0..8).map(corner), faces).expect("a cube")
     }
 
@@ -174,7 +192,8 @@ mod tests {
     #[test]
     fn collapsing_every_edge_of_a_tetrahedron_ends_in_a_point_sphere() {
         let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
-        let mut mesh = Mesh::from_faces(corners, [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]).expect("a tetrahedron");
+        let mut mesh = Mesh::from_faces(corners, [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
+            .expect("a tetrahedron");
         loop {
             let Some(e) = mesh.edges().next() else { break };
             if mesh.collapse_edge(e).is_err() {
@@ -259,13 +278,18 @@ mod tests {
         let e = mesh.insert_edge(Corner::Lone(u), Corner::Lone(v)).expect("two point spheres");
         assert_sound(&mesh);
         assert_eq!((counts(&mesh), mesh.valence(u)), ((2, 1, 1, 0), 1));
-        let two_gon = mesh.insert_edge(Corner::At(e.half_edge()), Corner::At(e.half_edge().twin())).expect("corners");
+        let two_gon = mesh
+            .insert_edge(Corner::At(e.half_edge()), Corner::At(e.half_edge().twin()))
+            .expect("corners");
         assert_sound(&mesh);
         assert_eq!(counts(&mesh), (2, 2, 2, 0));
         let at = Corner::At(two_gon.half_edge());
         let self_loop = mesh.insert_edge(at, at).expect("one corner twice");
         assert_sound(&mesh);
-        assert_eq!((counts(&mesh), mesh.sides(mesh.face(self_loop.half_edge()))), ((2, 3, 3, 0), 1));
+        assert_eq!(
+            (counts(&mesh), mesh.sides(mesh.face(self_loop.half_edge()))),
+            ((2, 3, 3, 0), 1)
+        );
         for e in [self_loop, two_gon, e] {
             mesh.delete_edge(e);
             assert_sound(&mesh);
@@ -286,7 +310,10 @@ mod tests {
         assert_eq!((caps.len(), counts(&mesh)), (1, (8, 11, 5, 0)));
         assert_eq!(mesh.sides(mesh.face(caps[0])), 6);
         let mut mesh = cube();
-        let caps = mesh.replace_region(&[FaceId::new(2), FaceId::new(3), FaceId::new(4), FaceId::new(5)], |_, _| ());
+        let caps = mesh.replace_region(
+            &[FaceId::new(2), FaceId::new(3), FaceId::new(4), FaceId::new(5)],
+            |_, _| (),
+        );
         assert_sound(&mesh);
         assert_eq!((caps.len(), mesh.components().len(), counts(&mesh)), (2, 2, (8, 8, 4, 0)));
         let everything: Vec<FaceId> = mesh.faces().collect();
@@ -300,12 +327,14 @@ mod tests {
     fn a_vertex_where_a_face_touches_itself_can_be_pulled_apart() {
         // Two tetrahedra glued at a vertex by merging one face of each through that vertex.
         let mut mesh = Mesh::new();
-        let (f, _) = mesh.create_face_manifold(&[DVec3::ZERO, DVec3::X, DVec3::Y]).expect("a triangle");
+        let (f, _) =
+            mesh.create_face_manifold(&[DVec3::ZERO, DVec3::X, DVec3::Y]).expect("a triangle");
         let a = mesh.face_start(f).expect("edges");
         let v = mesh.origin(a);
         let (u, _) = mesh.create_vertex(DVec3::Z);
         let spike = mesh.insert_edge(Corner::At(a), Corner::Lone(u)).expect("corners");
-        let corners: Vec<HalfEdgeId> = mesh.outgoing(v).filter(|&h| mesh.face(h) == mesh.face(a)).collect();
+        let corners: Vec<HalfEdgeId> =
+            mesh.outgoing(v).filter(|&h| mesh.face(h) == mesh.face(a)).collect();
         assert_eq!(corners.len(), 2);
         let (w, g) = mesh.split_vertex(corners[0], corners[1]).expect("same vertex, same face");
         assert_sound(&mesh);

@@ -1,10 +1,13 @@
-//! The half-edge store: plain vectors, total links, and how to read them. Links are written in `links.rs` alone.
+//! The half-edge store: plain vectors, total links, and how to read them. Links are written in
+//! `links.rs` alone.
 //!
-//! The fields of [`Mesh`] are private to this file and its child, so the compiler keeps everybody else from writing them.
+//! The fields of [`Mesh`] are private to this file and its child, so the compiler keeps everybody
+//! else from writing them.
 //!
-//! Links are total: every half-edge has a next, a previous, an origin and a face. A vertex without edges is a *point
-//! sphere* with a face of its own; vertex and face then point to each other. Deleted elements leave free slots that later
-//! elements reuse; ids of living elements never move until [`Mesh::compact`].
+//! Links are total: every half-edge has a next, a previous, an origin and a face. A vertex without
+//! edges is a *point sphere* with a face of its own; vertex and face then point to each other.
+//! Deleted elements leave free slots that later elements reuse; ids of living elements never move
+//! until [`Mesh::compact`].
 
 use glam::DVec3;
 
@@ -59,8 +62,8 @@ struct Face {
 /// Marks a half-edge slot as free, a face without a plane, a face without a group.
 const NONE: u32 = u32::MAX;
 
-/// Where the walk around a vertex or a face begins: at a half-edge, or, for a point sphere, at its only partner.
-/// The top bit tells which; `NONE` marks a free slot.
+/// Where the walk around a vertex or a face begins: at a half-edge, or, for a point sphere, at its
+/// only partner. The top bit tells which; `NONE` marks a free slot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Link(u32);
 
@@ -106,8 +109,8 @@ pub enum Corner {
     Lone(VertexId),
 }
 
-/// A copy is made to be changed: it has room for a sixteenth more of everything, so that the first cut does not move all of it to
-/// larger tables.
+/// A copy is made to be changed: it has room for a sixteenth more of everything, so that the first
+/// cut does not move all of it to larger tables.
 impl Clone for Mesh {
     fn clone(&self) -> Self {
         Self {
@@ -137,7 +140,7 @@ impl Mesh {
         Self::default()
     }
 
-    // ---- reading -------------------------------------------------------------------------------------------------
+    // ---- reading --------------------------------------------------------------------------------
 
     /// The half-edge after `h` around its face.
     #[inline]
@@ -175,7 +178,8 @@ impl Mesh {
         self.vertices[v.index()].position
     }
 
-    /// Whether the position came with the input, so that its signs are compared exactly, or was computed by an operator.
+    /// Whether the position came with the input, so that its signs are compared exactly, or was
+    /// computed by an operator.
     #[inline]
     pub fn is_given(&self, v: VertexId) -> bool {
         self.vertices[v.index()].is_given
@@ -289,7 +293,8 @@ impl Mesh {
         self.faces.len()
     }
 
-    /// Makes room for so many more vertices, edges and faces, so that adding them does not move the tables.
+    /// Makes room for so many more vertices, edges and faces, so that adding them does not move the
+    /// tables.
     pub(crate) fn reserve(&mut self, vertices: usize, edges: usize, faces: usize) {
         self.vertices.reserve(vertices);
         self.half_edges.reserve(2 * edges);
@@ -298,9 +303,10 @@ impl Mesh {
         self.planes.reserve(faces);
     }
 
-    // ---- attributes ----------------------------------------------------------------------------------------------
+    // ---- attributes -----------------------------------------------------------------------------
 
-    /// Moves a vertex; `is_given` tells whether the new position is an input number or a computed one.
+    /// Moves a vertex; `is_given` tells whether the new position is an input number or a computed
+    /// one.
     #[inline]
     pub fn set_position(&mut self, v: VertexId, position: DVec3, is_given: bool) {
         let vertex = &mut self.vertices[v.index()];

@@ -51,7 +51,8 @@ impl Mesh {
         (0..self.face_slots() as u32).map(FaceId).filter(|&f| self.has_face(f))
     }
 
-    /// The half-edges around a face (or hole), counter-clockwise seen from outside. None for a point sphere's face.
+    /// The half-edges around a face (or hole), counter-clockwise seen from outside. None for a
+    /// point sphere's face.
     #[inline]
     pub fn face_half_edges(&self, f: FaceId) -> impl Iterator<Item = HalfEdgeId> + '_ {
         let start = self.face_start(f);
@@ -73,10 +74,13 @@ impl Mesh {
     #[inline]
     pub fn outgoing(&self, v: VertexId) -> impl Iterator<Item = HalfEdgeId> + '_ {
         let start = self.vertex_start(v);
-        std::iter::successors(start, move |&h| Some(self.next(h.twin())).filter(|&n| Some(n) != start))
+        std::iter::successors(start, move |&h| {
+            Some(self.next(h.twin())).filter(|&n| Some(n) != start)
+        })
     }
 
-    /// The vertices at the other ends of a vertex's edges; one for each edge end, so a self-loop gives the vertex twice.
+    /// The vertices at the other ends of a vertex's edges; one for each edge end, so a self-loop
+    /// gives the vertex twice.
     #[inline]
     pub fn neighbours(&self, v: VertexId) -> impl Iterator<Item = VertexId> + '_ {
         self.outgoing(v).map(|h| self.target(h))
@@ -135,7 +139,8 @@ impl Mesh {
         self.hole_count() == 0
     }
 
-    /// The plane of a face: the one it carries, else the Newell plane of its corners. `None` for a face without area.
+    /// The plane of a face: the one it carries, else the Newell plane of its corners. `None` for a
+    /// face without area.
     pub fn plane(&self, f: FaceId) -> Option<Plane> {
         self.carried_plane(f).or_else(|| Plane::newell(&self.face_positions(f)))
     }
@@ -172,7 +177,11 @@ impl Mesh {
         components
     }
 
-    fn component_of(&self, mut vertices: Vec<VertexId>, face_seen: &mut super::FaceMap<bool>) -> Component {
+    fn component_of(
+        &self,
+        mut vertices: Vec<VertexId>,
+        face_seen: &mut super::FaceMap<bool>,
+    ) -> Component {
         vertices.sort_unstable();
         let (mut faces, mut holes, mut edge_ends) = (Vec::new(), 0, 0);
         for &v in &vertices {

@@ -1,6 +1,8 @@
-//! The builder for operators that know every link: faces as walks of half-edges, without a search for partners.
+//! The builder for operators that know every link: faces as walks of half-edges, without a search
+//! for partners.
 //!
-//! Self-loops and 2-gons are legal here, unlike in [`super::MeshBuilder`], which reads what people bring.
+//! Self-loops and 2-gons are legal here, unlike in [`super::MeshBuilder`], which reads what people
+//! bring.
 
 use glam::DVec3;
 
@@ -40,7 +42,8 @@ impl WalkBuilder {
         FaceId::new(self.list.push(half_edges, FaceKind::Solid).expect("a face has sides"))
     }
 
-    /// Builds the mesh; positions count as constructed. Faces that share a vertex only, at a rim, are pulled apart.
+    /// Builds the mesh; positions count as constructed. Faces that share a vertex only, at a rim,
+    /// are pulled apart.
     pub(crate) fn build(mut self) -> Mesh {
         if self.list.half_edge_count() < 2 * self.edges.len() {
             self.close_holes();
@@ -53,8 +56,8 @@ impl WalkBuilder {
         mesh
     }
 
-    /// Adds a hole for every walk of sides without a face. Around the vertex where such a side ends the nearest other one follows, so
-    /// that a vertex with several rims keeps them apart.
+    /// Adds a hole for every walk of sides without a face. Around the vertex where such a side ends
+    /// the nearest other one follows, so that a vertex with several rims keeps them apart.
     fn close_holes(&mut self) {
         let sides = 2 * self.edges.len();
         let mut prev = vec![HalfEdgeId(u32::MAX); sides];
@@ -96,8 +99,10 @@ mod tests {
     #[test]
     fn two_triangles_get_one_rim_and_a_loop_is_no_fault() {
         let mut walks = WalkBuilder::default();
-        let v: Vec<VertexId> = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::ONE].map(|p| walks.vertex(p)).to_vec();
-        let [ab, bc, ca, bd, dc] = [(0, 1), (1, 2), (2, 0), (1, 3), (3, 2)].map(|(a, b)| walks.edge(v[a], v[b]));
+        let v: Vec<VertexId> =
+            [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::ONE].map(|p| walks.vertex(p)).to_vec();
+        let [ab, bc, ca, bd, dc] =
+            [(0, 1), (1, 2), (2, 0), (1, 3), (3, 2)].map(|(a, b)| walks.edge(v[a], v[b]));
         walks.face([ab, bc, ca]);
         walks.face([bd, dc, bc.twin()]);
         let mesh = walks.build();

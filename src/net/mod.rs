@@ -1,8 +1,9 @@
-//! Flat result types: pieces, outlines, folds, seams, rims and their proof, in millimetres; knows no mesh.
+//! Flat result types: pieces, outlines, folds, seams, rims and their proof, in millimetres; knows
+//! no mesh.
 //!
-//! Frames: every piece has its own, with y up, seen from outside the model; faces run counter-clockwise and are never
-//! mirrored. Faces, vertices and edges are named by their numbers in the mesh file (`formats.md`), so these types need no
-//! mesh to be read.
+//! Frames: every piece has its own, with y up, seen from outside the model; faces run
+//! counter-clockwise and are never mirrored. Faces, vertices and edges are named by their numbers
+//! in the mesh file (`formats.md`), so these types need no mesh to be read.
 
 use std::fmt;
 
@@ -83,11 +84,12 @@ pub struct FlatFace {
 }
 
 impl FlatFace {
-    /// A side's segment in the direction in which the face runs, counter-clockwise; `segment` runs from the vertex `edge[0]`
-    /// to `edge[1]`. Nothing when these are no side of the face.
+    /// A side's segment in the direction in which the face runs, counter-clockwise; `segment` runs
+    /// from the vertex `edge[0]` to `edge[1]`. Nothing when these are no side of the face.
     pub fn side(&self, edge: [usize; 2], segment: Segment) -> Option<Segment> {
         let n = self.vertices.len();
-        let runs = |from, to| (0..n).any(|i| self.vertices[i] == from && self.vertices[(i + 1) % n] == to);
+        let runs =
+            |from, to| (0..n).any(|i| self.vertices[i] == from && self.vertices[(i + 1) % n] == to);
         if runs(edge[0], edge[1]) {
             Some(segment)
         } else if runs(edge[1], edge[0]) {
@@ -125,7 +127,8 @@ pub struct Fold {
     pub faces: [usize; 2],
     /// Where it lies, from `edge[0]` to `edge[1]`.
     pub segment: Segment,
-    /// Degrees that the faces turn against each other: 180° − dihedral angle; positive for a mountain.
+    /// Degrees that the faces turn against each other: 180° − dihedral angle; positive for a
+    /// mountain.
     pub fold_angle: f64,
     /// Mountain or valley.
     pub kind: FoldKind,
@@ -173,9 +176,11 @@ pub struct Rim {
 /// What independent re-measuring found; all three are zero up to rounding in a good net.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Proof {
-    /// Largest difference between a distance of two corners of a face on the mesh and in the net, in mm.
+    /// Largest difference between a distance of two corners of a face on the mesh and in the net,
+    /// in mm.
     pub congruence_mm: f64,
-    /// Largest distance between a vertex of the mesh and the same corner after folding the net back up, in mm.
+    /// Largest distance between a vertex of the mesh and the same corner after folding the net back
+    /// up, in mm.
     pub refold_mm: f64,
     /// Number of pairs of faces of one piece whose interiors overlap.
     pub overlaps: usize,

@@ -1,10 +1,11 @@
 //! Divides a cap with holes into faces without holes by the fewest bridges.
 //!
-//! A face that visits no vertex twice needs at least two ways at every hole, so h holes need at least h + 1 bridges: one
-//! closed chain from the outer walk through all holes and back. Where walks touch at a vertex, the touch is a way that costs
-//! no bridge. Candidates are the edges of the constrained Delaunay triangulation of the walks that join different walks;
-//! they never cross. Chains ("ears") are searched depth first, the longest wins, until every hole is joined; each ear after
-//! the first costs one bridge more.
+//! A face that visits no vertex twice needs at least two ways at every hole, so h holes need at
+//! least h + 1 bridges: one closed chain from the outer walk through all holes and back. Where
+//! walks touch at a vertex, the touch is a way that costs no bridge. Candidates are the edges of
+//! the constrained Delaunay triangulation of the walks that join different walks; they never cross.
+//! Chains ("ears") are searched depth first, the longest wins, until every hole is joined; each ear
+//! after the first costs one bridge more.
 
 use std::collections::{HashMap, HashSet};
 
@@ -41,7 +42,8 @@ struct Bridge {
     to: Site,
 }
 
-/// The walks of one cap, the outer one first, with the corners of the mesh that belong to each site by now.
+/// The walks of one cap, the outer one first, with the corners of the mesh that belong to each site
+/// by now.
 struct CapWalks {
     walks: Vec<SectionWalk>,
     corners: HashMap<VertexId, Vec<HalfEdgeId>>,
@@ -50,16 +52,17 @@ struct CapWalks {
 }
 
 impl Cutter {
-    /// Joins the holes to the outer walk and each other. Returns the faces of the divided cap, ascending, and how many holes
-    /// could not be joined: each keeps a face of its own, a lid that looks the other way, so that the mesh is sound and its
-    /// volume right all the same.
+    /// Joins the holes to the outer walk and each other. Returns the faces of the divided cap,
+    /// ascending, and how many holes could not be joined: each keeps a face of its own, a lid that
+    /// looks the other way, so that the mesh is sound and its volume right all the same.
     pub(super) fn bridge(
         &mut self,
         frame: &Frame,
         outer: SectionWalk,
         holes: Vec<SectionWalk>,
     ) -> (Vec<FaceId>, usize) {
-        let mut faces: Vec<FaceId> = std::iter::once(&outer).chain(&holes).map(|walk| walk.face).collect();
+        let mut faces: Vec<FaceId> =
+            std::iter::once(&outer).chain(&holes).map(|walk| walk.face).collect();
         let mut cap = CapWalks::new(std::iter::once(outer).chain(holes).collect());
         let mut lids = self.lay_ears(frame, &mut cap, &mut faces);
         faces.sort_unstable();
@@ -67,7 +70,8 @@ impl Cutter {
         faces.retain(|&f| self.mesh.has_face(f));
         // Walks on top of each other may have led a bridge astray.
         let is_astray = |&&f: &&FaceId| {
-            let corners: Vec<DVec2> = self.mesh.face_positions(f).into_iter().map(|p| frame.flatten(p)).collect();
+            let corners: Vec<DVec2> =
+                self.mesh.face_positions(f).into_iter().map(|p| frame.flatten(p)).collect();
             let mut vertices: Vec<VertexId> = self.mesh.face_vertices(f).collect();
             vertices.sort_unstable();
             signed_area(&corners) <= 0.0 || vertices.windows(2).any(|w| w[0] == w[1])
@@ -81,15 +85,19 @@ impl Cutter {
     /// Lays ear after ear until every hole is joined; returns how many could not be.
     fn lay_ears(&mut self, frame: &Frame, cap: &mut CapWalks, faces: &mut Vec<FaceId>) -> usize {
         let Some(candidates) = cap.candidates() else { return cap.walks.len() - 1 };
-        // Where walks lie on top of each other without being joined, the flat picture does not tell which bridge passes on
-        // which side of which; such bridges are a last resort.
+        // Where walks lie on top of each other without being joined, the flat picture does not tell
+        // which bridge passes on which side of which; such bridges are a last resort.
         let is_clear = |s: Site| !cap.doubled.contains(&cap.vertex(s));
-        let clear: Vec<Bridge> =
-            candidates.iter().copied().filter(|b| !b.needs_edge || (is_clear(b.from) && is_clear(b.to))).collect();
+        let clear: Vec<Bridge> = candidates
+            .iter()
+            .copied()
+            .filter(|b| !b.needs_edge || (is_clear(b.from) && is_clear(b.to)))
+            .collect();
         let mut is_joined = vec![false; cap.walks.len()];
         is_joined[0] = true;
         while is_joined.contains(&false) {
-            let ear = longest_ear(cap, &clear, &is_joined).or_else(|| longest_ear(cap, &candidates, &is_joined));
+            let ear = longest_ear(cap, &clear, &is_joined)
+                .or_else(|| longest_ear(cap, &candidates, &is_joined));
             let Some(ear) = ear else { break };
             for bridge in ear {
                 let closes = is_joined[bridge.from.0] && is_joined[bridge.to.0];
@@ -102,8 +110,8 @@ impl Cutter {
         is_joined.iter().filter(|joined| !**joined).count()
     }
 
-    /// Lays one bridge. `closes` tells that both its walks hang together already: then it must divide their face. Returns
-    /// `false`, with nothing done, if it would not.
+    /// Lays one bridge. `closes` tells that both its walks hang together already: then it must
+    /// divide their face. Returns `false`, with nothing done, if it would not.
     fn lay_bridge(
         &mut self,
         frame: &Frame,
@@ -120,7 +128,10 @@ impl Cutter {
         if closes && !is_one_face {
             return false;
         }
-        let e = self.mesh.insert_edge(Corner::At(from), Corner::At(to)).expect("half-edges are corners");
+        let e = self
+            .mesh
+            .insert_edge(Corner::At(from), Corner::At(to))
+            .expect("half-edges are corners");
         let h = e.half_edge();
         if is_one_face {
             let f = self.mesh.face(h);
@@ -133,10 +144,17 @@ impl Cutter {
     }
 
     /// Of the corners at a site the one whose angle holds the direction to the other site.
-    fn corner_towards(&self, frame: &Frame, corners: &[HalfEdgeId], here: DVec2, there: DVec2) -> HalfEdgeId {
+    fn corner_towards(
+        &self,
+        frame: &Frame,
+        corners: &[HalfEdgeId],
+        here: DVec2,
+        there: DVec2,
+    ) -> HalfEdgeId {
         let flat = |v| frame.flatten(self.mesh.position(v));
         let holds = |h: HalfEdgeId| {
-            let (next, before) = (flat(self.mesh.target(h)), flat(self.mesh.origin(self.mesh.prev(h))));
+            let (next, before) =
+                (flat(self.mesh.target(h)), flat(self.mesh.origin(self.mesh.prev(h))));
             is_in_angle(here, next, before, there)
         };
         corners.iter().copied().find(|&h| holds(h)).unwrap_or(corners[0])
@@ -175,8 +193,8 @@ impl CapWalks {
         self.corners.entry(v).or_default().push(h);
     }
 
-    /// Whether the way from one site to the other begins in material: in the angle of the site's own walk, and in an angle of
-    /// every other walk that comes to the same point.
+    /// Whether the way from one site to the other begins in material: in the angle of the site's
+    /// own walk, and in an angle of every other walk that comes to the same point.
     fn holds(&self, at_point: &[Site], from: Site, to: Site) -> bool {
         let there = self.point(to);
         let opens = |(w, i): Site| {
@@ -189,18 +207,21 @@ impl CapWalks {
         opens(from) && others.into_iter().all(|s| opens_any(s.0))
     }
 
-    /// All touches, and all pairs of corners of different walks that a constrained Delaunay triangulation joins, in a
-    /// stable order. `None` when the walks cross each other.
+    /// All touches, and all pairs of corners of different walks that a constrained Delaunay
+    /// triangulation joins, in a stable order. `None` when the walks cross each other.
     fn candidates(&mut self) -> Option<Vec<Bridge>> {
         let (cdt, sites_of) = self.triangulate()?;
-        let is_doubled = |sites: &&Vec<Site>| sites.iter().any(|&s| !self.is_one_vertex(s, sites[0]));
-        self.doubled = sites_of.iter().filter(is_doubled).flatten().map(|&s| self.vertex(s)).collect();
+        let is_doubled =
+            |sites: &&Vec<Site>| sites.iter().any(|&s| !self.is_one_vertex(s, sites[0]));
+        self.doubled =
+            sites_of.iter().filter(is_doubled).flatten().map(|&s| self.vertex(s)).collect();
         let seen = cdt
             .undirected_edges()
             .filter(|e| !e.is_constraint_edge())
             .map(|e| e.vertices().map(|v| &sites_of[v.index()]));
-        let between =
-            |[a, b]: [&Vec<Site>; 2]| pairs(a, b, true).into_iter().filter(|p| self.joins(a, b, p)).collect::<Vec<_>>();
+        let between = |[a, b]: [&Vec<Site>; 2]| {
+            pairs(a, b, true).into_iter().filter(|p| self.joins(a, b, p)).collect::<Vec<_>>()
+        };
         let mut bridges: Vec<Bridge> = seen.flat_map(between).collect();
         for sites in &sites_of {
             let touches = pairs(sites, sites, false)
@@ -212,7 +233,8 @@ impl CapWalks {
         Some(bridges)
     }
 
-    /// The triangulation with the sides of all walks as constraints, and the sites at each of its points.
+    /// The triangulation with the sides of all walks as constraints, and the sites at each of its
+    /// points.
     fn triangulate(&self) -> Option<(Triangles, Vec<Vec<Site>>)> {
         let mut cdt = Triangles::new();
         let mut sites_of: Vec<Vec<Site>> = Vec::new();
@@ -240,8 +262,8 @@ impl CapWalks {
         Some((cdt, sites_of))
     }
 
-    /// Whether a bridge joins walks that do not hang together at its ends, through material. What touches at a vertex is
-    /// joined as it is; what only lies at one point is not.
+    /// Whether a bridge joins walks that do not hang together at its ends, through material. What
+    /// touches at a vertex is joined as it is; what only lies at one point is not.
     fn joins(&self, a: &[Site], b: &[Site], bridge: &Bridge) -> bool {
         let of_vertex = |sites: &[Site], s: Site| -> Vec<Site> {
             sites.iter().copied().filter(|&t| self.is_one_vertex(s, t)).collect()
@@ -263,11 +285,16 @@ fn pairs(a: &[Site], b: &[Site], needs_edge: bool) -> Vec<Bridge> {
 /// Whether `w` lies inside the angle at `v` from `next` counter-clockwise to `before`.
 fn is_in_angle(v: DVec2, next: DVec2, before: DVec2, w: DVec2) -> bool {
     let (after_next, before_before) = (orient2d(v, next, w) > 0.0, orient2d(v, before, w) < 0.0);
-    if orient2d(v, next, before) > 0.0 { after_next && before_before } else { after_next || before_before }
+    if orient2d(v, next, before) > 0.0 {
+        after_next && before_before
+    } else {
+        after_next || before_before
+    }
 }
 
-/// The longest chain found from a joined walk through walks that are not joined yet and back to a joined one, entering and
-/// leaving every walk at different corners, its two ends at different corners, too.
+/// The longest chain found from a joined walk through walks that are not joined yet and back to a
+/// joined one, entering and leaving every walk at different corners, its two ends at different
+/// corners, too.
 fn longest_ear(cap: &CapWalks, candidates: &[Bridge], is_joined: &[bool]) -> Option<Vec<Bridge>> {
     let mut by_walk = vec![Vec::new(); cap.walks.len()];
     for &bridge in candidates {
@@ -275,7 +302,15 @@ fn longest_ear(cap: &CapWalks, candidates: &[Bridge], is_joined: &[bool]) -> Opt
         by_walk[bridge.to.0].push(Bridge { from: bridge.to, to: bridge.from, ..bridge });
     }
     let wanted = is_joined.iter().filter(|joined| !**joined).count();
-    let mut search = EarSearch { cap, by_walk, is_joined, is_used: is_joined.to_vec(), best: None, steps: 0, wanted };
+    let mut search = EarSearch {
+        cap,
+        by_walk,
+        is_joined,
+        is_used: is_joined.to_vec(),
+        best: None,
+        steps: 0,
+        wanted,
+    };
     for w in (0..cap.walks.len()).filter(|&w| is_joined[w]) {
         for i in 0..search.by_walk[w].len() {
             let first = search.by_walk[w][i];

@@ -1,7 +1,8 @@
 //! A chain of cuts on one mesh, in place: for callers who choose every plane themselves.
 //!
-//! The workspace of the cutting operator lives through the whole chain, so a local cut costs time in proportion to what it
-//! removes, however large the mesh is. Ids of what is not cut stay as they are until [`CutChain::finish`].
+//! The workspace of the cutting operator lives through the whole chain, so a local cut costs time
+//! in proportion to what it removes, however large the mesh is. Ids of what is not cut stay as they
+//! are until [`CutChain::finish`].
 
 use glam::DVec3;
 
@@ -40,7 +41,8 @@ impl CutChain {
         Self { cutter }
     }
 
-    /// Makes room for so many cuts to come, where they take off corners with three edges. Optional: it saves moving growing tables.
+    /// Makes room for so many cuts to come, where they take off corners with three edges. Optional:
+    /// it saves moving growing tables.
     pub fn reserve(&mut self, cuts: usize) {
         self.cutter.reserve(cuts);
     }
@@ -50,25 +52,32 @@ impl CutChain {
         &self.cutter.mesh
     }
 
-    /// Cuts with a constructed plane: what lies within the rounding bound counts as on it. Returns the caps, none if the
-    /// plane missed. A cut may remove everything.
+    /// Cuts with a constructed plane: what lies within the rounding bound counts as on it. Returns
+    /// the caps, none if the plane missed. A cut may remove everything.
     pub fn cut(&mut self, plane: &Plane, reach: Reach<'_>) -> &[FaceId] {
         self.cutter.cut(&SlicingPlane { plane: *plane, given: None }, reach);
         &self.cutter.done.caps
     }
 
-    /// Cuts with a plane whose numbers are given, not computed: on which side given vertices lie is exact.
+    /// Cuts with a plane whose numbers are given, not computed: on which side given vertices lie is
+    /// exact.
     ///
     /// # Errors
     /// [`OpError::NoDirection`] and [`OpError::BadPoint`] for numbers that are no plane.
-    pub fn cut_given(&mut self, normal: DVec3, point: DVec3, reach: Reach<'_>) -> Result<&[FaceId], OpError> {
+    pub fn cut_given(
+        &mut self,
+        normal: DVec3,
+        point: DVec3,
+        reach: Reach<'_>,
+    ) -> Result<&[FaceId], OpError> {
         let plane = SlicingPlane::given(normal, point)?;
         self.cutter.cut(&plane, reach);
         Ok(&self.cutter.done.caps)
     }
 
-    /// How many holes of the last cut's section could not be joined to their cap, because the mesh touches or crosses itself
-    /// there; each has a face of its own that lies on the cap and looks the other way.
+    /// How many holes of the last cut's section could not be joined to their cap, because the mesh
+    /// touches or crosses itself there; each has a face of its own that lies on the cap and looks
+    /// the other way.
     pub fn lids(&self) -> usize {
         self.cutter.done.lids
     }

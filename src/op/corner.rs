@@ -1,8 +1,9 @@
 //! The most frequent local cut: one corner comes off, and nothing else lies in front of the plane.
 //!
-//! Where every neighbour of the corner lies behind the plane and every face around it is convex, the section is known
-//! without looking farther: one new vertex on each edge of the corner, one cap. Nothing is divided that would be removed
-//! again, so the cut costs as much as the corner has edges, whatever the sizes of its faces and of the mesh.
+//! Where every neighbour of the corner lies behind the plane and every face around it is convex,
+//! the section is known without looking farther: one new vertex on each edge of the corner, one
+//! cap. Nothing is divided that would be removed again, so the cut costs as much as the corner has
+//! edges, whatever the sizes of its faces and of the mesh.
 
 use super::cutter::{Capping, Cutter, End, SlicingPlane};
 use crate::geom::{Plane, Side};
@@ -27,7 +28,8 @@ pub(super) struct CornerWork {
 }
 
 impl Cutter {
-    /// Cuts off the corner `v` if it is the simple case; else returns `false` and has changed nothing.
+    /// Cuts off the corner `v` if it is the simple case; else returns `false` and has changed
+    /// nothing.
     pub(super) fn cut_corner(&mut self, plane: &SlicingPlane, v: VertexId) -> bool {
         if plane.given.is_some() || !self.mesh.has_vertex(v) {
             return false;
@@ -46,7 +48,13 @@ impl Cutter {
     }
 
     /// Collects the edges, planes and new places; tells whether the corner is the simple case.
-    fn look_at_corner(&mut self, plane: &Plane, v: VertexId, here: End, work: &mut CornerWork) -> bool {
+    fn look_at_corner(
+        &mut self,
+        plane: &Plane,
+        v: VertexId,
+        here: End,
+        work: &mut CornerWork,
+    ) -> bool {
         let CornerWork { outgoing, planes, ends, places, .. } = work;
         outgoing.clear();
         outgoing.extend(self.mesh.outgoing(v));
@@ -105,11 +113,16 @@ impl Cutter {
             Capping::Always => false,
             Capping::Never => true,
         };
-        self.register_cap(cap, if stays_open { FaceKind::Hole } else { FaceKind::Solid }, &plane.plane);
+        self.register_cap(
+            cap,
+            if stays_open { FaceKind::Hole } else { FaceKind::Solid },
+            &plane.plane,
+        );
         self.done.caps.extend((!stays_open).then_some(cap));
     }
 
-    /// Whether every line meets the face in one piece. Asked once for each face; a cut leaves convex faces convex.
+    /// Whether every line meets the face in one piece. Asked once for each face; a cut leaves
+    /// convex faces convex.
     #[inline]
     pub(super) fn is_convex(&mut self, f: FaceId) -> bool {
         if self.shapes[f.index()] == UNKNOWN {
@@ -126,7 +139,9 @@ impl Cutter {
     }
 
     fn finds_convex(&mut self, f: FaceId) -> bool {
-        let Some(first) = self.mesh.face_start(f).filter(|_| !self.mesh.is_hole(f)) else { return false };
+        let Some(first) = self.mesh.face_start(f).filter(|_| !self.mesh.is_hole(f)) else {
+            return false;
+        };
         let (second, third) = (self.mesh.next(first), self.mesh.next(self.mesh.next(first)));
         if self.mesh.next(third) == first {
             let [a, b, c] = [first, second, third].map(|h| self.mesh.origin(h));
@@ -137,9 +152,11 @@ impl Cutter {
         let corner = |h: HalfEdgeId| self.mesh.position(self.mesh.origin(h));
         let origin = corner(first);
         let mut h = second;
-        // It turns left everywhere, and it does so once: seen from its first corner it never turns back.
+        // It turns left everywhere, and it does so once: seen from its first corner it never turns
+        // back.
         while h != first {
-            let (before, here, after) = (corner(self.mesh.prev(h)), corner(h), corner(self.mesh.next(h)));
+            let (before, here, after) =
+                (corner(self.mesh.prev(h)), corner(h), corner(self.mesh.next(h)));
             let turns_left = normal.dot((here - before).cross(after - here)) >= 0.0;
             if !turns_left || normal.dot((here - origin).cross(after - origin)) < 0.0 {
                 return false;

@@ -1,11 +1,13 @@
-//! The one cutting operator: takes off what lies on the normal side of a plane and closes the wound.
+//! The one cutting operator: takes off what lies on the normal side of a plane and closes the
+//! wound.
 //!
-//! Source: Gonen 2007, III.A, made exact and general as `docs/operators.md` says. Three steps for each plane:
-//! *reach* (which vertices lie on the normal side and hang together with the chosen element), *divide* (faces that lie on
-//! both sides are divided along the plane, `divide.rs`), *close* (the region in front is replaced by caps, `section.rs`).
+//! Source: Gonen 2007, III.A, made exact and general as `docs/operators.md` says. Three steps for
+//! each plane: *reach* (which vertices lie on the normal side and hang together with the chosen
+//! element), *divide* (faces that lie on both sides are divided along the plane, `divide.rs`),
+//! *close* (the region in front is replaced by caps, `section.rs`).
 //!
-//! The workspace lives through a whole chain of cuts: its tables are stamped with the number of the cut instead of being
-//! cleared, so that a local cut costs time in proportion to what it removes.
+//! The workspace lives through a whole chain of cuts: its tables are stamped with the number of the
+//! cut instead of being cleared, so that a local cut costs time in proportion to what it removes.
 
 mod crossing;
 
@@ -25,7 +27,8 @@ use crate::mesh::{EdgeId, FaceId, FaceKind, HalfEdgeId, Mesh, VertexId};
 pub(super) struct SlicingPlane {
     /// The plane; its normal side is removed.
     pub plane: Plane,
-    /// Normal and point as the user gave them, when they were given and not constructed: then signs are exact.
+    /// Normal and point as the user gave them, when they were given and not constructed: then signs
+    /// are exact.
     pub given: Option<(DVec3, DVec3)>,
 }
 
@@ -35,7 +38,8 @@ impl SlicingPlane {
         if !point.is_finite() {
             return Err(OpError::BadPoint(point.x, point.y, point.z));
         }
-        let plane = Plane::new(normal, point).ok_or(OpError::NoDirection(normal.x, normal.y, normal.z))?;
+        let plane =
+            Plane::new(normal, point).ok_or(OpError::NoDirection(normal.x, normal.y, normal.z))?;
         Ok(Self { plane, given: Some((normal, point)) })
     }
 }
@@ -71,12 +75,15 @@ pub(super) struct Cut {
     pub removed: Vec<VertexId>,
     /// Whether the plane missed, or the element was gone: nothing changed.
     pub is_miss: bool,
-    /// The earlier cuts of the round, by number, of which this one removed something that they had made.
+    /// The earlier cuts of the round, by number, of which this one removed something that they had
+    /// made.
     pub met: Vec<usize>,
-    /// The earlier cuts of the round, by number, of which a vertex is a corner of this one's caps, too.
+    /// The earlier cuts of the round, by number, of which a vertex is a corner of this one's caps,
+    /// too.
     pub touched: Vec<usize>,
-    /// How many holes of the section could not be joined to their cap, because the mesh touches or crosses itself there:
-    /// each has a face of its own, which lies on the cap and looks the other way.
+    /// How many holes of the section could not be joined to their cap, because the mesh touches or
+    /// crosses itself there: each has a face of its own, which lies on the cap and looks the other
+    /// way.
     pub lids: usize,
     /// Whether a vertex from before the round is a corner of the caps.
     pub ends_at_vertex: bool,
@@ -97,8 +104,8 @@ impl Cut {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) struct Lineage(u32);
 
-/// The number of a cut and a side in one word. Zero stands for "not asked yet", so that a new table costs nothing until it
-/// is used; the same holds for the other tables of the workspace.
+/// The number of a cut and a side in one word. Zero stands for "not asked yet", so that a new table
+/// costs nothing until it is used; the same holds for the other tables of the workspace.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct StampedSide(u32);
 
@@ -156,7 +163,8 @@ pub(super) struct Cutter {
     pub(super) classified: usize,
 }
 
-/// A table of zeros with room for a sixteenth more, as a copied mesh has it; memory that no cut asks for is never touched.
+/// A table of zeros with room for a sixteenth more, as a copied mesh has it; memory that no cut
+/// asks for is never touched.
 fn zeros<T: Copy + Default>(count: usize) -> Vec<T> {
     let mut table = vec![T::default(); count + count / 16];
     table.truncate(count);
@@ -195,8 +203,9 @@ impl Cutter {
         }
     }
 
-    /// Makes room for so many cuts of corners with three edges: two vertices, three edges and a face more for each. Slots that earlier cuts
-    /// left free count; other cuts only find their room sooner.
+    /// Makes room for so many cuts of corners with three edges: two vertices, three edges and a
+    /// face more for each. Slots that earlier cuts left free count; other cuts only find their room
+    /// sooner.
     pub(super) fn reserve(&mut self, cuts: usize) {
         self.mesh.reserve(2 * cuts, 3 * cuts, cuts);
         for (table, room) in [
@@ -241,8 +250,8 @@ impl Cutter {
         self.mesh.has_vertex(v) && self.born[v.index()] == 0
     }
 
-    /// Cuts with one plane; [`Self::done`] tells what happened. Whatever the signs and the positions are, the mesh is sound
-    /// afterwards.
+    /// Cuts with one plane; [`Self::done`] tells what happened. Whatever the signs and the
+    /// positions are, the mesh is sound afterwards.
     pub(super) fn cut(&mut self, plane: &SlicingPlane, reach: Reach<'_>) {
         self.cut += 1;
         self.done.clear();
@@ -270,9 +279,10 @@ impl Cutter {
         self.undo_needless_divisions();
     }
 
-    // ---- reach -----------------------------------------------------------------------------------------------------
+    // ---- reach ----------------------------------------------------------------------------------
 
-    /// On which side of the plane a vertex lies. Exact for given numbers; constructed ones within the bound are on it.
+    /// On which side of the plane a vertex lies. Exact for given numbers; constructed ones within
+    /// the bound are on it.
     pub(super) fn side(&mut self, plane: &SlicingPlane, v: VertexId) -> Side {
         if let Some(side) = StampedSide(self.sides[v.index()]).of_cut(self.cut) {
             return side;
@@ -323,9 +333,12 @@ impl Cutter {
         }
     }
 
-    /// Finds the side of every vertex, with no more than a distance for those that are clearly off the plane. Returns the
-    /// vertices in front and those on the plane, ascending.
-    pub(super) fn sweep_vertices(&mut self, plane: &SlicingPlane) -> (Vec<VertexId>, Vec<VertexId>) {
+    /// Finds the side of every vertex, with no more than a distance for those that are clearly off
+    /// the plane. Returns the vertices in front and those on the plane, ascending.
+    pub(super) fn sweep_vertices(
+        &mut self,
+        plane: &SlicingPlane,
+    ) -> (Vec<VertexId>, Vec<VertexId>) {
         let clear = self.bound + indistinct(DVec3::splat(self.largest), plane.plane.point());
         let is_by_numbers = self.goes_by_numbers();
         let (mut in_front, mut on) = (Vec::new(), Vec::new());
@@ -364,7 +377,9 @@ impl Cutter {
 
     /// Whether the tables of this cut know the vertex.
     pub(super) fn is_known(&self, v: VertexId) -> bool {
-        self.sides.get(v.index()).is_some_and(|&stamped| StampedSide(stamped).of_cut(self.cut).is_some())
+        self.sides
+            .get(v.index())
+            .is_some_and(|&stamped| StampedSide(stamped).of_cut(self.cut).is_some())
     }
 
     fn reach(&mut self, plane: &SlicingPlane, reach: Reach<'_>) {
@@ -373,7 +388,9 @@ impl Cutter {
                 let all: Vec<VertexId> = self.mesh.vertices().collect();
                 all.into_iter().filter(|&v| self.side(plane, v) == Side::Normal).collect()
             }
-            Reach::Local(seeds) => seeds.iter().copied().filter(|&v| self.side(plane, v) == Side::Normal).collect(),
+            Reach::Local(seeds) => {
+                seeds.iter().copied().filter(|&v| self.side(plane, v) == Side::Normal).collect()
+            }
         };
         let (mut corners, mut faces) = (Vec::new(), Vec::new());
         while let Some(v) = queue.pop() {
@@ -386,7 +403,8 @@ impl Cutter {
                     self.divide_face_at(plane, v, h);
                 }
             }
-            // Dividing may have given the sectors around v new faces; they all lie in front of the plane now.
+            // Dividing may have given the sectors around v new faces; they all lie in front of the
+            // plane now.
             faces.clear();
             faces.extend(self.mesh.outgoing(v).map(|h| self.mesh.face(h)));
             for &f in &faces {
@@ -413,8 +431,8 @@ impl Cutter {
         }
     }
 
-    /// Passes the walk on to the corners of a face in front. A rim is left where it leaves the front: what hangs together
-    /// only by a rim does not hang together.
+    /// Passes the walk on to the corners of a face in front. A rim is left where it leaves the
+    /// front: what hangs together only by a rim does not hang together.
     fn reach_corners(&mut self, plane: &SlicingPlane, f: FaceId, queue: &mut Vec<VertexId>) {
         if self.mesh.is_hole(f) {
             return;
@@ -429,13 +447,14 @@ impl Cutter {
     }
 
     fn visit(&mut self, v: VertexId, queue: &mut Vec<VertexId>) {
-        let has_unvisited_face = self.mesh.outgoing(v).any(|h| self.doomed[self.mesh.face(h).index()] != self.cut);
+        let has_unvisited_face =
+            self.mesh.outgoing(v).any(|h| self.doomed[self.mesh.face(h).index()] != self.cut);
         if has_unvisited_face {
             queue.push(v);
         }
     }
 
-    // ---- what was done ---------------------------------------------------------------------------------------------
+    // ---- what was done --------------------------------------------------------------------------
 
     fn describe_removed(&mut self) {
         let mut seen = std::mem::take(&mut self.reached);
@@ -478,19 +497,25 @@ impl Cutter {
         self.done.touched.dedup();
     }
 
-    /// Takes back divisions of faces of which neither side was removed: parts that a local cut did not reach.
+    /// Takes back divisions of faces of which neither side was removed: parts that a local cut did
+    /// not reach.
     pub(super) fn undo_needless_divisions(&mut self) {
         let cap = self.cap_lineage(self.cut as usize - 1);
         for e in std::mem::take(&mut self.chords) {
             let is_needless = self.mesh.has_edge(e)
-                && self.mesh.edge_faces(e).into_iter().all(|f| !self.mesh.is_hole(f) && self.lineage_of(f) != cap);
+                && self
+                    .mesh
+                    .edge_faces(e)
+                    .into_iter()
+                    .all(|f| !self.mesh.is_hole(f) && self.lineage_of(f) != cap);
             if is_needless {
                 self.mesh.delete_edge(e);
             }
         }
         for v in std::mem::take(&mut self.splits) {
             if self.mesh.has_vertex(v) && self.mesh.valence(v) == 2 {
-                // A vertex on a rim that was really cut has valence 2 as well, but then a cap or the new rim ends there.
+                // A vertex on a rim that was really cut has valence 2 as well, but then a cap or
+                // the new rim ends there.
                 let ends_a_cut = self.mesh.outgoing(v).any(|h| self.was_cut(h, cap));
                 if !ends_a_cut {
                     self.mesh.join_edge(v).expect("the vertex has two edges");
@@ -503,7 +528,7 @@ impl Cutter {
         self.lineage_of(self.mesh.face(h)) == cap
     }
 
-    // ---- elements that the steps make --------------------------------------------------------------------------------
+    // ---- elements that the steps make -----------------------------------------------------------
 
     /// Whether there is nothing but closed surfaces with edges.
     fn is_all_solid(&self) -> bool {
@@ -520,7 +545,8 @@ impl Cutter {
         v
     }
 
-    /// Makes room in the tables for a new vertex, which is like `like` as far as rims are concerned.
+    /// Makes room in the tables for a new vertex, which is like `like` as far as rims are
+    /// concerned.
     pub(super) fn register_vertex(&mut self, v: VertexId, like: VertexId) {
         grow(&mut self.sides, v.index(), 0);
         grow(&mut self.born, v.index(), 0);
@@ -532,7 +558,8 @@ impl Cutter {
         }
     }
 
-    /// Divides a face by an edge; the part in front of the plane, on the edge's left, is the new face.
+    /// Divides a face by an edge; the part in front of the plane, on the edge's left, is the new
+    /// face.
     pub(super) fn insert_chord(&mut self, from: HalfEdgeId, to: HalfEdgeId) -> HalfEdgeId {
         let parent = self.mesh.face(from);
         let e = self
@@ -558,7 +585,9 @@ impl Cutter {
 
     /// Whether the component of `v` had a rim before the command, so that a cut leaves a rim, too.
     pub(super) fn is_open_at(&self, v: VertexId) -> bool {
-        self.is_open.as_ref().is_some_and(|is_open| is_open.get(v.index()).copied().unwrap_or(false))
+        self.is_open
+            .as_ref()
+            .is_some_and(|is_open| is_open.get(v.index()).copied().unwrap_or(false))
     }
 
     /// Registers a face that closes a walk of the wound.
@@ -572,8 +601,9 @@ impl Cutter {
     }
 }
 
-/// How near a given vertex may be to a given plane before the points where its edges cross the plane can no longer be told
-/// from it: cutting there would make edges of no length, or swap points that lie an ulp apart.
+/// How near a given vertex may be to a given plane before the points where its edges cross the
+/// plane can no longer be told from it: cutting there would make edges of no length, or swap points
+/// that lie an ulp apart.
 fn indistinct(x: DVec3, point: DVec3) -> f64 {
     64.0 * f64::EPSILON * x.abs().max(point.abs()).max_element()
 }

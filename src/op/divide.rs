@@ -1,11 +1,13 @@
 //! Divides a face along the slicing plane, so that every part lies on one side.
 //!
-//! The edges that cross the plane are divided first, so that a face has corners of three kinds only: in front, on the
-//! plane, behind. Then chords are inserted between corners on the plane. Where they go is read off the face: along the line
-//! in which face and plane meet, two corners that follow each other are joined when the face lies between them. Whether it
-//! does is decided from signs alone ([`Sector`]). Should the signs contradict each other, as they may when rounding or a
-//! face that is not planar stands behind them, parts that still lie on both sides are divided by the rule that never
-//! fails: the corners before and after a run in front are joined. So any pattern of signs leads to a sound mesh.
+//! The edges that cross the plane are divided first, so that a face has corners of three kinds
+//! only: in front, on the plane, behind. Then chords are inserted between corners on the plane.
+//! Where they go is read off the face: along the line in which face and plane meet, two corners
+//! that follow each other are joined when the face lies between them. Whether it does is decided
+//! from signs alone ([`Sector`]). Should the signs contradict each other, as they may when rounding
+//! or a face that is not planar stands behind them, parts that still lie on both sides are divided
+//! by the rule that never fails: the corners before and after a run in front are joined. So any
+//! pattern of signs leads to a sound mesh.
 
 use glam::DVec3;
 
@@ -13,8 +15,8 @@ use super::cutter::{Cutter, SlicingPlane};
 use crate::geom::{Plane, Side};
 use crate::mesh::{FaceId, HalfEdgeId, VertexId};
 
-/// A corner on the plane: the half-edge that leaves it in its face, its place along the line, and on which sides along
-/// the line the face begins.
+/// A corner on the plane: the half-edge that leaves it in its face, its place along the line, and
+/// on which sides along the line the face begins.
 #[derive(Debug, Clone)]
 struct OnCorner {
     corners: Vec<HalfEdgeId>,
@@ -41,7 +43,8 @@ enum Direction {
     Behind = 3,
 }
 
-/// The interior angle of a face at a corner, from the leaving to the arriving edge, in terms of [`Direction`].
+/// The interior angle of a face at a corner, from the leaving to the arriving edge, in terms of
+/// [`Direction`].
 #[derive(Debug, Clone, Copy)]
 struct Sector {
     from: Direction,
@@ -61,9 +64,9 @@ impl Sector {
 }
 
 impl Cutter {
-    /// Divides the face of `h`, which left `v` in front before edges were split, along the plane if it lies on both sides.
-    /// Where the face is known to be convex only the corners in front are visited: a local cut near a corner of a large face
-    /// stays local.
+    /// Divides the face of `h`, which left `v` in front before edges were split, along the plane if
+    /// it lies on both sides. Where the face is known to be convex only the corners in front are
+    /// visited: a local cut near a corner of a large face stays local.
     pub(super) fn divide_face_at(&mut self, plane: &SlicingPlane, v: VertexId, h: HalfEdgeId) {
         let f = self.mesh.face(h);
         // The division of a neighbour may have split the edge of `h`, whose far half it is then.
@@ -79,8 +82,8 @@ impl Cutter {
         }
     }
 
-    /// Where the run of corners in front that begins with `h` ends in its face, forwards and backwards. `None` unless a
-    /// corner behind the plane follows on both sides.
+    /// Where the run of corners in front that begins with `h` ends in its face, forwards and
+    /// backwards. `None` unless a corner behind the plane follows on both sides.
     fn ends_of_run(&mut self, plane: &SlicingPlane, h: HalfEdgeId) -> Option<[RunEnd; 2]> {
         let mut last = h;
         let after = loop {
@@ -88,7 +91,9 @@ impl Cutter {
             match self.side(plane, self.mesh.target(last)) {
                 Side::Reverse => break RunEnd::Crossing(last),
                 Side::Normal if out != h => last = out,
-                Side::On if self.side(plane, self.mesh.target(out)) == Side::Reverse => break RunEnd::At(out),
+                Side::On if self.side(plane, self.mesh.target(out)) == Side::Reverse => {
+                    break RunEnd::At(out);
+                }
                 _ => return None,
             }
         };
@@ -98,7 +103,10 @@ impl Cutter {
             match self.side(plane, self.mesh.origin(into)) {
                 Side::Reverse => break RunEnd::Crossing(into),
                 Side::Normal if into != h => first = into,
-                Side::On if self.side(plane, self.mesh.origin(self.mesh.prev(into))) == Side::Reverse => {
+                Side::On
+                    if self.side(plane, self.mesh.origin(self.mesh.prev(into)))
+                        == Side::Reverse =>
+                {
                     break RunEnd::At(into);
                 }
                 _ => return None,
@@ -151,7 +159,8 @@ impl Cutter {
     }
 
     fn split_crossing_edges(&mut self, plane: &SlicingPlane, f: FaceId) {
-        let crossing: Vec<HalfEdgeId> = self.mesh.face_half_edges(f).filter(|&h| self.crosses(h)).collect();
+        let crossing: Vec<HalfEdgeId> =
+            self.mesh.face_half_edges(f).filter(|&h| self.crosses(h)).collect();
         self.ensure_plane(f);
         for h in crossing {
             // An edge with this face on both sides comes twice; the first time divided it.
@@ -169,7 +178,8 @@ impl Cutter {
         matches!(ends, [Side::Normal, Side::Reverse] | [Side::Reverse, Side::Normal])
     }
 
-    /// Lets a face carry its plane from the first cut on, so that it cannot drift. Faces that are not planar carry none.
+    /// Lets a face carry its plane from the first cut on, so that it cannot drift. Faces that are
+    /// not planar carry none.
     pub(super) fn ensure_plane(&mut self, f: FaceId) {
         if self.mesh.carried_plane(f).is_some() || self.mesh.is_hole(f) {
             return;
@@ -182,7 +192,13 @@ impl Cutter {
         }
     }
 
-    fn divide_by_line(&mut self, plane: &SlicingPlane, f: FaceId, walk: &[HalfEdgeId], sides: &[Side]) {
+    fn divide_by_line(
+        &mut self,
+        plane: &SlicingPlane,
+        f: FaceId,
+        walk: &[HalfEdgeId],
+        sides: &[Side],
+    ) {
         let mut parts = vec![f];
         if let Some(mut on) = self.corners_along_line(plane, f, walk, sides) {
             for i in 1..on.len() {
@@ -196,8 +212,8 @@ impl Cutter {
         }
     }
 
-    /// The corners on the plane in their order along the line of face and plane; `None` when there is no such line or the
-    /// signs contradict each other.
+    /// The corners on the plane in their order along the line of face and plane; `None` when there
+    /// is no such line or the signs contradict each other.
     fn corners_along_line(
         &mut self,
         plane: &SlicingPlane,
@@ -206,11 +222,13 @@ impl Cutter {
         sides: &[Side],
     ) -> Option<Vec<OnCorner>> {
         let normal = self.mesh.plane(f)?.normal();
-        let front = (plane.plane.normal() - normal * plane.plane.normal().dot(normal)).try_normalize()?;
+        let front =
+            (plane.plane.normal() - normal * plane.plane.normal().dot(normal)).try_normalize()?;
         let ahead = front.cross(normal);
         let origin = self.mesh.position(self.mesh.origin(walk[0]));
         let n = walk.len();
-        let place = |c: &Self, i: usize| ahead.dot(c.mesh.position(c.mesh.origin(walk[i % n])) - origin);
+        let place =
+            |c: &Self, i: usize| ahead.dot(c.mesh.position(c.mesh.origin(walk[i % n])) - origin);
         let mut on = Vec::new();
         for i in (0..n).filter(|&i| sides[i] == Side::On) {
             let direction = |j: usize| match sides[j % n] {
@@ -230,7 +248,9 @@ impl Cutter {
             });
         }
         // Where a face touches itself in a point, what ends there comes before what begins.
-        on.sort_by(|a, b| a.place.total_cmp(&b.place).then(b.is_inside_before.cmp(&a.is_inside_before)));
+        on.sort_by(|a, b| {
+            a.place.total_cmp(&b.place).then(b.is_inside_before.cmp(&a.is_inside_before))
+        });
         let agree = on.windows(2).all(|w| w[0].is_inside_after == w[1].is_inside_before);
         let ends_outside = !on.first()?.is_inside_before && !on.last()?.is_inside_after;
         (agree && ends_outside).then_some(on)
@@ -245,8 +265,11 @@ impl Cutter {
 
     /// Joins the corners `i − 1` and `i` along the line, in whatever part of the face both lie.
     fn join_neighbours(&mut self, on: &mut [OnCorner], i: usize, parts: &mut Vec<FaceId>) {
-        let in_one_part = on[i - 1].corners.iter().flat_map(|&a| on[i].corners.iter().map(move |&b| (a, b)));
-        let pair = in_one_part.into_iter().find(|&(a, b)| a != b && self.mesh.face(a) == self.mesh.face(b));
+        let in_one_part =
+            on[i - 1].corners.iter().flat_map(|&a| on[i].corners.iter().map(move |&b| (a, b)));
+        let pair = in_one_part
+            .into_iter()
+            .find(|&(a, b)| a != b && self.mesh.face(a) == self.mesh.face(b));
         if let Some((a, b)) = pair {
             let chord = self.insert_chord(a, b);
             parts.push(self.mesh.face(chord));
@@ -255,12 +278,13 @@ impl Cutter {
         }
     }
 
-    /// Divides a part that still lies on both sides: each run of corners in front is cut off by the chord between the
-    /// corners on the plane before and after it.
+    /// Divides a part that still lies on both sides: each run of corners in front is cut off by the
+    /// chord between the corners on the plane before and after it.
     fn divide_by_runs(&mut self, part: FaceId) {
         loop {
             let walk: Vec<HalfEdgeId> = self.mesh.face_half_edges(part).collect();
-            let sides: Vec<Side> = walk.iter().map(|&h| self.known_side(self.mesh.origin(h))).collect();
+            let sides: Vec<Side> =
+                walk.iter().map(|&h| self.known_side(self.mesh.origin(h))).collect();
             let both = sides.contains(&Side::Normal) && sides.contains(&Side::Reverse);
             let Some((after, before)) = first_run(&sides).filter(|_| both) else { return };
             self.insert_chord(walk[after], walk[before]);
@@ -268,17 +292,19 @@ impl Cutter {
     }
 }
 
-/// The only chord of a face with one run in front and one behind, divided by single corners: (first corner after the run
-/// in front, last corner before it).
+/// The only chord of a face with one run in front and one behind, divided by single corners: (first
+/// corner after the run in front, last corner before it).
 fn single_chord(sides: &[Side]) -> Option<(usize, usize)> {
     let on = sides.iter().filter(|&&s| s == Side::On).count();
     if on == 2 { first_run(sides) } else { None }
 }
 
-/// The corners on the plane after and before the first run in front; `None` without a run or without such corners.
+/// The corners on the plane after and before the first run in front; `None` without a run or
+/// without such corners.
 fn first_run(sides: &[Side]) -> Option<(usize, usize)> {
     let n = sides.len();
-    let start = (0..n).find(|&i| sides[i] == Side::Normal && sides[(i + n - 1) % n] != Side::Normal)?;
+    let start =
+        (0..n).find(|&i| sides[i] == Side::Normal && sides[(i + n - 1) % n] != Side::Normal)?;
     let length = (1..n).find(|&k| sides[(start + k) % n] != Side::Normal)?;
     Some(((start + length) % n, (start + n - 1) % n))
 }

@@ -14,14 +14,18 @@ pub enum OpError {
     Select(#[from] SelectError),
     /// The offset is not in (0, 2].
     #[error(
-        "the offset is {offset}, but it must be above 0 (the element itself) and at most 2 (1 is the far ends of the edges)"
+        "the offset is {offset}, but it must be above 0 (the element itself) and at most 2 (1 is \
+        the far ends of the edges)"
     )]
     OffsetOutOfRange {
         /// What was given.
         offset: f64,
     },
     /// The bend is not in [−1, 1].
-    #[error("the bend is {bend}, but it must lie between -1 (the plane of one face) and 1 (the plane of the other)")]
+    #[error(
+        "the bend is {bend}, but it must lie between -1 (the plane of one face) and 1 (the plane \
+        of the other)"
+    )]
     BendOutOfRange {
         /// What was given.
         bend: f64,
@@ -35,29 +39,40 @@ pub enum OpError {
         limit: u32,
     },
     /// The normal of a slicing plane is zero or not finite.
-    #[error("the normal ({0}, {1}, {2}) has no direction; give three numbers that are not all zero")]
+    #[error(
+        "the normal ({0}, {1}, {2}) has no direction; give three numbers that are not all zero"
+    )]
     NoDirection(f64, f64, f64),
     /// A point is not finite.
     #[error("the point ({0}, {1}, {2}) is not finite")]
     BadPoint(f64, f64, f64),
     /// The normals around a vertex cancel, or its faces have no area.
     #[error(
-        "no slicing plane at vertex {0}: its face normals cancel or its faces have no area; leave it out of the selection"
+        "no slicing plane at vertex {0}: its face normals cancel or its faces have no area; leave \
+        it out of the selection"
     )]
     NoPlaneAtVertex(VertexId),
     /// The normals of an edge's faces cancel, or nothing leaves its ends.
     #[error(
-        "no slicing plane at edge {0}: its face normals cancel or no other edge leaves its ends; leave it out of the selection"
+        "no slicing plane at edge {0}: its face normals cancel or no other edge leaves its ends; \
+        leave it out of the selection"
     )]
     NoPlaneAtEdge(EdgeId),
     /// A face has no area, or no edge leaves it.
-    #[error("no slicing plane at face {0}: it has no area or no edge leaves it; leave it out of the selection")]
+    #[error(
+        "no slicing plane at face {0}: it has no area or no edge leaves it; leave it out of the \
+        selection"
+    )]
     NoPlaneAtFace(FaceId),
     /// A step has one mesh as its result, but both parts of a slice were asked for.
-    #[error("keeping both parts gives two models, but only one can go on from here; keep `reverse` or `normal`")]
+    #[error(
+        "keeping both parts gives two models, but only one can go on from here; keep `reverse` or \
+        `normal`"
+    )]
     TwoParts,
     /// The cuts take everything away.
-    #[error("nothing is left: the {cut} of {cuts} cuts removes the rest of the model; use a smaller offset, fewer elements or a local scope", cut = ordinal(*cut))]
+    #[error("nothing is left: the {cut} of {cuts} cuts removes the rest of the model; use a \
+    smaller offset, fewer elements or a local scope", cut = ordinal(*cut))]
     NothingLeft {
         /// Which cut it was, counted from 1.
         cut: usize,
@@ -66,7 +81,8 @@ pub enum OpError {
     },
     /// Cuts that were to be disjoint meet others however small they are.
     #[error(
-        "the cuts of elements {} cannot be kept apart: they share vertices, or their planes run through other parts of the model; choose elements that do not touch each other, or a local scope, or do not ask for disjoint cuts",
+        "the cuts of elements {} cannot be kept apart: they share vertices, or their planes run \
+        through other parts of the model; choose elements that do not touch each other, or a local scope, or do not ask for disjoint cuts",
         first_few(elements)
     )]
     NotDisjoint {
@@ -74,7 +90,10 @@ pub enum OpError {
         elements: Vec<usize>,
     },
     /// Faces cannot be moved by less than rounding.
-    #[error("the depth is {depth} mm, but it must be above {least:.3e} mm, the rounding at this size and place")]
+    #[error(
+        "the depth is {depth} mm, but it must be above {least:.3e} mm, the rounding at this size \
+        and place"
+    )]
     DepthTooSmall {
         /// What was given, in mm.
         depth: f64,
@@ -92,7 +111,10 @@ pub enum OpError {
         limit: u32,
     },
     /// The concavity is not in (0, 1].
-    #[error("the concavity is {concavity}, but it must be above 0 (convex parts only) and at most 1 (one part)")]
+    #[error(
+        "the concavity is {concavity}, but it must be above 0 (convex parts only) and at most 1 \
+        (one part)"
+    )]
     ConcavityOutOfRange {
         /// What was given.
         concavity: f64,
@@ -164,7 +186,8 @@ pub enum OpError {
     },
     /// Faces that are not planar and have no corner that may move.
     #[error(
-        "faces {} are not planar, but all of their corners are fixed; free some of them, or fix fewer rims",
+        "faces {} are not planar, but all of their corners are fixed; free some of them, or fix \
+        fewer rims",
         first_few(faces)
     )]
     AllCornersFixed {
@@ -184,7 +207,9 @@ pub enum OpError {
     #[error("every face would be opened, so nothing would be left; leave at least one face out")]
     AllOpened,
     /// An angle is not in its range.
-    #[error("the {what} angle is {degrees} degrees, but it must be at least {least} and below {limit}")]
+    #[error(
+        "the {what} angle is {degrees} degrees, but it must be at least {least} and below {limit}"
+    )]
     AngleOutOfRange {
         /// Which angle.
         what: &'static str,
@@ -197,7 +222,8 @@ pub enum OpError {
     },
     /// The operator needs a closed mesh.
     #[error(
-        "{what} needs a closed mesh, but this one has {holes} holes; close them first, or make a shell of it with `rind`"
+        "{what} needs a closed mesh, but this one has {holes} holes; close them first, or make a \
+        shell of it with `rind`"
     )]
     NotClosed {
         /// What was to be made.
@@ -207,7 +233,8 @@ pub enum OpError {
     },
     /// The exact Menger sponge of something else.
     #[error(
-        "the exact sponge is that of a cube, box or parallelepiped with 6 faces and 8 corners; leave `exact` out for other solids"
+        "the exact sponge is that of a cube, box or parallelepiped with 6 faces and 8 corners; \
+        leave `exact` out for other solids"
     )]
     NotABox,
     /// A face or corner that is not there.

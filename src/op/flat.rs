@@ -5,8 +5,9 @@ use crate::geom::Side;
 use crate::mesh::{FaceId, HalfEdgeId, VertexId};
 
 impl Cutter {
-    /// Faces with every corner on the plane: those that look against the plane's normal bound what is removed and go; those
-    /// that look along it stay, if anything behind the plane holds them. A local cut asks only those next to its region.
+    /// Faces with every corner on the plane: those that look against the plane's normal bound what
+    /// is removed and go; those that look along it stay, if anything behind the plane holds them. A
+    /// local cut asks only those next to its region.
     pub(super) fn decide_flat_faces(&mut self, plane: &SlicingPlane, is_global: bool) {
         let mut next = 0;
         while next < self.region.len() {
@@ -24,9 +25,11 @@ impl Cutter {
         }
     }
 
-    /// A hollow may end at the plane with material above: its ceiling has no neighbour in front, yet the cut opens it.
+    /// A hollow may end at the plane with material above: its ceiling has no neighbour in front,
+    /// yet the cut opens it.
     fn open_ceilings(&mut self, plane: &SlicingPlane) {
-        let on: Vec<VertexId> = self.mesh.vertices().filter(|&v| self.known_side(v) == Side::On).collect();
+        let on: Vec<VertexId> =
+            self.mesh.vertices().filter(|&v| self.known_side(v) == Side::On).collect();
         for v in on.into_iter().filter(|&v| !self.is_open_at(v)).collect::<Vec<_>>() {
             let faces: Vec<FaceId> = self.mesh.vertex_faces(v).collect();
             for f in faces {

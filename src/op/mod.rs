@@ -43,7 +43,9 @@ pub use planarize::{PlanarizeParams, PlanarizeReport, RimRule, planarize};
 pub use report::CutReport;
 pub use resolve::{ResolveParams, ResolveReport, resolve};
 pub use rind::{GroupThickness, RindParams, RindReport, ShellSource, rind};
-pub use sierpinski::{SierpinskiParams, SierpinskiReport, VertexKind, sierpinski, sierpinski_forecast, vertex_kind};
+pub use sierpinski::{
+    SierpinskiParams, SierpinskiReport, VertexKind, sierpinski, sierpinski_forecast, vertex_kind,
+};
 pub use slice::{Direction, Keep, Point, SliceParams, slice, slice_both};
 pub use subdivide::{Scheme, SubdivideParams, subdivide};
 pub use truncate::{Disjoint, OpContext, Scope};

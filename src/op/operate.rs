@@ -1,4 +1,5 @@
-//! What all operators on one mesh have in common, so that a recipe and the command line can carry out any of them.
+//! What all operators on one mesh have in common, so that a recipe and the command line can carry
+//! out any of them.
 
 use std::fmt;
 use std::path::Path;
@@ -6,10 +7,10 @@ use std::path::Path;
 use glam::DVec3;
 
 use super::{
-    HandleAxis, HandleParams, HullParams, MengerParams, OpContext, OpError, PlanarizeParams, ResolveParams, RindParams,
-    SierpinskiParams, SliceParams, SubdivideParams, TruncateEdge, TruncateFace, TruncateVertex, handle, hull, menger,
-    planarize, resolve, rind, sierpinski, sierpinski_forecast, slice, subdivide, truncate_edges, truncate_faces,
-    truncate_vertices,
+    HandleAxis, HandleParams, HullParams, MengerParams, OpContext, OpError, PlanarizeParams,
+    ResolveParams, RindParams, SierpinskiParams, SliceParams, SubdivideParams, TruncateEdge,
+    TruncateFace, TruncateVertex, handle, hull, menger, planarize, resolve, rind, sierpinski,
+    sierpinski_forecast, slice, subdivide, truncate_edges, truncate_faces, truncate_vertices,
 };
 use crate::mesh::Mesh;
 use crate::select::Made;
@@ -19,18 +20,20 @@ use crate::select::Made;
 pub struct Operated {
     /// The new mesh.
     pub mesh: Mesh,
-    /// What the selections `made` and `strip` of the next step mean; `None` when the operator does not say.
+    /// What the selections `made` and `strip` of the next step mean; `None` when the operator does
+    /// not say.
     pub made: Option<Made>,
     /// What the user should know, in words.
     pub notes: Vec<String>,
-    /// Whether the operator reached what was asked for; if not, the notes say what is missing, and the command line ends with 1.
+    /// Whether the operator reached what was asked for; if not, the notes say what is missing, and
+    /// the command line ends with 1.
     pub is_clean: bool,
 }
 
 /// The parameters of an operator that takes one mesh and makes one.
 ///
-/// Implemented by parameter structs. A new operator implements it, gets a variant in `cli` and a row in the table of `recipe`,
-/// and is then a verb and a step.
+/// Implemented by parameter structs. A new operator implements it, gets a variant in `cli` and a
+/// row in the table of `recipe`, and is then a verb and a step.
 pub trait Operate: fmt::Debug + Send + Sync {
     /// Does it.
     ///
@@ -38,7 +41,8 @@ pub trait Operate: fmt::Debug + Send + Sync {
     /// Those of the operator itself.
     fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError>;
 
-    /// What can be said of the mesh before the work begins, in words; the notes of the result say it again.
+    /// What can be said of the mesh before the work begins, in words; the notes of the result say
+    /// it again.
     fn forecast(&self, _mesh: &Mesh) -> Vec<String> {
         Vec::new()
     }
@@ -115,21 +119,36 @@ impl Operate for SierpinskiParams {
 impl Operate for RindParams {
     fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError> {
         let (mesh, made, report) = rind(mesh, self, context)?;
-        Ok(Operated { mesh, made: Some(made), notes: report.notes(), is_clean: report.crossing.is_empty() })
+        Ok(Operated {
+            mesh,
+            made: Some(made),
+            notes: report.notes(),
+            is_clean: report.crossing.is_empty(),
+        })
     }
 }
 
 impl Operate for MengerParams {
     fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError> {
         let (mesh, report) = menger(mesh, self, context)?;
-        Ok(Operated { mesh, made: None, notes: report.notes(), is_clean: report.crossing.is_empty() })
+        Ok(Operated {
+            mesh,
+            made: None,
+            notes: report.notes(),
+            is_clean: report.crossing.is_empty(),
+        })
     }
 }
 
 impl Operate for HandleParams {
     fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError> {
         let (mesh, made, report) = handle(mesh, self, context)?;
-        Ok(Operated { mesh, made: Some(made), notes: report.notes(), is_clean: report.crossing.is_empty() })
+        Ok(Operated {
+            mesh,
+            made: Some(made),
+            notes: report.notes(),
+            is_clean: report.crossing.is_empty(),
+        })
     }
 
     fn points_file(&self) -> Option<&Path> {

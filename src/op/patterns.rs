@@ -1,4 +1,5 @@
-//! Any pattern of the three sides, drawn at random and whatever the positions say, must lead to a sound mesh.
+//! Any pattern of the three sides, drawn at random and whatever the positions say, must lead to a
+//! sound mesh.
 
 use glam::DVec3;
 use proptest::prelude::*;
@@ -19,7 +20,8 @@ fn prism(n: usize) -> Mesh {
         })
     };
     let sides = (0..n).map(|i| vec![i, (i + 1) % n, n + (i + 1) % n, n + i]);
-    let faces: Vec<Vec<usize>> = sides.chain([(0..n).rev().collect(), (n..2 * n).collect()]).collect();
+    let faces: Vec<Vec<usize>> =
+        sides.chain([(0..n).rev().collect(), (n..2 * n).collect()]).collect();
     Mesh::from_faces(ring(0.0).chain(ring(1.0)), faces).expect("a prism")
 }
 
@@ -90,14 +92,20 @@ fn cut_by_pattern(mesh: Mesh, pattern: &[u8], capping: Capping, seed: Option<usi
     cutter.capping = capping;
     let sides = [Side::Reverse, Side::On, Side::Normal];
     cutter.pattern = pattern.iter().map(|&p| sides[usize::from(p) % 3]).collect();
-    let plane = SlicingPlane { plane: Plane::new(DVec3::Z, DVec3::splat(0.5)).expect("a plane"), given: None };
+    let plane = SlicingPlane {
+        plane: Plane::new(DVec3::Z, DVec3::splat(0.5)).expect("a plane"),
+        given: None,
+    };
     let reach = if seeds.is_empty() { Reach::Global } else { Reach::Local(&seeds) };
     cutter.cut(&plane, reach);
     assert!(cutter.done.caps.iter().all(|&f| cutter.mesh.has_face(f) && !cutter.mesh.is_hole(f)));
     assert_sound(&cutter.mesh);
     // The chain goes on by numbers.
     cutter.pattern.clear();
-    let plane = SlicingPlane { plane: Plane::new(DVec3::X, DVec3::splat(0.1)).expect("a plane"), given: None };
+    let plane = SlicingPlane {
+        plane: Plane::new(DVec3::X, DVec3::splat(0.1)).expect("a plane"),
+        given: None,
+    };
     cutter.cut(&plane, Reach::Global);
     assert_sound(&cutter.mesh);
     cutter.mesh.compact();
@@ -166,13 +174,15 @@ fn the_work_of_a_local_cut_does_not_grow_with_the_mesh() {
     let work = |faces: usize| {
         let mesh = crate::shape::random_tangent_polytope(faces, 7);
         let v = VertexId::new(faces / 2);
-        let around: Vec<DVec3> = mesh.vertex_faces(v).filter_map(|f| mesh.plane(f)).map(|p| p.normal()).collect();
+        let around: Vec<DVec3> =
+            mesh.vertex_faces(v).filter_map(|f| mesh.plane(f)).map(|p| p.normal()).collect();
         let normal = around.iter().sum::<DVec3>().normalize();
         let mut cutter = Cutter::new(mesh);
         let fall = |u| normal.dot(cutter.mesh.position(v) - cutter.mesh.position(u));
         let depth = 0.5 * cutter.mesh.neighbours(v).map(fall).fold(f64::INFINITY, f64::min);
         let point = cutter.mesh.position(v) - normal * depth;
-        let plane = SlicingPlane { plane: Plane::new(normal, point).expect("a plane"), given: None };
+        let plane =
+            SlicingPlane { plane: Plane::new(normal, point).expect("a plane"), given: None };
         cutter.cut(&plane, Reach::Local(&[v]));
         let cut = &cutter.done;
         assert_eq!((cut.removed.len(), cut.caps.len()), (1, 1));

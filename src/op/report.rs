@@ -17,15 +17,16 @@ pub struct CutReport {
     pub cuts: usize,
     /// How many of them met nothing: the plane missed, or earlier cuts had removed the element.
     pub missed: usize,
-    /// How many holes of sections could not be joined to their caps, because the mesh touches or crosses itself there. Each
-    /// has a face of its own, a lid that lies on the cap and looks the other way: the mesh is sound and its volume right, but
-    /// the lid is no panel.
+    /// How many holes of sections could not be joined to their caps, because the mesh touches or
+    /// crosses itself there. Each has a face of its own, a lid that lies on the cap and looks the
+    /// other way: the mesh is sound and its volume right, but the lid is no panel.
     pub lids: usize,
-    /// The elements whose cut was not disjoint from the others, by their number in the mesh of their round: it removed a
-    /// vertex that was not its own, or something that another cut had made.
+    /// The elements whose cut was not disjoint from the others, by their number in the mesh of
+    /// their round: it removed a vertex that was not its own, or something that another cut had
+    /// made.
     pub overcut: Vec<usize>,
-    /// The elements whose offset was made smaller so that the cuts are disjoint, by their number in the mesh of their round,
-    /// and the offset that was used.
+    /// The elements whose offset was made smaller so that the cuts are disjoint, by their number in
+    /// the mesh of their round, and the offset that was used.
     pub shrunk: Vec<(usize, f64)>,
     /// What was made, for the selections `made` and `strip` of the next step.
     pub made: Made,
@@ -42,11 +43,14 @@ impl CutReport {
     pub fn notes(&self, element: &str) -> Vec<String> {
         let mut notes = Vec::new();
         if self.is_beyond_far_ends {
-            notes.push("the offset is above 1: the planes lie beyond the far ends of the edges".to_owned());
+            notes.push(
+                "the offset is above 1: the planes lie beyond the far ends of the edges".to_owned(),
+            );
         }
         if self.lids > 0 {
             notes.push(format!(
-                "{} holes of sections could not be joined to their caps since the model touches or crosses itself there: each is closed by a face that lies on the cap; repair the model, or cut without caps",
+                "{} holes of sections could not be joined to their caps since the model touches or \
+                crosses itself there: each is closed by a face that lies on the cap; repair the model, or cut without caps",
                 self.lids
             ));
         }
@@ -55,17 +59,23 @@ impl CutReport {
         }
         if !self.overcut.is_empty() {
             notes.push(format!(
-                "{} cuts met each other ({element} {}): the caps are not disjoint; a smaller offset keeps them apart",
+                "{} cuts met each other ({element} {}): the caps are not disjoint; a smaller \
+                offset keeps them apart",
                 self.overcut.len(),
                 first_few(&self.overcut, 12)
             ));
         }
         if let Some(least) = self.shrunk.iter().map(|s| s.1).min_by(f64::total_cmp) {
             let count = self.shrunk.len();
-            notes.push(format!("{count} offsets were made smaller to keep the cuts apart, the least to {least:.4}"));
+            notes.push(format!(
+                "{count} offsets were made smaller to keep the cuts apart, the least to {least:.4}"
+            ));
         }
         if !self.not_three_valent.is_empty() {
-            notes.push(format!("{} vertices have other than three edges", self.not_three_valent.len()));
+            notes.push(format!(
+                "{} vertices have other than three edges",
+                self.not_three_valent.len()
+            ));
         }
         if self.components > 1 {
             notes.push(format!("the model now has {} parts", self.components));
@@ -89,13 +99,19 @@ impl RoundMarks {
         let mesh = &cutter.mesh;
         let is_cap = |f: FaceId| self.caps.binary_search(&cutter.lineage_of(f)).is_ok();
         let faces: Vec<FaceId> = mesh.faces().filter(|&f| is_cap(f)).collect();
-        let mut vertices: Vec<VertexId> = faces.iter().flat_map(|&f| mesh.face_vertices(f)).collect();
+        let mut vertices: Vec<VertexId> =
+            faces.iter().flat_map(|&f| mesh.face_vertices(f)).collect();
         vertices.sort_unstable();
         vertices.dedup();
-        let mut edges: Vec<_> = faces.iter().flat_map(|&f| mesh.face_half_edges(f)).map(|h| h.edge()).collect();
+        let mut edges: Vec<_> =
+            faces.iter().flat_map(|&f| mesh.face_half_edges(f)).map(|h| h.edge()).collect();
         edges.sort_unstable();
         edges.dedup();
-        let strip = edges.iter().copied().filter(|&e| self.runs_along_strip(cutter, mesh.edge_faces(e))).collect();
+        let strip = edges
+            .iter()
+            .copied()
+            .filter(|&e| self.runs_along_strip(cutter, mesh.edge_faces(e)))
+            .collect();
         Made { vertices, edges, strip, faces }
     }
 

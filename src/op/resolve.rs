@@ -1,8 +1,9 @@
-//! Resolving: brings vertices where more than three edges meet back to three, by moving faces inwards by a tiny amount.
+//! Resolving: brings vertices where more than three edges meet back to three, by moving faces
+//! inwards by a tiny amount.
 //!
-//! Source: our own; the reason is Gonen 2007, II (three planes meet in one point whatever their offsets, more do not). Moving
-//! one face at a vertex of valence k inwards lets each of the k − 2 edges that leave the face there meet it in a point of its
-//! own:
+//! Source: our own; the reason is Gonen 2007, II (three planes meet in one point whatever their
+//! offsets, more do not). Moving one face at a vertex of valence k inwards lets each of the k − 2
+//! edges that leave the face there meet it in a point of its own:
 //!
 //! ```text
 //!   \ | /            \  |  /
@@ -11,10 +12,12 @@
 //!   face              face
 //! ```
 //!
-//! Needs: a face at the vertex that is planar, touches no rim, and from whose corners all other edges lead down; convex solids
-//! have nothing else. Faces that resolve many vertices come first. Where an edge is too short for the whole move, as the new
-//! ones at a neighbour's corner are, a face moves half as far as that edge leads down. Keeps: every other plane; genus; the number of faces. Changes: V + (k − 3), E + (k − 3) for each vertex. Degenerate: vertices
-//! without such a face, saddles for one, stay as they are and are named.
+//! Needs: a face at the vertex that is planar, touches no rim, and from whose corners all other
+//! edges lead down; convex solids have nothing else. Faces that resolve many vertices come first.
+//! Where an edge is too short for the whole move, as the new ones at a neighbour's corner are, a
+//! face moves half as far as that edge leads down. Keeps: every other plane; genus; the number of
+//! faces. Changes: V + (k − 3), E + (k − 3) for each vertex. Degenerate: vertices without such a
+//! face, saddles for one, stay as they are and are named.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap, HashMap};
@@ -36,7 +39,8 @@ pub struct ResolveParams {
     #[arg(long, value_name = "SELECTION", default_value = "all")]
     #[serde(default = "Selection::all")]
     pub select: Selection,
-    /// How far faces move inwards at most, above 0 and in mm unless a unit is given; less than the kerf is invisible.
+    /// How far faces move inwards at most, above 0 and in mm unless a unit is given; less than the
+    /// kerf is invisible.
     #[arg(long, default_value = "0.01mm")]
     #[serde(default = "default_depth")]
     pub depth: Length,
@@ -57,7 +61,8 @@ impl Default for ResolveParams {
 pub struct ResolveReport {
     /// The vertices that were resolved, in ids of the mesh before.
     pub resolved: Vec<VertexId>,
-    /// The chosen vertices where more than three edges still meet since the geometry does not allow it, in ids of the result.
+    /// The chosen vertices where more than three edges still meet since the geometry does not allow
+    /// it, in ids of the result.
     pub unresolved: Vec<VertexId>,
     /// How many faces were moved.
     pub faces_moved: usize,
@@ -65,7 +70,8 @@ pub struct ResolveReport {
     pub largest_face_movement_mm: f64,
     /// The shortest way of a face, in mm.
     pub least_face_movement_mm: f64,
-    /// The longest way from a new vertex to where it came from, in mm: more than the face's way where edges are shallow.
+    /// The longest way from a new vertex to where it came from, in mm: more than the face's way
+    /// where edges are shallow.
     pub largest_vertex_movement_mm: f64,
 }
 
@@ -75,14 +81,18 @@ impl ResolveReport {
         let mut notes = Vec::new();
         if !self.resolved.is_empty() {
             notes.push(format!(
-                "{} vertices were split into 3-valent ones; faces moved by {} mm at most, vertices by {} mm",
+                "{} vertices were split into 3-valent ones; faces moved by {} mm at most, vertices \
+                by {} mm",
                 self.resolved.len(),
                 short(self.largest_face_movement_mm),
                 short(self.largest_vertex_movement_mm)
             ));
         }
         if !self.unresolved.is_empty() {
-            notes.push(format!("{} vertices could not be split without changing the shape", self.unresolved.len()));
+            notes.push(format!(
+                "{} vertices could not be split without changing the shape",
+                self.unresolved.len()
+            ));
         }
         notes
     }
@@ -91,8 +101,13 @@ impl ResolveReport {
 /// Splits vertices of valence above three by moving faces inwards.
 ///
 /// # Errors
-/// [`OpError::Select`] for an empty selection, [`OpError::DepthTooSmall`] when the depth is not above what rounding allows.
-pub fn resolve(mesh: &Mesh, params: &ResolveParams, context: &OpContext<'_>) -> Result<(Mesh, ResolveReport), OpError> {
+/// [`OpError::Select`] for an empty selection, [`OpError::DepthTooSmall`] when the depth is not
+/// above what rounding allows.
+pub fn resolve(
+    mesh: &Mesh,
+    params: &ResolveParams,
+    context: &OpContext<'_>,
+) -> Result<(Mesh, ResolveReport), OpError> {
     let chosen = params.select.vertices(&context.select(mesh))?;
     let mut cutter = Cutter::new(mesh.clone());
     cutter.capping = Capping::Always;
@@ -103,7 +118,14 @@ pub fn resolve(mesh: &Mesh, params: &ResolveParams, context: &OpContext<'_>) -> 
         return Err(OpError::DepthTooSmall { depth, least });
     }
     let open = chosen.into_iter().filter(|&v| mesh.valence(v) > 3).collect();
-    let mut work = Resolving { cutter, depth, least, open, origins: HashMap::new(), report: ResolveReport::default() };
+    let mut work = Resolving {
+        cutter,
+        depth,
+        least,
+        open,
+        origins: HashMap::new(),
+        report: ResolveReport::default(),
+    };
     work.run(context)?;
     Ok(work.finish())
 }
@@ -127,11 +149,12 @@ impl Resolving {
         self.move_faces(self.least, context)
     }
 
-    /// Moves one face after the other, if it can move by `least`: those with the most waiting vertices first, then those
-    /// with the lowest id.
+    /// Moves one face after the other, if it can move by `least`: those with the most waiting
+    /// vertices first, then those with the lowest id.
     fn move_faces(&mut self, least: f64, context: &OpContext<'_>) -> Result<(), OpError> {
         let mesh = &self.cutter.mesh;
-        let faces: BTreeSet<FaceId> = self.open.iter().flat_map(|&v| mesh.vertex_faces(v)).collect();
+        let faces: BTreeSet<FaceId> =
+            self.open.iter().flat_map(|&v| mesh.vertex_faces(v)).collect();
         let mut queue: BinaryHeap<(usize, Reverse<FaceId>)> =
             faces.into_iter().map(|f| (self.waiting_at(f), Reverse(f))).collect();
         while let Some((promised, Reverse(f))) = queue.pop() {
@@ -184,12 +207,17 @@ impl Resolving {
         let mesh = &self.cutter.mesh;
         let plane = mesh.plane(f).expect("a face that can move has a plane").moved(-depth);
         let corners: Vec<VertexId> = mesh.face_vertices(f).collect();
-        let old: Vec<DVec3> =
-            corners.iter().map(|&v| self.origins.get(&v).copied().unwrap_or(mesh.position(v))).collect();
+        let old: Vec<DVec3> = corners
+            .iter()
+            .map(|&v| self.origins.get(&v).copied().unwrap_or(mesh.position(v)))
+            .collect();
         let places: Vec<DVec3> = mesh.face_positions(f);
         let group = mesh.group(f).map(str::to_owned);
-        let seam_faces: BTreeSet<FaceId> =
-            mesh.face_half_edges(f).filter(|h| mesh.is_seam(h.edge())).map(|h| mesh.face(h.twin())).collect();
+        let seam_faces: BTreeSet<FaceId> = mesh
+            .face_half_edges(f)
+            .filter(|h| mesh.is_seam(h.edge()))
+            .map(|h| mesh.face(h.twin()))
+            .collect();
         self.cutter.cut(&SlicingPlane { plane, given: None }, Reach::Local(&corners));
         let caps = std::mem::take(&mut self.cutter.done.caps);
         let mesh = &mut self.cutter.mesh;
@@ -201,16 +229,19 @@ impl Resolving {
             for h in walk {
                 mesh.set_seam(h.edge(), seam_faces.contains(&mesh.face(h.twin())));
                 let (v, here) = (mesh.origin(h), mesh.position(mesh.origin(h)));
-                let from = (0..old.len())
-                    .min_by(|&a, &b| here.distance_squared(places[a]).total_cmp(&here.distance_squared(places[b])));
+                let from = (0..old.len()).min_by(|&a, &b| {
+                    here.distance_squared(places[a]).total_cmp(&here.distance_squared(places[b]))
+                });
                 let Some(origin) = from.map(|i| old[i]) else { continue };
                 self.origins.insert(v, origin);
                 let way = here.distance(origin);
-                self.report.largest_vertex_movement_mm = self.report.largest_vertex_movement_mm.max(way);
+                self.report.largest_vertex_movement_mm =
+                    self.report.largest_vertex_movement_mm.max(way);
             }
         }
         let report = &mut self.report;
-        let least = if report.faces_moved == 0 { depth } else { report.least_face_movement_mm.min(depth) };
+        let least =
+            if report.faces_moved == 0 { depth } else { report.least_face_movement_mm.min(depth) };
         report.faces_moved += 1;
         report.least_face_movement_mm = least;
         report.largest_face_movement_mm = report.largest_face_movement_mm.max(depth);
@@ -242,8 +273,12 @@ mod tests {
         for f in result.faces() {
             let corners = result.face_positions(f);
             let plane = crate::geom::fit_plane(&corners).expect("a plane");
-            let deviation = corners.iter().map(|&p| plane.signed_distance(p).abs()).fold(0.0, f64::max);
-            assert!(deviation <= 1e-12 * face_diameter(&result, f), "{f} deviates by {deviation:e}");
+            let deviation =
+                corners.iter().map(|&p| plane.signed_distance(p).abs()).fold(0.0, f64::max);
+            assert!(
+                deviation <= 1e-12 * face_diameter(&result, f),
+                "{f} deviates by {deviation:e}"
+            );
         }
         (result, report)
     }
@@ -262,7 +297,10 @@ mod tests {
             assert_eq!([result.vertex_count(), result.edge_count(), result.face_count()], counts);
             assert!(result.vertices().all(|v| result.valence(v) == 3));
             assert!(report.unresolved.is_empty());
-            assert_eq!(report.resolved.len(), mesh.vertices().filter(|&v| mesh.valence(v) > 3).count());
+            assert_eq!(
+                report.resolved.len(),
+                mesh.vertices().filter(|&v| mesh.valence(v) > 3).count()
+            );
             assert!(report.largest_vertex_movement_mm < 0.1, "{report:?}");
             assert!(volume(&result) <= volume(&mesh) && volume(&result) > 0.999 * volume(&mesh));
         }
@@ -307,8 +345,10 @@ mod tests {
     #[test]
     fn a_depth_within_rounding_is_refused() {
         for depth in [0.0, -1.0, 1e-13, f64::NAN] {
-            let params = ResolveParams { depth: Length::from_mm(depth), ..ResolveParams::default() };
-            let error = resolve(&shape::octahedron(100.0), &params, &OpContext::default()).expect_err("too small");
+            let params =
+                ResolveParams { depth: Length::from_mm(depth), ..ResolveParams::default() };
+            let error = resolve(&shape::octahedron(100.0), &params, &OpContext::default())
+                .expect_err("too small");
             assert!(matches!(error, OpError::DepthTooSmall { .. }));
         }
     }

@@ -1,8 +1,9 @@
 //! Closes the wound of a cut: walks of section edges become caps, or rims where the mesh was open.
 //!
-//! Where several walks meet at a vertex, the flat picture of the section decides how they go on: material lies on the left
-//! of every section edge, so each leaving edge belongs with the next arriving one counter-clockwise. Walks inside others are
-//! holes of a cap; caps with holes are divided by the fewest bridges into faces without holes (`bridge.rs`).
+//! Where several walks meet at a vertex, the flat picture of the section decides how they go on:
+//! material lies on the left of every section edge, so each leaving edge belongs with the next
+//! arriving one counter-clockwise. Walks inside others are holes of a cap; caps with holes are
+//! divided by the fewest bridges into faces without holes (`bridge.rs`).
 
 use glam::DVec2;
 
@@ -11,7 +12,8 @@ use crate::geom::polygon::{Location, locate, signed_area};
 use crate::geom::{Frame, Plane};
 use crate::mesh::{FaceId, FaceKind, HalfEdgeId, Mesh, VertexId};
 
-/// A closed walk of the section that visits no vertex twice, flattened; the material is on its left.
+/// A closed walk of the section that visits no vertex twice, flattened; the material is on its
+/// left.
 pub(super) struct SectionWalk {
     /// The cap that the walk bounds, alone or together with others that it touches.
     pub face: FaceId,
@@ -48,7 +50,11 @@ impl Cutter {
         for &start in starts {
             let was_open = self.register_walk(start);
             let f = self.mesh.face(start);
-            let kind = if self.stays_open(f, was_open, old_rims) { FaceKind::Hole } else { FaceKind::Solid };
+            let kind = if self.stays_open(f, was_open, old_rims) {
+                FaceKind::Hole
+            } else {
+                FaceKind::Solid
+            };
             self.register_cap(f, kind, &plane.plane);
             if kind == FaceKind::Solid && self.tidy(f) {
                 caps.push(f);
@@ -69,12 +75,15 @@ impl Cutter {
     fn stays_open(&self, walk: FaceId, was_open: bool, old_rims: &[HalfEdgeId]) -> bool {
         match self.capping {
             Capping::Auto => was_open,
-            Capping::Always => self.mesh.face_half_edges(walk).any(|h| old_rims.binary_search(&h).is_ok()),
+            Capping::Always => {
+                self.mesh.face_half_edges(walk).any(|h| old_rims.binary_search(&h).is_ok())
+            }
             Capping::Never => true,
         }
     }
 
-    /// Vertices that were pulled apart are new to the tables. Returns whether the walk's component is open.
+    /// Vertices that were pulled apart are new to the tables. Returns whether the walk's component
+    /// is open.
     fn register_walk(&mut self, start: HalfEdgeId) -> bool {
         let vertices: Vec<_> = self.mesh.face_vertices(self.mesh.face(start)).collect();
         let known = vertices.iter().copied().find(|&v| self.is_known(v)).unwrap_or(vertices[0]);
@@ -86,8 +95,8 @@ impl Cutter {
         self.is_open_at(known)
     }
 
-    /// Removes edges of a new cap whose ends fell together, and the cap itself if no three corners are left of it.
-    /// Returns whether the cap is still there.
+    /// Removes edges of a new cap whose ends fell together, and the cap itself if no three corners
+    /// are left of it. Returns whether the cap is still there.
     fn tidy(&mut self, cap: FaceId) -> bool {
         loop {
             let shrunk = self.mesh.face_half_edges(cap).find(|&h| self.has_no_length(h));
@@ -118,10 +127,13 @@ impl Cutter {
 
     /// Finds out which walks are holes in which caps and divides those caps.
     fn nest(&mut self, plane: &Plane, caps: Vec<FaceId>) -> Vec<FaceId> {
-        let near = self.mesh.position(self.mesh.face_vertices(caps[0]).next().expect("a cap has corners"));
+        let near =
+            self.mesh.position(self.mesh.face_vertices(caps[0]).next().expect("a cap has corners"));
         let frame = Frame { origin: near, ..Frame::on_plane(plane) };
-        let walks: Vec<SectionWalk> = caps.iter().flat_map(|&f| self.simple_walks(&frame, f)).collect();
-        let (outers, holes): (Vec<SectionWalk>, Vec<SectionWalk>) = walks.into_iter().partition(|w| w.area >= 0.0);
+        let walks: Vec<SectionWalk> =
+            caps.iter().flat_map(|&f| self.simple_walks(&frame, f)).collect();
+        let (outers, holes): (Vec<SectionWalk>, Vec<SectionWalk>) =
+            walks.into_iter().partition(|w| w.area >= 0.0);
         let mut holes_of: Vec<Vec<SectionWalk>> = outers.iter().map(|_| Vec::new()).collect();
         let mut result: Vec<FaceId> = Vec::with_capacity(caps.len());
         for hole in holes {
@@ -167,7 +179,8 @@ impl Cutter {
         walk: impl Iterator<Item = (VertexId, HalfEdgeId)>,
     ) -> SectionWalk {
         let (vertices, half_edges): (Vec<VertexId>, Vec<HalfEdgeId>) = walk.unzip();
-        let corners: Vec<DVec2> = vertices.iter().map(|&v| frame.flatten(self.mesh.position(v))).collect();
+        let corners: Vec<DVec2> =
+            vertices.iter().map(|&v| frame.flatten(self.mesh.position(v))).collect();
         let area = signed_area(&corners);
         SectionWalk { face, half_edges, vertices, corners, area }
     }
@@ -180,18 +193,25 @@ fn innermost(outers: &[SectionWalk], hole: &SectionWalk) -> Option<usize> {
     let is_around = |outer: &SectionWalk| {
         let places = hole.corners.iter().chain(&middles).map(|&p| locate(&outer.corners, p));
         // A hole may touch its outer walk: the first place that is clearly inside or outside tells.
-        outer.area > -hole.area && places.into_iter().find(|&l| l != Location::Boundary) == Some(Location::Inside)
+        outer.area > -hole.area
+            && places.into_iter().find(|&l| l != Location::Boundary) == Some(Location::Inside)
     };
     // A hole that touches its outer walk shares its face.
     if let Some(i) = outers.iter().position(|outer| outer.face == hole.face) {
         return Some(i);
     }
-    (0..outers.len()).filter(|&i| is_around(&outers[i])).min_by(|&a, &b| outers[a].area.total_cmp(&outers[b].area))
+    (0..outers.len())
+        .filter(|&i| is_around(&outers[i]))
+        .min_by(|&a, &b| outers[a].area.total_cmp(&outers[b].area))
 }
 
-/// Pairs the section edges at a vertex so that each corner of a cap holds material; leaves the pairs as they are where the
-/// flat picture is not clear (edges on top of each other).
-pub(super) fn pair_by_material(mesh: &Mesh, frame: &Frame, passes: &mut [(HalfEdgeId, HalfEdgeId)]) {
+/// Pairs the section edges at a vertex so that each corner of a cap holds material; leaves the
+/// pairs as they are where the flat picture is not clear (edges on top of each other).
+pub(super) fn pair_by_material(
+    mesh: &Mesh,
+    frame: &Frame,
+    passes: &mut [(HalfEdgeId, HalfEdgeId)],
+) {
     let vertex = mesh.position(mesh.target(passes[0].0));
     let angle = |h: HalfEdgeId, is_arriving: bool| {
         let other = if is_arriving { mesh.origin(h) } else { mesh.target(h) };
@@ -212,7 +232,8 @@ pub(super) fn pair_by_material(mesh: &Mesh, frame: &Frame, passes: &mut [(HalfEd
     }
     for (arriving, leaving) in passes {
         let i = rays.iter().position(|r| r.2 == *arriving && r.1).expect("every pass has its rays");
-        // The leaving edge just clockwise of the arriving one opens the corner that the arriving one closes.
+        // The leaving edge just clockwise of the arriving one opens the corner that the arriving
+        // one closes.
         *leaving = rays[(i + rays.len() - 1) % rays.len()].2;
     }
 }

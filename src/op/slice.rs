@@ -1,9 +1,10 @@
 //! Slicing: cut a mesh by one plane and close it.
 //!
-//! Source: Gonen 2007, III.A. The part on the normal side is removed, what is left is closed by caps. A mesh that was open
-//! stays open along the cut. Changes: every crossed edge gets a vertex on the plane, every region of the section a cap.
-//! Volume kept + volume removed = volume before. Degenerate: a plane that misses changes nothing; faces in the plane stay
-//! when the material lies behind them; a plane that would remove everything is an error.
+//! Source: Gonen 2007, III.A. The part on the normal side is removed, what is left is closed by
+//! caps. A mesh that was open stays open along the cut. Changes: every crossed edge gets a vertex
+//! on the plane, every region of the section a cap. Volume kept + volume removed = volume before.
+//! Degenerate: a plane that misses changes nothing; faces in the plane stay when the material lies
+//! behind them; a plane that would remove everything is an error.
 
 use std::str::FromStr;
 
@@ -40,7 +41,8 @@ pub struct Point(pub DVec3);
 /// How to slice a mesh. One definition for the library, the command line and the recipe.
 #[derive(Debug, Clone, clap::Args, Deserialize)]
 pub struct SliceParams {
-    /// The direction of the plane's normal, which points to the side that is removed: `x`, `-z` or `1,0,1`.
+    /// The direction of the plane's normal, which points to the side that is removed: `x`, `-z` or
+    /// `1,0,1`.
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     pub normal: Direction,
     /// A point on the plane, in mm unless units are given: `0,0,10`.
@@ -59,19 +61,28 @@ pub struct SliceParams {
 impl SliceParams {
     /// Cuts through `point` across `normal`, everything else by default.
     pub fn new(normal: DVec3, point: DVec3) -> Self {
-        Self { normal: Direction(normal), point: Point(point), keep: Keep::default(), cap: Capping::default() }
+        Self {
+            normal: Direction(normal),
+            point: Point(point),
+            keep: Keep::default(),
+            cap: Capping::default(),
+        }
     }
 }
 
 /// Cuts a mesh by a plane.
 ///
-/// Signs of given numbers (positions from a file, and the plane) are exact; constructed positions within the rounding bound
-/// count as on the plane.
+/// Signs of given numbers (positions from a file, and the plane) are exact; constructed positions
+/// within the rounding bound count as on the plane.
 ///
 /// # Errors
-/// [`OpError::NoDirection`], [`OpError::BadPoint`], [`OpError::NothingLeft`] when the plane leaves no mesh,
-/// [`OpError::TwoParts`] for [`Keep::Both`], which [`slice_both`] is for.
-pub fn slice(mesh: &Mesh, params: &SliceParams, _context: &OpContext<'_>) -> Result<(Mesh, CutReport), OpError> {
+/// [`OpError::NoDirection`], [`OpError::BadPoint`], [`OpError::NothingLeft`] when the plane leaves
+/// no mesh, [`OpError::TwoParts`] for [`Keep::Both`], which [`slice_both`] is for.
+pub fn slice(
+    mesh: &Mesh,
+    params: &SliceParams,
+    _context: &OpContext<'_>,
+) -> Result<(Mesh, CutReport), OpError> {
     let (Direction(normal), Point(point)) = (params.normal, params.point);
     let normal = match params.keep {
         Keep::Reverse => normal,
@@ -97,8 +108,8 @@ pub fn slice(mesh: &Mesh, params: &SliceParams, _context: &OpContext<'_>) -> Res
     Ok(finish(cutter.mesh, report))
 }
 
-/// Cuts a mesh by a plane and keeps both parts: first the one on the reverse side, then the one on the normal side.
-/// `None` stands for a part that is empty. [`SliceParams::keep`] is not asked.
+/// Cuts a mesh by a plane and keeps both parts: first the one on the reverse side, then the one on
+/// the normal side. `None` stands for a part that is empty. [`SliceParams::keep`] is not asked.
 ///
 /// # Errors
 /// As [`slice()`], but an empty part is none.
@@ -118,8 +129,13 @@ pub fn slice_both(
 impl FromStr for Direction {
     type Err = UnitError;
     fn from_str(text: &str) -> Result<Self, UnitError> {
-        let error = || UnitError { text: text.to_owned(), wanted: "a direction", example: "z, -x or 1,0,1" };
-        let (sign, name) = text.trim().strip_prefix('-').map_or((1.0, text.trim()), |rest| (-1.0, rest));
+        let error = || UnitError {
+            text: text.to_owned(),
+            wanted: "a direction",
+            example: "z, -x or 1,0,1",
+        };
+        let (sign, name) =
+            text.trim().strip_prefix('-').map_or((1.0, text.trim()), |rest| (-1.0, rest));
         let axis = match name {
             "x" => DVec3::X,
             "y" => DVec3::Y,
@@ -133,7 +149,8 @@ impl FromStr for Direction {
 impl FromStr for Point {
     type Err = UnitError;
     fn from_str(text: &str) -> Result<Self, UnitError> {
-        let error = || UnitError { text: text.to_owned(), wanted: "a point", example: "0,0,10 or 1cm,0,0" };
+        let error =
+            || UnitError { text: text.to_owned(), wanted: "a point", example: "0,0,10 or 1cm,0,0" };
         three(text, |part| part.parse().map(Length::mm)).map(Self).ok_or_else(error)
     }
 }

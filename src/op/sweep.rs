@@ -1,8 +1,9 @@
-//! A cut of a whole closed mesh: vertices and edges are gone through in the order of their ids, once each.
+//! A cut of a whole closed mesh: vertices and edges are gone through in the order of their ids,
+//! once each.
 //!
-//! The walk of `cutter.rs` visits what lies in front of the plane from neighbour to neighbour, which is right for a local
-//! cut; for half of a large mesh the same is found faster in the order in which it lies in memory. Faces are divided and
-//! flat faces judged by the same rules.
+//! The walk of `cutter.rs` visits what lies in front of the plane from neighbour to neighbour,
+//! which is right for a local cut; for half of a large mesh the same is found faster in the order
+//! in which it lies in memory. Faces are divided and flat faces judged by the same rules.
 
 use super::cutter::{Cutter, SlicingPlane};
 use super::section::pair_by_material;
@@ -26,8 +27,9 @@ struct Found {
 }
 
 impl Cutter {
-    /// Cuts a mesh without rims with one plane. Returns `false`, with nothing done but the sides known, when so little lies in
-    /// front that walking there from neighbour to neighbour costs less than a sweep.
+    /// Cuts a mesh without rims with one plane. Returns `false`, with nothing done but the sides
+    /// known, when so little lies in front that walking there from neighbour to neighbour costs
+    /// less than a sweep.
     pub(super) fn cut_whole(&mut self, plane: &SlicingPlane) -> bool {
         let (in_front, on) = self.sweep_vertices(plane);
         if in_front.is_empty() {
@@ -65,8 +67,8 @@ impl Cutter {
         self.describe_touches();
     }
 
-    /// Sorts the edges by the sides of their ends. Marks the faces of those in front as doomed; dividing takes back what is
-    /// too much.
+    /// Sorts the edges by the sides of their ends. Marks the faces of those in front as doomed;
+    /// dividing takes back what is too much.
     fn sweep_edges(&mut self) -> Found {
         let mut found = Found::default();
         for e in (0..self.mesh.edge_slots()).map(EdgeId::new) {
@@ -74,14 +76,17 @@ impl Cutter {
                 continue;
             }
             let [h, t] = e.half_edges();
-            let sides = (self.known_side(self.mesh.origin(h)), self.known_side(self.mesh.origin(t)));
+            let sides =
+                (self.known_side(self.mesh.origin(h)), self.known_side(self.mesh.origin(t)));
             match sides {
                 (Side::Reverse, Side::Reverse | Side::On) | (Side::On, Side::Reverse) => continue,
                 (Side::On, Side::On) => {
                     found.on.push(e);
                     continue;
                 }
-                (Side::Normal, Side::Reverse) | (Side::Reverse, Side::Normal) => found.crossing.push(e),
+                (Side::Normal, Side::Reverse) | (Side::Reverse, Side::Normal) => {
+                    found.crossing.push(e)
+                }
                 (Side::Normal, Side::On) | (Side::On, Side::Normal) => {
                     found.in_front.push(e);
                     found.ending.push(e);
@@ -96,10 +101,15 @@ impl Cutter {
         found
     }
 
-    /// Divides the faces that lie on both sides; of their parts those with a corner in front are doomed.
+    /// Divides the faces that lie on both sides; of their parts those with a corner in front are
+    /// doomed.
     fn divide_by_sweep(&mut self, plane: &SlicingPlane, found: &Found) {
-        let mut faces: Vec<FaceId> =
-            found.crossing.iter().chain(&found.ending).flat_map(|&e| self.mesh.edge_faces(e)).collect();
+        let mut faces: Vec<FaceId> = found
+            .crossing
+            .iter()
+            .chain(&found.ending)
+            .flat_map(|&e| self.mesh.edge_faces(e))
+            .collect();
         faces.sort_unstable();
         faces.dedup();
         for &f in &faces {
@@ -109,7 +119,8 @@ impl Cutter {
         let parts = self.chords.iter().flat_map(|&e| self.mesh.edge_faces(e));
         faces.extend(parts);
         for f in faces {
-            let is_in_front = self.mesh.face_vertices(f).any(|v| self.known_side(v) == Side::Normal);
+            let is_in_front =
+                self.mesh.face_vertices(f).any(|v| self.known_side(v) == Side::Normal);
             if is_in_front {
                 self.doomed[f.index()] = self.cut;
             }
@@ -124,15 +135,17 @@ impl Cutter {
         }
     }
 
-    /// As `decide_flat_faces`, with every face that has an edge in the plane as a candidate: first those next to what is
-    /// doomed, then the ceilings of hollows.
+    /// As `decide_flat_faces`, with every face that has an edge in the plane as a candidate: first
+    /// those next to what is doomed, then the ceilings of hollows.
     fn decide_flat_faces_of(&mut self, plane: &SlicingPlane, on: &[EdgeId]) {
-        let mut candidates: Vec<FaceId> = on.iter().flat_map(|&e| self.mesh.edge_faces(e)).collect();
+        let mut candidates: Vec<FaceId> =
+            on.iter().flat_map(|&e| self.mesh.edge_faces(e)).collect();
         candidates.sort_unstable();
         candidates.dedup();
         for &f in &candidates {
-            let is_next_to_doomed =
-                |c: &Self| c.mesh.face_half_edges(f).any(|h| c.doomed[c.mesh.face(h.twin()).index()] == c.cut);
+            let is_next_to_doomed = |c: &Self| {
+                c.mesh.face_half_edges(f).any(|h| c.doomed[c.mesh.face(h.twin()).index()] == c.cut)
+            };
             if self.is_undecided(f) && self.is_flat(plane, f) && is_next_to_doomed(self) {
                 self.decide_patch(plane, f);
             }
@@ -145,14 +158,16 @@ impl Cutter {
     }
 
     fn gather_region(&mut self) {
-        let doomed = (0..self.mesh.face_slots()).filter(|&f| self.doomed[f] == self.cut).map(FaceId::new);
+        let doomed =
+            (0..self.mesh.face_slots()).filter(|&f| self.doomed[f] == self.cut).map(FaceId::new);
         self.region.clear();
         self.region.extend(doomed);
     }
 
     fn describe_sweep(&mut self, in_front: &[VertexId]) {
         if self.cut > 1 {
-            let mut met: Vec<usize> = self.region.iter().filter_map(|&f| self.cut_of_cap(f)).collect();
+            let mut met: Vec<usize> =
+                self.region.iter().filter_map(|&f| self.cut_of_cap(f)).collect();
             met.extend(in_front.iter().filter_map(|&v| self.cut_of_vertex(v)));
             met.sort_unstable();
             met.dedup();
@@ -161,9 +176,14 @@ impl Cutter {
         self.done.removed.extend(in_front.iter().filter(|v| self.born[v.index()] == 0));
     }
 
-    /// The region with everything that goes with it: edges with an end in front lie inside, the others that the region can
-    /// have run in the plane.
-    fn region_by_sweep(&mut self, in_front: Vec<VertexId>, mut on: Vec<VertexId>, found: &mut Found) -> Region {
+    /// The region with everything that goes with it: edges with an end in front lie inside, the
+    /// others that the region can have run in the plane.
+    fn region_by_sweep(
+        &mut self,
+        in_front: Vec<VertexId>,
+        mut on: Vec<VertexId>,
+        found: &mut Found,
+    ) -> Region {
         let is_doomed = |c: &Self, h: HalfEdgeId| c.doomed[c.mesh.face(h).index()] == c.cut;
         let mut region = Region {
             faces: std::mem::take(&mut self.region),
@@ -173,8 +193,11 @@ impl Cutter {
         };
         on.extend(&self.splits);
         for &m in &self.splits {
-            let leads_to_front = |h: &HalfEdgeId| self.known_side(self.mesh.target(*h)) == Side::Normal;
-            region.inner_edges.extend(self.mesh.outgoing(m).filter(leads_to_front).map(HalfEdgeId::edge));
+            let leads_to_front =
+                |h: &HalfEdgeId| self.known_side(self.mesh.target(*h)) == Side::Normal;
+            region
+                .inner_edges
+                .extend(self.mesh.outgoing(m).filter(leads_to_front).map(HalfEdgeId::edge));
         }
         for e in found.on.iter().chain(&self.chords).copied() {
             let [h, t] = e.half_edges();

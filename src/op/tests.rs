@@ -9,8 +9,11 @@ use crate::mesh::{Mesh, assert_sound};
 
 fn cuboid(low: DVec3, high: DVec3) -> (Vec<DVec3>, Vec<Vec<usize>>) {
     let pick = |i: usize, bit: usize, l: f64, h: f64| if i >> bit & 1 == 1 { h } else { l };
-    let corner = |i: usize| DVec3::new(pick(i, 0, low.x, high.x), pick(i, 1, low.y, high.y), pick(i, 2, low.z, high.z));
-    let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let corner = |i: usize| {
+        DVec3::new(pick(i, 0, low.x, high.x), pick(i, 1, low.y, high.y), pick(i, 2, low.z, high.z))
+    };
+    let faces =
+        [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
     ((0..8).map(corner).collect(), faces.map(|f| f.to_vec()).to_vec())
 }
 
@@ -24,14 +27,17 @@ fn prism(base: &[(f64, f64)], height: f64) -> Mesh {
     let n = base.len();
     let at = |z: f64| base.iter().map(move |&(x, y)| DVec3::new(x, y, z));
     let sides = (0..n).map(|i| vec![i, (i + 1) % n, n + (i + 1) % n, n + i]);
-    let faces: Vec<Vec<usize>> = sides.chain([(0..n).rev().collect(), (n..2 * n).collect()]).collect();
+    let faces: Vec<Vec<usize>> =
+        sides.chain([(0..n).rev().collect(), (n..2 * n).collect()]).collect();
     Mesh::from_faces(at(0.0).chain(at(height)), faces).expect("a prism")
 }
 
 /// A frame: a box with a square tunnel along z.
 fn frame() -> Mesh {
-    let ring = |s: f64, z: f64| [(-s, -s), (s, -s), (s, s), (-s, s)].map(|(x, y)| DVec3::new(x, y, z));
-    let points: Vec<DVec3> = [ring(2.0, 0.0), ring(1.0, 0.0), ring(2.0, 1.0), ring(1.0, 1.0)].concat();
+    let ring =
+        |s: f64, z: f64| [(-s, -s), (s, -s), (s, s), (-s, s)].map(|(x, y)| DVec3::new(x, y, z));
+    let points: Vec<DVec3> =
+        [ring(2.0, 0.0), ring(1.0, 0.0), ring(2.0, 1.0), ring(1.0, 1.0)].concat();
     let mut faces = Vec::new();
     for i in 0..4 {
         let j = (i + 1) % 4;
@@ -84,16 +90,22 @@ fn halves(mesh: &Mesh, normal: DVec3, point: DVec3) -> [Option<Mesh>; 2] {
 #[test]
 fn truncating_all_of_a_cube_gives_the_counts_of_the_thesis() {
     let context = OpContext::default();
-    let (vertices, report) = truncate_vertices(&cube(), &TruncateVertex::new(all(), 0.25), &context).expect("a cut");
+    let (vertices, report) =
+        truncate_vertices(&cube(), &TruncateVertex::new(all(), 0.25), &context).expect("a cut");
     assert_sound(&vertices);
     assert_eq!(counts(&vertices), (24, 36, 14));
-    assert_eq!((report.made.faces.len(), report.overcut.len(), report.not_three_valent.len()), (8, 0, 0));
-    let (edges, report) = truncate_edges(&cube(), &TruncateEdge::new(all(), 0.25), &context).expect("a cut");
+    assert_eq!(
+        (report.made.faces.len(), report.overcut.len(), report.not_three_valent.len()),
+        (8, 0, 0)
+    );
+    let (edges, report) =
+        truncate_edges(&cube(), &TruncateEdge::new(all(), 0.25), &context).expect("a cut");
     assert_sound(&edges);
     // Three edge planes meet at each corner's diagonal: the rhombic cuboid with 32 vertices.
     assert_eq!(counts(&edges), (32, 48, 18));
     assert_eq!(report.not_three_valent.len(), 0);
-    let (faces, _) = truncate_faces(&cube(), &TruncateFace::new(all(), 0.25), &context).expect("a cut");
+    let (faces, _) =
+        truncate_faces(&cube(), &TruncateFace::new(all(), 0.25), &context).expect("a cut");
     assert_sound(&faces);
     assert_eq!(counts(&faces), (8, 12, 6));
     assert!((volume(&faces) - 1.0).abs() < 1e-12);
@@ -104,14 +116,18 @@ fn three_rounds_on_one_edge_of_a_cube_are_figure_10() {
     let params = TruncateEdge { repeat: 3, ..TruncateEdge::new("0".parse().expect("ids"), 0.25) };
     let (mesh, report) = truncate_edges(&cube(), &params, &OpContext::default()).expect("a cut");
     assert_sound(&mesh);
-    // 1 + 2 + 4 strips, each with V + 2, E + 3, F + 1; but the last two planes beside the middle strip (0.155 wide where
-    // they take 0.083 each) meet above it, so it goes, and the report says so.
+    // 1 + 2 + 4 strips, each with V + 2, E + 3, F + 1; but the last two planes beside the middle
+    // strip (0.155 wide where they take 0.083 each) meet above it, so it goes, and the report says
+    // so.
     assert_eq!(counts(&mesh), (8 + 14 - 2, 12 + 21 - 3, 6 + 7 - 1));
     assert_eq!((report.cuts, report.overcut.len(), report.made.faces.len()), (7, 2, 4));
     let params = TruncateEdge { offset: 0.2, ..params };
     let (mesh, report) = truncate_edges(&cube(), &params, &OpContext::default()).expect("a cut");
     assert_eq!(counts(&mesh), (8 + 14, 12 + 21, 6 + 7));
-    assert_eq!((report.cuts, report.overcut.len(), report.made.strip.len(), report.made.faces.len()), (7, 0, 8, 4));
+    assert_eq!(
+        (report.cuts, report.overcut.len(), report.made.strip.len(), report.made.faces.len()),
+        (7, 0, 8, 4)
+    );
 }
 
 #[test]
@@ -131,7 +147,10 @@ fn a_cube_halved_in_all_ways() {
             counts(&high)
         );
     }
-    assert!(matches!(cut(&mesh, DVec3::Z, DVec3::splat(-1.0), Keep::Reverse), Err(OpError::NothingLeft { .. })));
+    assert!(matches!(
+        cut(&mesh, DVec3::Z, DVec3::splat(-1.0), Keep::Reverse),
+        Err(OpError::NothingLeft { .. })
+    ));
     let missed = cut(&mesh, DVec3::Z, DVec3::splat(1.0), Keep::Reverse).expect("all is left");
     assert_eq!(counts(&missed), counts(&mesh));
 }
@@ -139,7 +158,9 @@ fn a_cube_halved_in_all_ways() {
 #[test]
 fn an_ell_cut_at_its_step_keeps_the_tread() {
     let ell = prism(&[(0., 0.), (2., 0.), (2., 1.), (1., 1.), (1., 2.), (0., 2.)], 1.0);
-    let [Some(low), Some(high)] = halves(&ell, DVec3::Y, DVec3::new(0.0, 1.0, 0.0)) else { panic!("two halves") };
+    let [Some(low), Some(high)] = halves(&ell, DVec3::Y, DVec3::new(0.0, 1.0, 0.0)) else {
+        panic!("two halves")
+    };
     assert!((volume(&low) - 2.0).abs() < 1e-12);
     assert_eq!(counts(&high), (8, 12, 6));
     halves(&ell, DVec3::X, DVec3::new(1.0, 0.0, 0.0));
@@ -149,14 +170,19 @@ fn an_ell_cut_at_its_step_keeps_the_tread() {
 
 #[test]
 fn nested_loops_become_caps_divided_by_the_fewest_bridges() {
-    let [Some(low), Some(high)] = halves(&frame(), DVec3::Z, DVec3::new(0.0, 0.0, 0.5)) else { panic!("two halves") };
+    let [Some(low), Some(high)] = halves(&frame(), DVec3::Z, DVec3::new(0.0, 0.0, 0.5)) else {
+        panic!("two halves")
+    };
     // One hole, two bridges, two caps instead of the four faces of the other side.
     assert_eq!(counts(&low), (16, 8 + 8 + 4 + 8 + 2, 8 + 4 + 2));
     assert_eq!(low.components()[0].genus, 1);
     assert_eq!(counts(&high), counts(&low));
-    let [Some(left), Some(_)] = halves(&frame(), DVec3::X, DVec3::ZERO) else { panic!("two halves") };
+    let [Some(left), Some(_)] = halves(&frame(), DVec3::X, DVec3::ZERO) else {
+        panic!("two halves")
+    };
     assert_eq!((left.components().len(), left.components()[0].genus), (1, 0));
-    let [Some(_), Some(_)] = halves(&frame(), DVec3::new(1.0, 0.0, 0.2), DVec3::new(1.0, 0.0, 0.5)) else {
+    let [Some(_), Some(_)] = halves(&frame(), DVec3::new(1.0, 0.0, 0.2), DVec3::new(1.0, 0.0, 0.5))
+    else {
         panic!("two halves")
     };
     halves(&frame(), DVec3::X, DVec3::new(1.0, 0.0, 0.0));
@@ -166,8 +192,11 @@ fn nested_loops_become_caps_divided_by_the_fewest_bridges() {
 #[test]
 fn an_open_mesh_stays_open_along_the_cut() {
     let (points, faces) = cuboid(DVec3::ZERO, DVec3::ONE);
-    let tray = Mesh::from_faces(points, faces.into_iter().enumerate().filter(|(i, _)| *i != 1).map(|(_, f)| f))
-        .expect("a tray");
+    let tray = Mesh::from_faces(
+        points,
+        faces.into_iter().enumerate().filter(|(i, _)| *i != 1).map(|(_, f)| f),
+    )
+    .expect("a tray");
     assert_eq!(tray.hole_count(), 1);
     for (normal, rims) in [(DVec3::Z, 1), (DVec3::X, 1), (-DVec3::X, 1), (-DVec3::Z, 2)] {
         let part = cut(&tray, normal, DVec3::splat(0.5), Keep::Reverse).expect("half a tray");
@@ -181,10 +210,14 @@ fn a_local_cut_leaves_the_rest_alone() {
     // Two towers on a base; a cut around one tower's top must not take the other's.
     let base = [(0., 0.), (5., 0.), (5., 3.), (4., 3.), (4., 1.), (1., 1.), (1., 3.), (0., 3.)];
     let mesh = prism(&base, 1.0);
-    let tower =
-        mesh.faces().find(|&f| mesh.plane(f).expect("a plane").normal().y > 0.9 && mesh.face_positions(f)[0].x > 3.0);
+    let tower = mesh.faces().find(|&f| {
+        mesh.plane(f).expect("a plane").normal().y > 0.9 && mesh.face_positions(f)[0].x > 3.0
+    });
     let select = tower.expect("a top").index().to_string();
-    let params = TruncateFace { scope: Scope::Local, ..TruncateFace::new(select.parse().expect("ids"), 0.5) };
+    let params = TruncateFace {
+        scope: Scope::Local,
+        ..TruncateFace::new(select.parse().expect("ids"), 0.5)
+    };
     let (local, report) = truncate_faces(&mesh, &params, &OpContext::default()).expect("a cut");
     assert_sound(&local);
     assert_eq!((counts(&local), report.overcut.len()), (counts(&mesh), 0));
@@ -196,16 +229,19 @@ fn a_local_cut_leaves_the_rest_alone() {
     assert!((volume(&mesh) - volume(&global) - 2.5).abs() < 1e-12);
 }
 
-/// Ten rounds on one corner, 27 316 cuts, at the origin and 37 m away. The last faces have a diameter of a thousandth of a
-/// millimetre, so what can be asked of each is its diameter's 1e-12 or the spacing of the coordinates, whichever is coarser.
+/// Ten rounds on one corner, 27 316 cuts, at the origin and 37 m away. The last faces have a
+/// diameter of a thousandth of a millimetre, so what can be asked of each is its diameter's 1e-12
+/// or the spacing of the coordinates, whichever is coarser.
 #[test]
 fn ten_rounds_keep_every_face_planar() {
     for shift in [DVec3::ZERO, DVec3::new(37_000.0, -37_000.0, 37_000.0)] {
         let (points, faces) = cuboid(shift - 50.0, shift + 50.0);
         let mesh = Mesh::from_faces(points, faces).expect("a cube");
         let corner = "0".parse().expect("an id");
-        let params = TruncateVertex { scope: Scope::Local, repeat: 10, ..TruncateVertex::new(corner, 0.25) };
-        let (mesh, report) = truncate_vertices(&mesh, &params, &OpContext::default()).expect("a cut");
+        let params =
+            TruncateVertex { scope: Scope::Local, repeat: 10, ..TruncateVertex::new(corner, 0.25) };
+        let (mesh, report) =
+            truncate_vertices(&mesh, &params, &OpContext::default()).expect("a cut");
         assert_sound(&mesh);
         assert!(report.cuts > 25_000 && mesh.vertex_count() > 50_000, "{} cuts", report.cuts);
         let largest = shift.abs().max_element() + 50.0;
@@ -214,7 +250,8 @@ fn ten_rounds_keep_every_face_planar() {
         for f in mesh.faces() {
             let corners = mesh.face_positions(f);
             let plane = crate::geom::fit_plane(&corners).expect("a plane");
-            let deviation = corners.iter().map(|&p| plane.signed_distance(p).abs()).fold(0.0, f64::max);
+            let deviation =
+                corners.iter().map(|&p| plane.signed_distance(p).abs()).fold(0.0, f64::max);
             assert!(deviation <= 1e-12 * model, "{f} deviates by {deviation:e} of {model}");
             let finest = (1e-12 * crate::measure::face_diameter(&mesh, f)).max(4.0 * spacing);
             assert!(deviation <= finest, "{f} deviates by {deviation:e}, at {shift}");
@@ -222,7 +259,8 @@ fn ten_rounds_keep_every_face_planar() {
     }
 }
 
-/// Cutting everything at once and walking there give the same shape, and so do the short way for a corner and the long one.
+/// Cutting everything at once and walking there give the same shape, and so do the short way for a
+/// corner and the long one.
 #[test]
 fn all_ways_to_cut_agree() {
     let mesh = crate::shape::random_tangent_polytope(300, 5);
@@ -243,8 +281,10 @@ fn all_ways_to_cut_agree() {
         assert!((global.2 - local.2).abs() <= 1e-13 * volume(&mesh));
     }
     for v in mesh.vertices() {
-        let around: Vec<DVec3> = mesh.vertex_faces(v).filter_map(|f| mesh.plane(f)).map(|p| p.normal()).collect();
-        let ends: Vec<DVec3> = mesh.neighbours(v).map(|u| mesh.position(v).lerp(mesh.position(u), 0.2)).collect();
+        let around: Vec<DVec3> =
+            mesh.vertex_faces(v).filter_map(|f| mesh.plane(f)).map(|p| p.normal()).collect();
+        let ends: Vec<DVec3> =
+            mesh.neighbours(v).map(|u| mesh.position(v).lerp(mesh.position(u), 0.2)).collect();
         let plane = crate::geom::Plane::through_mean(&ends, &around).expect("a plane");
         // A given plane takes the long way.
         let [mut short, mut long] = [(); 2].map(|()| CutChain::new(mesh.clone()));
@@ -261,11 +301,19 @@ fn all_ways_to_cut_agree() {
 fn disjoint_cuts_shrink_only_what_meets() {
     let context = OpContext::default();
     for offset in [0.25, 0.5, 0.75, 1.0, 1.5] {
-        for (mesh, v) in [(cube(), 8), (crate::shape::dodecahedron(10.0), 20), (crate::shape::octahedron(10.0), 6)] {
-            let params = TruncateVertex { disjoint: Disjoint::Yes, ..TruncateVertex::new(all(), offset) };
+        for (mesh, v) in [
+            (cube(), 8),
+            (crate::shape::dodecahedron(10.0), 20),
+            (crate::shape::octahedron(10.0), 6),
+        ] {
+            let params =
+                TruncateVertex { disjoint: Disjoint::Yes, ..TruncateVertex::new(all(), offset) };
             let (cut, report) = truncate_vertices(&mesh, &params, &context).expect("a cut");
             assert_sound(&cut);
-            assert_eq!(counts(&cut), (2 * mesh.edge_count(), 3 * mesh.edge_count(), v + mesh.face_count()));
+            assert_eq!(
+                counts(&cut),
+                (2 * mesh.edge_count(), 3 * mesh.edge_count(), v + mesh.face_count())
+            );
             assert!(report.overcut.is_empty() && report.not_three_valent.is_empty());
             assert_eq!(report.shrunk.is_empty(), offset < 0.5);
             assert!(report.shrunk.iter().all(|&(_, t)| t < 0.5 && t > 0.3));
@@ -286,12 +334,19 @@ fn the_plane_of_the_paper_is_kept_disjoint_on_the_cube() {
     let free = TruncateVertex { repeat: 3, ..TruncateVertex::new(all(), 1.0 / 3.0) };
     let (_, report) = truncate_vertices(&cube(), &free, &OpContext::default()).expect("a cut");
     assert!(!report.overcut.is_empty());
-    let (mesh, report) =
-        truncate_vertices(&cube(), &TruncateVertex { disjoint: Disjoint::Yes, ..free }, &OpContext::default())
-            .expect("a cut");
+    let (mesh, report) = truncate_vertices(
+        &cube(),
+        &TruncateVertex { disjoint: Disjoint::Yes, ..free },
+        &OpContext::default(),
+    )
+    .expect("a cut");
     assert_sound(&mesh);
     assert_eq!(mesh.vertex_count(), 8 * 27);
-    assert!(report.overcut.is_empty() && report.not_three_valent.is_empty() && !report.shrunk.is_empty());
+    assert!(
+        report.overcut.is_empty()
+            && report.not_three_valent.is_empty()
+            && !report.shrunk.is_empty()
+    );
 }
 
 #[test]
@@ -309,7 +364,8 @@ fn cuts_that_share_vertices_cannot_be_disjoint() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
 
-    /// Planes through vertices, along edges, in faces, and a few ulps off: both halves sound, volume conserved.
+    /// Planes through vertices, along edges, in faces, and a few ulps off: both halves sound,
+    /// volume conserved.
     #[test]
     fn planes_aimed_at_vertices_and_edges(
         which in 0_usize..3, i in any::<prop::sample::Index>(), j in any::<prop::sample::Index>(), k in any::<prop::sample::Index>(), ulps in -3_i32..=3,

@@ -1,4 +1,5 @@
-//! What the three truncations share: offsets, scope, rounds. They only choose planes; all cutting is `cutter.rs`.
+//! What the three truncations share: offsets, scope, rounds. They only choose planes; all cutting
+//! is `cutter.rs`.
 
 use std::collections::BTreeMap;
 
@@ -16,7 +17,8 @@ use crate::select::{Context, Made};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash, clap::ValueEnum, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Scope {
-    /// The whole mesh is cut by each plane; on a convex solid the result is the intersection of half-spaces.
+    /// The whole mesh is cut by each plane; on a convex solid the result is the intersection of
+    /// half-spaces.
     #[default]
     Global,
     /// Only the part in front of the plane that hangs together with the element is cut off.
@@ -30,8 +32,9 @@ pub enum Disjoint {
     /// They may; the report names the elements.
     #[default]
     No,
-    /// The offsets of those elements whose cuts would meet, touch, or reach a vertex that is not theirs are made smaller,
-    /// by an eighth at a time, until none does; the report tells how small.
+    /// The offsets of those elements whose cuts would meet, touch, or reach a vertex that is not
+    /// theirs are made smaller, by an eighth at a time, until none does; the report tells how
+    /// small.
     Yes,
 }
 
@@ -63,7 +66,8 @@ const MOST_ROUNDS: u32 = 64;
 /// By how much the offset of an element is made smaller when its cut meets another.
 const SHRINKAGE: f64 = 0.875;
 
-/// After this many trials an offset is 1/5000 of what was asked for; whatever still meets then has another reason.
+/// After this many trials an offset is 1/5000 of what was asked for; whatever still meets then has
+/// another reason.
 const MOST_TRIALS: usize = 64;
 
 /// One element to be cut off.
@@ -78,7 +82,8 @@ pub(super) struct Element {
     pub along: Option<[Lineage; 2]>,
 }
 
-/// The point at share `t` of the way from a vertex to its neighbour (Gonen 2007, eq. 3.1, read outwards).
+/// The point at share `t` of the way from a vertex to its neighbour (Gonen 2007, eq. 3.1, read
+/// outwards).
 pub(super) fn edge_point(mesh: &Mesh, from: VertexId, to: VertexId, t: f64) -> glam::DVec3 {
     mesh.position(from).lerp(mesh.position(to), t)
 }
@@ -135,8 +140,8 @@ struct Round {
     emptied_by: Option<usize>,
 }
 
-/// Cuts `settings.repeat` rounds. `choose` sets all planes of a round from the mesh as it is before the round; for the rounds
-/// after the first it is told what the round before made.
+/// Cuts `settings.repeat` rounds. `choose` sets all planes of a round from the mesh as it is before
+/// the round; for the rounds after the first it is told what the round before made.
 pub(super) fn truncate(
     mesh: &Mesh,
     settings: &Settings,
@@ -145,7 +150,8 @@ pub(super) fn truncate(
 ) -> Result<(Mesh, CutReport), OpError> {
     check_ranges(settings.offset, settings.repeat)?;
     let mut cutter = Cutter::new(mesh.clone());
-    let mut report = CutReport { is_beyond_far_ends: settings.offset > 1.0, ..CutReport::default() };
+    let mut report =
+        CutReport { is_beyond_far_ends: settings.offset > 1.0, ..CutReport::default() };
     for round in 0..settings.repeat {
         cutter.start_round();
         let made = (round > 0).then_some(&report.made);
@@ -158,7 +164,8 @@ pub(super) fn truncate(
                 cut_round(&mut cutter, &elements, settings.scope, context.progress)?
             }
             Disjoint::Yes => {
-                let (after, done) = cut_disjoint_round(&cutter, &mut offsets, settings.scope, context, choose)?;
+                let (after, done) =
+                    cut_disjoint_round(&cutter, &mut offsets, settings.scope, context, choose)?;
                 cutter = after;
                 done
             }
@@ -178,7 +185,8 @@ pub(super) fn truncate(
     Ok(finish(cutter.mesh, report))
 }
 
-/// Tries a round, makes the offsets of those elements smaller whose cuts meet, and tries again from the same mesh.
+/// Tries a round, makes the offsets of those elements smaller whose cuts meet, and tries again from
+/// the same mesh.
 fn cut_disjoint_round(
     before: &Cutter,
     offsets: &mut Offsets,
@@ -208,13 +216,19 @@ fn cut_disjoint_round(
     Err(OpError::NotDisjoint { elements: meeting })
 }
 
-/// The elements that have a vertex in common with another one, ascending: no offset keeps their cuts apart.
+/// The elements that have a vertex in common with another one, ascending: no offset keeps their
+/// cuts apart.
 fn sharing_vertices(elements: &[Element]) -> Vec<usize> {
-    let mut at: Vec<(VertexId, usize)> = elements.iter().flat_map(|e| e.vertices.iter().map(|&v| (v, e.id))).collect();
+    let mut at: Vec<(VertexId, usize)> =
+        elements.iter().flat_map(|e| e.vertices.iter().map(|&v| (v, e.id))).collect();
     at.sort_unstable();
     at.dedup();
-    let mut sharing: Vec<usize> =
-        at.chunk_by(|a, b| a.0 == b.0).filter(|group| group.len() > 1).flatten().map(|&(_, id)| id).collect();
+    let mut sharing: Vec<usize> = at
+        .chunk_by(|a, b| a.0 == b.0)
+        .filter(|group| group.len() > 1)
+        .flatten()
+        .map(|&(_, id)| id)
+        .collect();
     sharing.sort_unstable();
     sharing.dedup();
     sharing
@@ -235,7 +249,8 @@ fn cut_round(
             }
         }
         let plane = SlicingPlane { plane: element.plane, given: None };
-        let seeds: Vec<VertexId> = element.vertices.iter().copied().filter(|&v| cutter.is_original(v)).collect();
+        let seeds: Vec<VertexId> =
+            element.vertices.iter().copied().filter(|&v| cutter.is_original(v)).collect();
         let reach = if scope == Scope::Local { Reach::Local(&seeds) } else { Reach::Global };
         cutter.cut(&plane, reach);
         if cutter.mesh.face_count() == 0 {
@@ -246,7 +261,10 @@ fn cut_round(
         round.missed += usize::from(cut.is_miss);
         round.lids += cut.lids;
         let is_own = |v: &VertexId| element.vertices.contains(v);
-        if !cut.met.is_empty() || !cut.removed.iter().all(is_own) || cut.removed.len() < element.vertices.len() {
+        if !cut.met.is_empty()
+            || !cut.removed.iter().all(is_own)
+            || cut.removed.len() < element.vertices.len()
+        {
             round.overcut.push(element.id);
             round.overcut.extend(cut.met.iter().map(|&k| elements[k].id));
         }
@@ -283,7 +301,8 @@ mod tests {
         assert_eq!(read(&["--disjoint"]), Some(Disjoint::Yes));
         assert_eq!(read(&["--disjoint=no", "--offset", "0.5"]), Some(Disjoint::No));
         assert_eq!(read(&["--disjoint", "--offset", "0.5"]), Some(Disjoint::Yes));
-        let recipe: TruncateVertex = toml::from_str("select = \"all\"\ndisjoint = \"yes\"").expect("a recipe");
+        let recipe: TruncateVertex =
+            toml::from_str("select = \"all\"\ndisjoint = \"yes\"").expect("a recipe");
         assert_eq!(recipe.disjoint, Disjoint::Yes);
     }
 }

@@ -2,9 +2,9 @@
 //!
 //! Source: Gonen 2007, III.B.1, IV.A and figure 10; the "bent" control of chapter V is `bend`.
 //!
-//! P0 = mean of the edge points on all other edges at both ends; n ∝ (1 + b) n₁ + (1 − b) n₂ with n₁ the normal of the face
-//! with the lower id. Changes, while the caps are disjoint and the ends 3-valent: V + 2, E + 3, F + 1 for each chosen edge.
-//! Degenerate: as for vertices.
+//! P0 = mean of the edge points on all other edges at both ends; n ∝ (1 + b) n₁ + (1 − b) n₂ with
+//! n₁ the normal of the face with the lower id. Changes, while the caps are disjoint and the ends
+//! 3-valent: V + 2, E + 3, F + 1 for each chosen edge. Degenerate: as for vertices.
 
 use serde::Deserialize;
 
@@ -19,10 +19,12 @@ use crate::select::{Made, Selection};
 /// How to cut edges off. One definition for the library, the command line and the recipe.
 #[derive(Debug, Clone, clap::Args, Deserialize)]
 pub struct TruncateEdge {
-    /// Which edges, in the selection language: `all`, `3,7,10-14`, `fold>30deg`, `along=z:5deg`, `hamiltonian`, ….
+    /// Which edges, in the selection language: `all`, `3,7,10-14`, `fold>30deg`, `along=z:5deg`,
+    /// `hamiltonian`, ….
     #[arg(long, value_name = "SELECTION")]
     pub select: Selection,
-    /// Where the plane meets the other edges at the two ends: 0 at the edge, 1 at the far ends. In (0, 2], warned above 1.
+    /// Where the plane meets the other edges at the two ends: 0 at the edge, 1 at the far ends. In
+    /// (0, 2], warned above 1.
     #[arg(long, default_value_t = default_offset(), value_parser = crate::units::parse_number)]
     #[serde(default = "default_offset")]
     pub offset: f64,
@@ -34,11 +36,13 @@ pub struct TruncateEdge {
     #[arg(long, value_enum, default_value_t = Scope::Global)]
     #[serde(default)]
     pub scope: Scope,
-    /// How many rounds, 1 to 64; every round after the first cuts the two long edges of each strip of the round before.
+    /// How many rounds, 1 to 64; every round after the first cuts the two long edges of each strip
+    /// of the round before.
     #[arg(long, default_value_t = default_repeat())]
     #[serde(default = "default_repeat")]
     pub repeat: u32,
-    /// Make the offset smaller where cuts would meet each other, so that every element gets a cut of its own.
+    /// Make the offset smaller where cuts would meet each other, so that every element gets a cut
+    /// of its own.
     #[arg(long, value_enum, default_value_t = Disjoint::No, default_missing_value = "yes", num_args = 0..=1, require_equals = true)]
     #[serde(default)]
     pub disjoint: Disjoint,
@@ -58,12 +62,14 @@ impl TruncateEdge {
     }
 }
 
-/// Cuts off every chosen edge. All planes of a round are set before its first cut and applied in the order of ids.
+/// Cuts off every chosen edge. All planes of a round are set before its first cut and applied in
+/// the order of ids.
 ///
 /// # Errors
-/// [`OpError::Select`] for an empty selection, [`OpError::OffsetOutOfRange`], [`OpError::BendOutOfRange`],
-/// [`OpError::RepeatOutOfRange`], [`OpError::NoPlaneAtEdge`], [`OpError::NothingLeft`] when the planes leave no mesh,
-/// [`OpError::NotDisjoint`] when disjoint cuts were asked for and cannot be had.
+/// [`OpError::Select`] for an empty selection, [`OpError::OffsetOutOfRange`],
+/// [`OpError::BendOutOfRange`], [`OpError::RepeatOutOfRange`], [`OpError::NoPlaneAtEdge`],
+/// [`OpError::NothingLeft`] when the planes leave no mesh, [`OpError::NotDisjoint`] when disjoint
+/// cuts were asked for and cannot be had.
 pub fn truncate_edges(
     mesh: &Mesh,
     params: &TruncateEdge,

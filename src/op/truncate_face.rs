@@ -1,8 +1,9 @@
-//! Face truncation: push a face inwards along its normal, so that it and what surrounds it become planar and 3-valent.
+//! Face truncation: push a face inwards along its normal, so that it and what surrounds it become
+//! planar and 3-valent.
 //!
-//! Source: Gonen 2007, III.B.3. P0 = mean of the edge points on the edges that leave the face; n = the face's normal.
-//! Changes, while the cuts are disjoint: V and E stay for 3-valent corners, F stays; a corner of higher valence is resolved.
-//! Degenerate: as for vertices.
+//! Source: Gonen 2007, III.B.3. P0 = mean of the edge points on the edges that leave the face; n =
+//! the face's normal. Changes, while the cuts are disjoint: V and E stay for 3-valent corners, F
+//! stays; a corner of higher valence is resolved. Degenerate: as for vertices.
 
 use serde::Deserialize;
 
@@ -20,7 +21,8 @@ pub struct TruncateFace {
     /// Which faces, in the selection language: `all`, `3,7,10-14`, `sides=5`, `normal=z:20deg`, ….
     #[arg(long, value_name = "SELECTION")]
     pub select: Selection,
-    /// Where the plane meets the edges that leave the face: 0 at the face, 1 at the far ends. In (0, 2], warned above 1.
+    /// Where the plane meets the edges that leave the face: 0 at the face, 1 at the far ends. In
+    /// (0, 2], warned above 1.
     #[arg(long, default_value_t = default_offset(), value_parser = crate::units::parse_number)]
     #[serde(default = "default_offset")]
     pub offset: f64,
@@ -32,7 +34,8 @@ pub struct TruncateFace {
     #[arg(long, default_value_t = default_repeat())]
     #[serde(default = "default_repeat")]
     pub repeat: u32,
-    /// Make the offset smaller where cuts would meet each other, so that every element gets a cut of its own.
+    /// Make the offset smaller where cuts would meet each other, so that every element gets a cut
+    /// of its own.
     #[arg(long, value_enum, default_value_t = Disjoint::No, default_missing_value = "yes", num_args = 0..=1, require_equals = true)]
     #[serde(default)]
     pub disjoint: Disjoint,
@@ -41,16 +44,24 @@ pub struct TruncateFace {
 impl TruncateFace {
     /// Cuts the selected faces at `offset`, everything else by default.
     pub fn new(select: Selection, offset: f64) -> Self {
-        Self { select, offset, scope: Scope::default(), repeat: default_repeat(), disjoint: Disjoint::default() }
+        Self {
+            select,
+            offset,
+            scope: Scope::default(),
+            repeat: default_repeat(),
+            disjoint: Disjoint::default(),
+        }
     }
 }
 
-/// Cuts off every chosen face. All planes of a round are set before its first cut and applied in the order of ids.
+/// Cuts off every chosen face. All planes of a round are set before its first cut and applied in
+/// the order of ids.
 ///
 /// # Errors
-/// [`OpError::Select`] for an empty selection, [`OpError::OffsetOutOfRange`], [`OpError::RepeatOutOfRange`],
-/// [`OpError::NoPlaneAtFace`], [`OpError::NothingLeft`] when the planes leave no mesh,
-/// [`OpError::NotDisjoint`] when disjoint cuts were asked for and cannot be had.
+/// [`OpError::Select`] for an empty selection, [`OpError::OffsetOutOfRange`],
+/// [`OpError::RepeatOutOfRange`], [`OpError::NoPlaneAtFace`], [`OpError::NothingLeft`] when the
+/// planes leave no mesh, [`OpError::NotDisjoint`] when disjoint cuts were asked for and cannot be
+/// had.
 pub fn truncate_faces(
     mesh: &Mesh,
     params: &TruncateFace,

@@ -1,6 +1,7 @@
 //! Vertex truncation: cut a vertex off by a plane set by its own neighbourhood.
 //!
-//! Source: Gonen 2007, III.B.2 and eq. 3.1 (t runs from the vertex outwards, see `docs/operators.md`).
+//! Source: Gonen 2007, III.B.2 and eq. 3.1 (t runs from the vertex outwards, see
+//! `docs/operators.md`).
 //!
 //! ```text
 //!        v                 .
@@ -9,9 +10,10 @@
 //!     u  u  u           u  u  u
 //! ```
 //!
-//! Keeps: planarity of every old face; genus. Changes, while the caps are disjoint: V + (valence − 1), E + valence, F + 1
-//! for each chosen vertex. Degenerate: a plane through a neighbour keeps that neighbour as a corner of the cap; cuts that
-//! meet are named in [`CutReport::overcut`], never silently merged.
+//! Keeps: planarity of every old face; genus. Changes, while the caps are disjoint: V + (valence −
+//! 1), E + valence, F + 1 for each chosen vertex. Degenerate: a plane through a neighbour keeps
+//! that neighbour as a corner of the cap; cuts that meet are named in [`CutReport::overcut`], never
+//! silently merged.
 
 use serde::Deserialize;
 
@@ -28,7 +30,8 @@ pub struct TruncateVertex {
     /// Which vertices, in the selection language: `all`, `3,7,10-14`, `valence>3`, ….
     #[arg(long, value_name = "SELECTION")]
     pub select: Selection,
-    /// Where the plane meets the edges of the vertex: 0 at the vertex, 1 at the far ends. In (0, 2], warned above 1.
+    /// Where the plane meets the edges of the vertex: 0 at the vertex, 1 at the far ends. In (0,
+    /// 2], warned above 1.
     #[arg(long, default_value_t = default_offset(), value_parser = crate::units::parse_number)]
     #[serde(default = "default_offset")]
     pub offset: f64,
@@ -36,11 +39,13 @@ pub struct TruncateVertex {
     #[arg(long, value_enum, default_value_t = Scope::Global)]
     #[serde(default)]
     pub scope: Scope,
-    /// How many rounds, 1 to 64; every round after the first cuts the corners of the caps of the round before.
+    /// How many rounds, 1 to 64; every round after the first cuts the corners of the caps of the
+    /// round before.
     #[arg(long, default_value_t = default_repeat())]
     #[serde(default = "default_repeat")]
     pub repeat: u32,
-    /// Make the offset smaller where cuts would meet each other, so that every element gets a cut of its own.
+    /// Make the offset smaller where cuts would meet each other, so that every element gets a cut
+    /// of its own.
     #[arg(long, value_enum, default_value_t = Disjoint::No, default_missing_value = "yes", num_args = 0..=1, require_equals = true)]
     #[serde(default)]
     pub disjoint: Disjoint,
@@ -57,16 +62,24 @@ pub(super) fn default_repeat() -> u32 {
 impl TruncateVertex {
     /// Cuts the selected vertices at `offset`, everything else by default.
     pub fn new(select: Selection, offset: f64) -> Self {
-        Self { select, offset, scope: Scope::default(), repeat: default_repeat(), disjoint: Disjoint::default() }
+        Self {
+            select,
+            offset,
+            scope: Scope::default(),
+            repeat: default_repeat(),
+            disjoint: Disjoint::default(),
+        }
     }
 }
 
-/// Cuts off every chosen vertex. All planes of a round are set before its first cut and applied in the order of ids.
+/// Cuts off every chosen vertex. All planes of a round are set before its first cut and applied in
+/// the order of ids.
 ///
 /// # Errors
-/// [`OpError::Select`] for an empty selection, [`OpError::OffsetOutOfRange`], [`OpError::RepeatOutOfRange`],
-/// [`OpError::NoPlaneAtVertex`], [`OpError::NothingLeft`] when the planes leave no mesh,
-/// [`OpError::NotDisjoint`] when disjoint cuts were asked for and cannot be had.
+/// [`OpError::Select`] for an empty selection, [`OpError::OffsetOutOfRange`],
+/// [`OpError::RepeatOutOfRange`], [`OpError::NoPlaneAtVertex`], [`OpError::NothingLeft`] when the
+/// planes leave no mesh, [`OpError::NotDisjoint`] when disjoint cuts were asked for and cannot be
+/// had.
 pub fn truncate_vertices(
     mesh: &Mesh,
     params: &TruncateVertex,
@@ -83,7 +96,8 @@ pub fn truncate_vertices(
 
 fn element(mesh: &Mesh, v: VertexId, t: f64) -> Result<Element, OpError> {
     let points: Vec<_> = mesh.neighbours(v).map(|u| edge_point(mesh, v, u, t)).collect();
-    let normals: Vec<_> = mesh.vertex_faces(v).filter_map(|f| mesh.plane(f)).map(|p| p.normal()).collect();
+    let normals: Vec<_> =
+        mesh.vertex_faces(v).filter_map(|f| mesh.plane(f)).map(|p| p.normal()).collect();
     let plane = Plane::through_mean(&points, &normals).ok_or(OpError::NoPlaneAtVertex(v))?;
     Ok(Element { id: v.index(), vertices: vec![v], plane, along: None })
 }

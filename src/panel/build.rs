@@ -19,8 +19,8 @@ use crate::mesh::{EdgeId, EdgeMap, FaceMap, Mesh};
 use crate::progress::Progress;
 use crate::units::Length;
 
-/// Makes a plate of every face of a mesh in millimetres. Faces are taken to be planar (their plane is the one that they carry,
-/// else the Newell plane); they may be concave.
+/// Makes a plate of every face of a mesh in millimetres. Faces are taken to be planar (their plane
+/// is the one that they carry, else the Newell plane); they may be concave.
 ///
 /// # Errors
 /// [`PanelError`]: a number out of range, a group that is not there, a face without area, faces that lie on each other, or
@@ -54,11 +54,18 @@ pub fn plates(
 }
 
 /// The thickness of every plate.
-fn thicknesses(mesh: &Mesh, thickness: Length, params: &PanelParams) -> Result<FaceMap<f64>, PanelError> {
+fn thicknesses(
+    mesh: &Mesh,
+    thickness: Length,
+    params: &PanelParams,
+) -> Result<FaceMap<f64>, PanelError> {
     let mut all = FaceMap::filled(mesh.face_slots(), thickness.mm());
     for own in &params.thickness_of {
         if !mesh.groups().contains(&own.group) {
-            return Err(PanelError::UnknownGroup { group: own.group.clone(), known: mesh.groups().to_vec() });
+            return Err(PanelError::UnknownGroup {
+                group: own.group.clone(),
+                known: mesh.groups().to_vec(),
+            });
         }
         for f in mesh.faces().filter(|&f| mesh.group(f) == Some(&own.group)) {
             all[f] = own.thickness.mm();
@@ -74,7 +81,8 @@ struct Shaped {
     unrelieved: usize,
 }
 
-/// Shapes all plates, taking fingers and butt joints away where they do not fit until nothing collides.
+/// Shapes all plates, taking fingers and butt joints away where they do not fit until nothing
+/// collides.
 fn settle(
     faces: &[FlatFace],
     flat: &FaceMap<usize>,
@@ -94,10 +102,13 @@ fn settle(
             }
         }
         if !found.is_empty() {
-            let special = |c: &super::Collision| special_edges(&faces[flat[c.face]], cutter, c.edge);
+            let special =
+                |c: &super::Collision| special_edges(&faces[flat[c.face]], cutter, c.edge);
             let fallen: BTreeSet<EdgeId> = found.iter().flat_map(special).collect();
             if fallen.is_empty() {
-                found.sort_by(|a, b| (a.largest / a.thickness).total_cmp(&(b.largest / b.thickness)));
+                found.sort_by(|a, b| {
+                    (a.largest / a.thickness).total_cmp(&(b.largest / b.thickness))
+                });
                 return Err(PanelError::Collision { found });
             }
             fallen.into_iter().for_each(|e| cutter.fall_back(e, Fallback::Narrow));
@@ -111,8 +122,11 @@ fn settle(
             }
         };
         let shaped: Vec<Shaped> = faces.iter().map(|face| shape(face, cutter, &combs)).collect();
-        let narrow: BTreeSet<EdgeId> =
-            faces.iter().zip(&shaped).flat_map(|(face, s)| crossed_fingers(face, &s.plate, &combs)).collect();
+        let narrow: BTreeSet<EdgeId> = faces
+            .iter()
+            .zip(&shaped)
+            .flat_map(|(face, s)| crossed_fingers(face, &s.plate, &combs))
+            .collect();
         if narrow.is_empty() {
             return Ok(shaped);
         }
@@ -128,16 +142,21 @@ fn special_edges(face: &FlatFace, cutter: &Cutter<'_>, at: Option<EdgeId>) -> Ve
         Some(i) => vec![edge(face.before(i)), edge(i), edge(i + 1)],
         None => (0..face.len()).map(edge).collect(),
     };
-    near.into_iter().filter(|&e| matches!(cutter.kind(e), EdgeKind::Finger | EdgeKind::Butt)).collect()
+    near.into_iter()
+        .filter(|&e| matches!(cutter.kind(e), EdgeKind::Finger | EdgeKind::Butt))
+        .collect()
 }
 
 /// The fingered edges of a plate whose outline crosses itself.
 fn crossed_fingers(face: &FlatFace, plate: &Plate, combs: &EdgeMap<Option<Comb>>) -> Vec<EdgeId> {
-    let fingered: Vec<EdgeId> = face.half_edges.iter().map(|h| h.edge()).filter(|&e| combs[e].is_some()).collect();
+    let fingered: Vec<EdgeId> =
+        face.half_edges.iter().map(|h| h.edge()).filter(|&e| combs[e].is_some()).collect();
     if fingered.is_empty() {
         return fingered;
     }
-    let side = |at: usize| plate.begins.partition_point(|&b| b <= at).checked_sub(1).unwrap_or(face.len() - 1);
+    let side = |at: usize| {
+        plate.begins.partition_point(|&b| b <= at).checked_sub(1).unwrap_or(face.len() - 1)
+    };
     let crossings = [&plate.front, &plate.back].into_iter().filter_map(|outline| crossing(outline));
     let near: Vec<EdgeId> = crossings
         .flat_map(|(a, b)| [a, b])
@@ -145,7 +164,8 @@ fn crossed_fingers(face: &FlatFace, plate: &Plate, combs: &EdgeMap<Option<Comb>>
         .filter(|e| fingered.contains(e))
         .collect();
     // Where sides without fingers cross, something else must give: then all of them.
-    let is_crossed = [&plate.front, &plate.back].into_iter().any(|outline| crossing(outline).is_some());
+    let is_crossed =
+        [&plate.front, &plate.back].into_iter().any(|outline| crossing(outline).is_some());
     if is_crossed && near.is_empty() { fingered } else { near }
 }
 
@@ -183,7 +203,8 @@ fn shape(face: &FlatFace, cutter: &Cutter<'_>, combs: &EdgeMap<Option<Comb>>) ->
                 }
             }
             let comb = combs[face.half_edges[i].edge()].as_ref();
-            outline.extend(comb.into_iter().flat_map(|comb| zone_points(face, i, &insets[i], comb)));
+            outline
+                .extend(comb.into_iter().flat_map(|comb| zone_points(face, i, &insets[i], comb)));
         }
         // So far the end of the side before each corner.
         ends.rotate_left(1);
@@ -221,8 +242,8 @@ fn bisector(face: &FlatFace, i: usize) -> DVec2 {
 /// The share of a side that the relief of one of its ends may take.
 const RELIEF_SHARE: f64 = 0.45;
 
-/// Where the relief of a corner cuts, along its bisector; `None` without relief, at reflex corners, and where it would take
-/// too much of a side.
+/// Where the relief of a corner cuts, along its bisector; `None` without relief, at reflex corners,
+/// and where it would take too much of a side.
 fn relief_level(
     face: &FlatFace,
     i: usize,

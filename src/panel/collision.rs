@@ -1,7 +1,8 @@
 //! Sides of a plate that run past each other, and the thickness at which they begin to.
 //!
-//! With the gap fixed, all corners move in straight lines while the thicknesses grow together, so a side vanishes at a
-//! thickness that is solved for. Sides that cross without being neighbours are found by looking, and their thickness by halving.
+//! With the gap fixed, all corners move in straight lines while the thicknesses grow together, so a
+//! side vanishes at a thickness that is solved for. Sides that cross without being neighbours are
+//! found by looking, and their thickness by halving.
 
 use glam::DVec2;
 
@@ -22,15 +23,23 @@ pub(super) fn collisions(face: &FlatFace, cutter: &Cutter<'_>) -> Vec<Collision>
     let full = lengths(face, cutter, 1.0);
     // A side within rounding of nothing is nothing: no other program would take such a plate.
     let corners = cutter.mesh.face_positions(face.face);
-    let (low, high) = corners.iter().fold((corners[0], corners[0]), |(low, high), &p| (low.min(p), high.max(p)));
+    let (low, high) =
+        corners.iter().fold((corners[0], corners[0]), |(low, high), &p| (low.min(p), high.max(p)));
     let least = RoundingBound::of_box(low, high).length();
     if full.iter().any(|&[front, back]| front <= least || back <= least) {
         let thin = lengths(face, cutter, 0.0);
         for (i, (full, thin)) in full.iter().zip(&thin).enumerate() {
-            let share = (0..2).filter(|&s| full[s] <= least).map(|s| (thin[s] / (thin[s] - full[s])).max(0.0));
+            let share = (0..2)
+                .filter(|&s| full[s] <= least)
+                .map(|s| (thin[s] / (thin[s] - full[s])).max(0.0));
             if let Some(share) = share.reduce(f64::min) {
                 let edge = Some(face.half_edges[i].edge());
-                found.push(Collision { face: face.face, edge, thickness, largest: share * thickness });
+                found.push(Collision {
+                    face: face.face,
+                    edge,
+                    thickness,
+                    largest: share * thickness,
+                });
             }
         }
     }
@@ -49,7 +58,8 @@ pub(super) fn collisions(face: &FlatFace, cutter: &Cutter<'_>) -> Vec<Collision>
 fn lengths(face: &FlatFace, cutter: &Cutter<'_>, scale: f64) -> Vec<[f64; 2]> {
     let [front, back] = outlines(face, cutter, scale);
     let n = face.len();
-    let along = |polygon: &[DVec2], i: usize| (polygon[(i + 1) % n] - polygon[i]).dot(face.along[i]);
+    let along =
+        |polygon: &[DVec2], i: usize| (polygon[(i + 1) % n] - polygon[i]).dot(face.along[i]);
     (0..n).map(|i| [along(&front, i), along(&back, i)]).collect()
 }
 
@@ -74,7 +84,8 @@ pub(super) fn is_simple(polygon: &[DVec2]) -> bool {
 pub(super) fn crossing(polygon: &[DVec2]) -> Option<(usize, usize)> {
     let n = polygon.len();
     let side = |i: usize| (polygon[i], polygon[(i + 1) % n]);
-    let boxes: Vec<(DVec2, DVec2)> = (0..n).map(|i| (side(i).0.min(side(i).1), side(i).0.max(side(i).1))).collect();
+    let boxes: Vec<(DVec2, DVec2)> =
+        (0..n).map(|i| (side(i).0.min(side(i).1), side(i).0.max(side(i).1))).collect();
     for i in 0..n {
         for j in 0..i {
             let apart = boxes[i].0.cmpgt(boxes[j].1).any() || boxes[j].0.cmpgt(boxes[i].1).any();

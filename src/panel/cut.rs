@@ -1,8 +1,10 @@
-//! What happens at the edges: how far the sides of a plate move in from the edge, at its front and at its back.
+//! What happens at the edges: how far the sides of a plate move in from the edge, at its front and
+//! at its back.
 //!
-//! Looked at along the edge, a plate is a strip between its back and front offsets, and its neighbour the same strip turned
-//! by the fold angle φ. With n its normal and u the direction out of it, square to the edge, a point is o·n + s·u; the
-//! neighbour's normal is n·cos φ + u·sin φ. All joints are lines s(o) in that picture; the *inset* is −s.
+//! Looked at along the edge, a plate is a strip between its back and front offsets, and its
+//! neighbour the same strip turned by the fold angle φ. With n its normal and u the direction out
+//! of it, square to the edge, a point is o·n + s·u; the neighbour's normal is n·cos φ + u·sin φ.
+//! All joints are lines s(o) in that picture; the *inset* is −s.
 
 use glam::DVec3;
 
@@ -19,11 +21,12 @@ const KNIFE: f64 = 89.5;
 /// Cuts of rims are no steeper than this, in degrees off square; the rim is cut square instead.
 const STEEPEST_RIM: f64 = 60.0;
 
-/// Mitres between plates of different thickness are no steeper than this, in degrees off square; where the edge is so flat that
-/// they would be, the mitre bisects the angle and the surfaces step.
+/// Mitres between plates of different thickness are no steeper than this, in degrees off square;
+/// where the edge is so flat that they would be, the mitre bisects the angle and the surfaces step.
 const STEEPEST: f64 = 80.0;
 
-/// Dihedral angles of convex edges that fingers and butt joints can have, in degrees; concave ones mirrored.
+/// Dihedral angles of convex edges that fingers and butt joints can have, in degrees; concave ones
+/// mirrored.
 const FINGER_ANGLES: [f64; 2] = [30.0, 140.0];
 const BUTT_ANGLES: [f64; 2] = [30.0, 150.0];
 
@@ -74,7 +77,8 @@ impl Inset {
         self.front.min(self.back)
     }
 
-    /// The angle of the cut off square in radians: positive where the front is longer, negative where the back is.
+    /// The angle of the cut off square in radians: positive where the front is longer, negative
+    /// where the back is.
     pub fn bevel(&self, thickness: f64) -> f64 {
         ((self.back - self.front) / thickness).atan()
     }
@@ -93,10 +97,11 @@ pub struct EdgeCut {
     pub fallback: Option<(EdgeKind, Fallback)>,
     /// The insets of the plates on the left of its two half-edges; `None` for a hole.
     pub insets: [Option<Inset>; 2],
-    /// Distance between the two plates at front and back, in mm: the V of square-cut plates. `None` at rims, and where
-    /// plates overlap by their joint.
+    /// Distance between the two plates at front and back, in mm: the V of square-cut plates. `None`
+    /// at rims, and where plates overlap by their joint.
     pub opening: Option<[f64; 2]>,
-    /// Whether the plates are so different in thickness, and the edge so flat, that their surfaces step.
+    /// Whether the plates are so different in thickness, and the edge so flat, that their surfaces
+    /// step.
     pub is_stepped: bool,
 }
 
@@ -118,7 +123,11 @@ struct Across {
 }
 
 impl<'a> Cutter<'a> {
-    pub fn new(mesh: &'a Mesh, params: &'a PanelParams, thickness: FaceMap<f64>) -> Result<Self, PanelError> {
+    pub fn new(
+        mesh: &'a Mesh,
+        params: &'a PanelParams,
+        thickness: FaceMap<f64>,
+    ) -> Result<Self, PanelError> {
         let mut folds = EdgeMap::filled(mesh.edge_slots(), None);
         let mut kinds = EdgeMap::filled(mesh.edge_slots(), (EdgeKind::Mitre, None));
         for e in mesh.edges().filter(|&e| !mesh.is_rim(e)) {
@@ -165,7 +174,9 @@ impl<'a> Cutter<'a> {
         match self.kinds[h.edge()].0 {
             EdgeKind::Mitre | EdgeKind::Stitch => self.styled(across.mitre(gap)),
             EdgeKind::Hinge => squared(across.mitre(gap)),
-            EdgeKind::Butt if self.mesh.face(h) < self.mesh.face(h.twin()) => self.styled(across.through()),
+            EdgeKind::Butt if self.mesh.face(h) < self.mesh.face(h.twin()) => {
+                self.styled(across.through())
+            }
             EdgeKind::Butt => self.styled(across.stopped(gap)),
             EdgeKind::Finger => across.finger(),
         }
@@ -190,7 +201,9 @@ impl<'a> Cutter<'a> {
                 None => return square,
             },
         };
-        let Some((normal, along)) = mesh.plane(mesh.face(h)).map(|p| p.normal()).zip(along.try_normalize()) else {
+        let Some((normal, along)) =
+            mesh.plane(mesh.face(h)).map(|p| p.normal()).zip(along.try_normalize())
+        else {
             return square;
         };
         let (up, out) = (direction.dot(normal), direction.dot(along.cross(normal)));
@@ -205,7 +218,8 @@ impl<'a> Cutter<'a> {
     /// Everything about an edge.
     pub fn edge_cut(&self, e: EdgeId) -> EdgeCut {
         let sides = e.half_edges();
-        let insets = sides.map(|h| (!self.mesh.is_hole(self.mesh.face(h))).then(|| self.inset(h, 1.0)));
+        let insets =
+            sides.map(|h| (!self.mesh.is_hole(self.mesh.face(h))).then(|| self.inset(h, 1.0)));
         let (kind, fallback) = self.kinds[e];
         let across = self.folds[e].map(|fold| {
             let [own, other] = sides.map(|h| self.offsets(self.mesh.face(h), 1.0));
@@ -256,11 +270,17 @@ fn squared(inset: Inset) -> Inset {
 }
 
 impl Across {
-    /// The slope ds/do of the plane in which the plates meet: through the lines where their fronts and their backs meet.
+    /// The slope ds/do of the plane in which the plates meet: through the lines where their fronts
+    /// and their backs meet.
     fn slope(&self) -> f64 {
         let [t, u] = [self.own, self.other].map(|[front, back]| front - back);
-        // Equal plates bisect the angle, whatever it is; so they do while all thicknesses shrink to nothing.
-        let exact = if t == u { (self.fold / 2.0).tan() } else { (u - t * self.fold.cos()) / (t * self.fold.sin()) };
+        // Equal plates bisect the angle, whatever it is; so they do while all thicknesses shrink to
+        // nothing.
+        let exact = if t == u {
+            (self.fold / 2.0).tan()
+        } else {
+            (u - t * self.fold.cos()) / (t * self.fold.sin())
+        };
         if t != u && exact.abs() > STEEPEST.to_radians().tan() || !exact.is_finite() {
             (self.fold / 2.0).tan()
         } else {
@@ -316,10 +336,13 @@ impl Across {
         self.seen(outer, inner)
     }
 
-    /// Fingers: the roots leave room for the slab of the neighbour, the tips are flush with its outer side.
+    /// Fingers: the roots leave room for the slab of the neighbour, the tips are flush with its
+    /// outer side.
     fn finger(&self) -> Inset {
         let view = self.convex_view();
-        let inmost = |p: f64| view.own.map(|o| view.at_plane(o, p)).into_iter().fold(f64::NEG_INFINITY, f64::max);
+        let inmost = |p: f64| {
+            view.own.map(|o| view.at_plane(o, p)).into_iter().fold(f64::NEG_INFINITY, f64::max)
+        };
         let [tip, root] = view.other.map(inmost);
         Inset { front: root, back: root, tip: Some(tip) }
     }
@@ -357,7 +380,10 @@ mod tests {
             let square = squared(mitre);
             let opening = plates.opening(square, square);
             let widest = opening[0].max(opening[1]);
-            assert!((widest - 8.0 * (fold.abs().to_radians() / 2.0).sin()).abs() < 1e-12, "{fold}: {opening:?}");
+            assert!(
+                (widest - 8.0 * (fold.abs().to_radians() / 2.0).sin()).abs() < 1e-12,
+                "{fold}: {opening:?}"
+            );
             assert!(opening[0].min(opening[1]) < 1e-12);
         }
     }
@@ -375,7 +401,11 @@ mod tests {
         let (here, there) = (across(100.0, own, other), across(100.0, other, own));
         let opening = here.opening(here.mitre(0.0), there.mitre(0.0));
         assert!(opening.iter().all(|&d| d < 1e-12), "{opening:?}");
-        assert!(!here.is_stepped() && across(2.0, own, other).is_stepped() && across(0.0, own, other).is_stepped());
+        assert!(
+            !here.is_stepped()
+                && across(2.0, own, other).is_stepped()
+                && across(0.0, own, other).is_stepped()
+        );
     }
 
     #[test]
@@ -389,16 +419,31 @@ mod tests {
         assert!((finger.front - 6.0).abs() < 1e-12 && finger.tip.is_some_and(|t| t.abs() < 1e-12));
         // Seen from behind a concave edge is the same joint.
         let concave = across(-90.0, [4.0, 0.0], [6.0, 0.0]).finger();
-        assert!((concave.front - 6.0).abs() < 1e-12 && concave.tip.is_some_and(|t| t.abs() < 1e-12));
+        assert!(
+            (concave.front - 6.0).abs() < 1e-12 && concave.tip.is_some_and(|t| t.abs() < 1e-12)
+        );
     }
 
     #[test]
     fn shallow_and_sharp_edges_fall_back() {
-        let params = PanelParams { edges: EdgeKind::Finger.into(), shallow: Shallow::Stitch, ..PanelParams::default() };
+        let params = PanelParams {
+            edges: EdgeKind::Finger.into(),
+            shallow: Shallow::Stitch,
+            ..PanelParams::default()
+        };
         assert_eq!(kind_of(90.0, &params), (EdgeKind::Finger, None));
         assert_eq!(kind_of(270.0, &params), (EdgeKind::Finger, None));
-        assert_eq!(kind_of(150.0, &params), (EdgeKind::Stitch, Some((EdgeKind::Finger, Fallback::Shallow))));
-        assert_eq!(kind_of(20.0, &params), (EdgeKind::Stitch, Some((EdgeKind::Finger, Fallback::Sharp))));
-        assert_eq!(kind_of(200.0, &params), (EdgeKind::Stitch, Some((EdgeKind::Finger, Fallback::Shallow))));
+        assert_eq!(
+            kind_of(150.0, &params),
+            (EdgeKind::Stitch, Some((EdgeKind::Finger, Fallback::Shallow)))
+        );
+        assert_eq!(
+            kind_of(20.0, &params),
+            (EdgeKind::Stitch, Some((EdgeKind::Finger, Fallback::Sharp)))
+        );
+        assert_eq!(
+            kind_of(200.0, &params),
+            (EdgeKind::Stitch, Some((EdgeKind::Finger, Fallback::Shallow)))
+        );
     }
 }

@@ -28,14 +28,18 @@ pub enum PanelError {
         known: Vec<String>,
     },
     /// A face without a plane.
-    #[error("face {face} has no area, so it has no plane and no plate; remove it or weld its neighbours over it")]
+    #[error(
+        "face {face} has no area, so it has no plane and no plate; remove it or weld its \
+        neighbours over it"
+    )]
     NoPlane {
         /// The face.
         face: FaceId,
     },
     /// Two faces that lie on each other.
     #[error(
-        "the faces of edge {edge} lie on each other (dihedral angle {degrees:.3}°), so no plate of any thickness fits between \
+        "the faces of edge {edge} lie on each other (dihedral angle {degrees:.3}°), so no plate of \
+        any thickness fits between \
          them; move a vertex, or use a butt joint (--edges 0-10:butt)"
     )]
     KnifeEdge {
@@ -45,7 +49,10 @@ pub enum PanelError {
         degrees: f64,
     },
     /// A face that runs back on itself.
-    #[error("face {face} turns back on itself at vertex {vertex}, so its plate has no corner there; move the vertex")]
+    #[error(
+        "face {face} turns back on itself at vertex {vertex}, so its plate has no corner there; \
+        move the vertex"
+    )]
     Spike {
         /// The face.
         face: FaceId,
@@ -82,8 +89,8 @@ pub struct Collision {
     pub edge: Option<EdgeId>,
     /// The thickness that was asked for, in mm.
     pub thickness: f64,
-    /// The largest thickness of this plate that works, all others growing in proportion, in mm; 0 when the gap alone is too
-    /// wide.
+    /// The largest thickness of this plate that works, all others growing in proportion, in mm; 0
+    /// when the gap alone is too wide.
     pub largest: f64,
 }
 
@@ -100,7 +107,8 @@ fn collisions(found: &[Collision]) -> String {
         text += &format!("; and {} more", found.len() - LISTED);
     }
     let share = found.iter().map(|c| c.largest / c.thickness).fold(f64::INFINITY, f64::min);
-    let thickness = found.iter().find(|c| c.largest / c.thickness == share).map_or(0.0, |c| c.largest);
+    let thickness =
+        found.iter().find(|c| c.largest / c.thickness == share).map_or(0.0, |c| c.largest);
     let advice = if share <= 0.0 {
         "make the gap narrower, or merge short edges".to_owned()
     } else {
@@ -130,7 +138,8 @@ impl fmt::Display for Collision {
 /// Share of a solved thickness that may be rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// Four significant digits, always less than the value, at which a side is nothing: what is advised must work.
+/// Four significant digits, always less than the value, at which a side is nothing: what is advised
+/// must work.
 fn floor(value: f64) -> String {
     let digits = (3 - value.abs().log10().floor() as i32).clamp(0, 12);
     let scale = 10f64.powi(digits);

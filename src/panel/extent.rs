@@ -4,8 +4,8 @@ use glam::DVec2;
 
 use crate::geom::polygon::convex_hull;
 
-/// Length and width of the rectangle of least area around points, the longer one first. One of its sides lies along a side of
-/// the convex hull (Freeman and Shapira 1975).
+/// Length and width of the rectangle of least area around points, the longer one first. One of its
+/// sides lies along a side of the convex hull (Freeman and Shapira 1975).
 pub(super) fn smallest_box(points: &[DVec2]) -> [f64; 2] {
     let hull = convex_hull(points);
     let n = hull.len();

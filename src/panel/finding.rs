@@ -4,7 +4,8 @@ use super::params::{PanelParams, PanelRequirement};
 use super::plate::Plates;
 use crate::mesh::VertexId;
 
-/// Plates of a node whose residual is larger than this do not meet, in mm per mm: a millionth of the offset.
+/// Plates of a node whose residual is larger than this do not meet, in mm per mm: a millionth of
+/// the offset.
 pub const CONICAL: f64 = 1e-6;
 
 /// A node that breaks a requirement.

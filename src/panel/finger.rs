@@ -1,8 +1,9 @@
 //! Fingers: blocks of one plate that reach through the other, alternately along an edge.
 //!
-//! Between the corners of the plates an edge is divided into zones of equal width; the plate on the left of the edge's first
-//! half-edge has a finger in every even zone, the other plate in every odd one. The zones keep inside of what both plates,
-//! at front and back, roots and tips, have free between their neighbouring sides, so a finger never meets a third plate.
+//! Between the corners of the plates an edge is divided into zones of equal width; the plate on the
+//! left of the edge's first half-edge has a finger in every even zone, the other plate in every odd
+//! one. The zones keep inside of what both plates, at front and back, roots and tips, have free
+//! between their neighbouring sides, so a finger never meets a third plate.
 
 use glam::DVec2;
 
@@ -38,8 +39,10 @@ pub(super) fn combs(
         let sides = e.half_edges().map(|h| free(&faces[flat[mesh.face(h)]], h, cutter));
         let length = sides[0].length;
         // The partner runs the other way.
-        let (low, high) = (sides[0].low.max(length - sides[1].high), sides[0].high.min(length - sides[1].low));
-        let thickness = e.half_edges().map(|h| cutter.thickness[mesh.face(h)]).into_iter().fold(0.0, f64::max);
+        let (low, high) =
+            (sides[0].low.max(length - sides[1].high), sides[0].high.min(length - sides[1].low));
+        let thickness =
+            e.half_edges().map(|h| cutter.thickness[mesh.face(h)]).into_iter().fold(0.0, f64::max);
         let width = hardware.finger_width.map_or(3.0 * thickness, |w| w.mm().max(thickness));
         let room = high - low;
         // Fingers narrower than the plate is thick break off.
@@ -69,15 +72,18 @@ fn free(face: &FlatFace, h: HalfEdgeId, cutter: &Cutter<'_>) -> Free {
     let mut free = Free { low: f64::NEG_INFINITY, high: f64::INFINITY, length: face.length(i) };
     for level in levels {
         for other in [before.front, before.back] {
-            free.low = face.corner(i, other, level).map_or(free.low, |(p, _)| free.low.max(along(p)));
+            free.low =
+                face.corner(i, other, level).map_or(free.low, |(p, _)| free.low.max(along(p)));
         }
         for other in [after.front, after.back] {
             let next = (i + 1) % face.len();
-            free.high = face.corner(next, level, other).map_or(free.high, |(p, _)| free.high.min(along(p)));
+            free.high =
+                face.corner(next, level, other).map_or(free.high, |(p, _)| free.high.min(along(p)));
         }
     }
-    // The relief takes as much of the side as it is deep where the corner is right-angled; twice that covers the sharper ones.
-    // And no finger begins in a corner, where its root would have no length.
+    // The relief takes as much of the side as it is deep where the corner is right-angled; twice
+    // that covers the sharper ones. And no finger begins in a corner, where its root would have no
+    // length.
     let clear = 2.0 * cutter.params.corner_relief.mm() + CLEAR * cutter.thickness[face.face];
     (free.low, free.high) = (free.low + clear, free.high - clear);
     free
@@ -95,7 +101,8 @@ pub(super) fn zone_points(face: &FlatFace, i: usize, inset: &Inset, comb: &Comb)
         if is_first { (from, to) } else { (length - to, length - from) }
     });
     let block = |(from, to): (f64, f64)| {
-        [(from, inset.front), (from, tip), (to, tip), (to, inset.front)].map(|(at, inset)| face.at(i, at, inset))
+        [(from, inset.front), (from, tip), (to, tip), (to, inset.front)]
+            .map(|(at, inset)| face.at(i, at, inset))
     };
     let fingers: Vec<_> = fingers.collect();
     let ordered: Vec<_> = if is_first { fingers } else { fingers.into_iter().rev().collect() };

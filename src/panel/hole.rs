@@ -20,10 +20,12 @@ pub(super) fn drill(
 ) {
     let mesh = cutter.mesh;
     let (spacing, radius) = (hardware.spacing(), hardware.diameter() / 2.0);
-    for e in mesh.edges().filter(|&e| matches!(cutter.kind(e), EdgeKind::Stitch | EdgeKind::Hinge)) {
+    for e in mesh.edges().filter(|&e| matches!(cutter.kind(e), EdgeKind::Stitch | EdgeKind::Hinge))
+    {
         let sides = e.half_edges();
         let plates = sides.map(|h| flat[mesh.face(h)]);
-        let length = side_of(&faces[plates[0]], sides[0]).map_or(0.0, |i| faces[plates[0]].length(i));
+        let length =
+            side_of(&faces[plates[0]], sides[0]).map_or(0.0, |i| faces[plates[0]].length(i));
         let count = (length / spacing).floor();
         for k in 0..count as usize {
             // Centred on the middle of the edge.
@@ -32,10 +34,15 @@ pub(super) fn drill(
                 let face = &faces[plates[s]];
                 let along = if s == 0 { at } else { length - at };
                 let inset = cutter.inset(sides[s], 1.0).inner() + hardware.inset();
-                side_of(face, sides[s]).map(|i| Hole { centre: face.at(i, along, inset), radius, edge: e })
+                side_of(face, sides[s]).map(|i| Hole {
+                    centre: face.at(i, along, inset),
+                    radius,
+                    edge: e,
+                })
             };
             let pair = [hole(0), hole(1)];
-            let fits = |s: usize| pair[s].is_some_and(|hole| has_room(&made.plates[plates[s]], &hole));
+            let fits =
+                |s: usize| pair[s].is_some_and(|hole| has_room(&made.plates[plates[s]], &hole));
             if fits(0) && fits(1) {
                 made.hole_pairs += 1;
                 (0..2).for_each(|s| made.plates[plates[s]].holes.extend(pair[s]));
@@ -50,7 +57,8 @@ fn side_of(face: &FlatFace, h: HalfEdgeId) -> Option<usize> {
     face.half_edges.iter().position(|&g| g == h)
 }
 
-/// Whether a hole keeps its own radius as distance from the sides of its plate and from the other holes.
+/// Whether a hole keeps its own radius as distance from the sides of its plate and from the other
+/// holes.
 fn has_room(plate: &Plate, hole: &Hole) -> bool {
     let clear = 2.0 * hole.radius;
     let keeps = |outline: &[DVec2]| {

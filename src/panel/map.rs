@@ -1,7 +1,9 @@
-//! The assembly map: the model seen from the sides that its panels look at, every panel with its name.
+//! The assembly map: the model seen from the sides that its panels look at, every panel with its
+//! name.
 //!
-//! Panels are drawn from the farthest to the nearest, filled, so that what lies behind is covered (the painter's algorithm;
-//! by the middles of the panels, which is exact for all but panels that reach around one another).
+//! Panels are drawn from the farthest to the nearest, filled, so that what lies behind is covered
+//! (the painter's algorithm; by the middles of the panels, which is exact for all but panels that
+//! reach around one another).
 
 use glam::{DVec2, DVec3};
 
@@ -74,12 +76,15 @@ pub fn assembly_map(plates: &Plates) -> AssemblyMap {
     };
     let mut is_used = [false; SIDES.len()];
     plates.plates.iter().for_each(|plate| is_used[nearest(plate)] = true);
-    let raw: Vec<RawView> = (0..SIDES.len()).filter(|&i| is_used[i]).map(|i| view(plates, i)).collect();
+    let raw: Vec<RawView> =
+        (0..SIDES.len()).filter(|&i| is_used[i]).map(|i| view(plates, i)).collect();
     let columns = (raw.len() as f64).sqrt().ceil().max(1.0) as usize;
     let rows = raw.len().div_ceil(columns).max(1);
-    let cell = (PAGE - DVec2::splat(MARGIN)) / DVec2::new(columns as f64, rows as f64) - DVec2::splat(MARGIN);
+    let cell = (PAGE - DVec2::splat(MARGIN)) / DVec2::new(columns as f64, rows as f64)
+        - DVec2::splat(MARGIN);
     let room = cell - DVec2::new(0.0, TITLE);
-    let largest = raw.iter().map(|v| v.high - v.low).fold(DVec2::splat(f64::MIN_POSITIVE), DVec2::max);
+    let largest =
+        raw.iter().map(|v| v.high - v.low).fold(DVec2::splat(f64::MIN_POSITIVE), DVec2::max);
     let shrink = (room / largest).min_element();
     let place = |(k, raw): (usize, RawView)| {
         let (column, row) = (k % columns, k / columns);
@@ -134,7 +139,9 @@ pub(crate) fn label_room(outline: &[DVec2]) -> (DVec2, DVec2) {
     let mut at = centroid(outline);
     if locate(outline, at) != Location::Inside {
         // The middle of the largest triangle.
-        let area = |t: &[usize; 3]| (outline[t[1]] - outline[t[0]]).perp_dot(outline[t[2]] - outline[t[0]]).abs();
+        let area = |t: &[usize; 3]| {
+            (outline[t[1]] - outline[t[0]]).perp_dot(outline[t[2]] - outline[t[0]]).abs()
+        };
         let triangles = triangulate(outline);
         if let Some(t) = triangles.iter().max_by(|a, b| area(a).total_cmp(&area(b))) {
             at = (outline[t[0]] + outline[t[1]] + outline[t[2]]) / 3.0;

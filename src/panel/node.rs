@@ -17,8 +17,8 @@ pub struct Node {
     pub valence: usize,
     /// Whether it lies on a rim.
     pub is_rim: bool,
-    /// Where the front planes of its plates meet; with more than three plates the point nearest to all of them, with fewer
-    /// the point of their common line (or plane) nearest to the vertex.
+    /// Where the front planes of its plates meet; with more than three plates the point nearest to
+    /// all of them, with fewer the point of their common line (or plane) nearest to the vertex.
     pub front: DVec3,
     /// The same for the back planes.
     pub back: DVec3,
@@ -26,16 +26,30 @@ pub struct Node {
     pub axis: DVec3,
     /// Conical residual in mm per mm of offset; 0 up to rounding where the plates meet exactly.
     pub residual: f64,
-    /// The largest distance of a plate's corner from the front or back point, in mm. 0 up to rounding at valence 3.
+    /// The largest distance of a plate's corner from the front or back point, in mm. 0 up to
+    /// rounding at valence 3.
     pub miss_mm: f64,
 }
 
 /// All nodes, in the order of the vertices. `flat[f]` is the index of a face in `faces`.
-pub(super) fn nodes(mesh: &Mesh, cutter: &Cutter<'_>, faces: &[FlatFace], flat: &FaceMap<usize>) -> Vec<Node> {
-    mesh.vertices().filter(|&v| mesh.vertex_start(v).is_some()).map(|v| node(mesh, cutter, v, (faces, flat))).collect()
+pub(super) fn nodes(
+    mesh: &Mesh,
+    cutter: &Cutter<'_>,
+    faces: &[FlatFace],
+    flat: &FaceMap<usize>,
+) -> Vec<Node> {
+    mesh.vertices()
+        .filter(|&v| mesh.vertex_start(v).is_some())
+        .map(|v| node(mesh, cutter, v, (faces, flat)))
+        .collect()
 }
 
-fn node(mesh: &Mesh, cutter: &Cutter<'_>, v: VertexId, (faces, flat): (&[FlatFace], &FaceMap<usize>)) -> Node {
+fn node(
+    mesh: &Mesh,
+    cutter: &Cutter<'_>,
+    v: VertexId,
+    (faces, flat): (&[FlatFace], &FaceMap<usize>),
+) -> Node {
     let around: Vec<FaceId> = mesh.vertex_faces(v).collect();
     let [front, back] = [0, 1].map(|side| {
         let moved = |&f: &FaceId| {
@@ -48,7 +62,8 @@ fn node(mesh: &Mesh, cutter: &Cutter<'_>, v: VertexId, (faces, flat): (&[FlatFac
     let (is_rim, valence) = (mesh.is_rim_vertex(v), mesh.valence(v));
     let axis = (front - back).try_normalize().unwrap_or(normals.normalize_or(DVec3::Z));
     let miss = |&f: &FaceId| corner_miss(mesh, cutter, v, &faces[flat[f]], [front, back]);
-    // Three planes meet: nothing to measure. With two at a rim the corner depends on how the rim is cut.
+    // Three planes meet: nothing to measure. With two at a rim the corner depends on how the rim is
+    // cut.
     let is_exact = around.len() <= 3;
     let miss_mm = if is_exact { 0.0 } else { around.iter().map(miss).fold(0.0, f64::max) };
     let residual = if is_exact { 0.0 } else { conical_residual(mesh, v).unwrap_or(0.0) };
@@ -64,13 +79,22 @@ fn meeting_point(planes: &[Plane], near: DVec3) -> DVec3 {
 }
 
 /// How far the corners of a plate, without gap, are from the node's two points.
-fn corner_miss(mesh: &Mesh, cutter: &Cutter<'_>, v: VertexId, face: &FlatFace, points: [DVec3; 2]) -> f64 {
+fn corner_miss(
+    mesh: &Mesh,
+    cutter: &Cutter<'_>,
+    v: VertexId,
+    face: &FlatFace,
+    points: [DVec3; 2],
+) -> f64 {
     let at = (0..face.len()).filter(|&i| mesh.origin(face.half_edges[i]) == v);
     let offsets = cutter.offsets(face.face, 1.0);
     at.map(|i| {
-        let [before, after] = [face.before(i), i].map(|i| cutter.inset_with_gap(face.half_edges[i], 1.0, 0.0));
+        let [before, after] =
+            [face.before(i), i].map(|i| cutter.inset_with_gap(face.half_edges[i], 1.0, 0.0));
         let miss = |b: f64, a: f64, side: usize| {
-            let corner = face.corner(i, b, a).map(|(p, _)| face.frame.lift(p) + face.frame.normal * offsets[side]);
+            let corner = face
+                .corner(i, b, a)
+                .map(|(p, _)| face.frame.lift(p) + face.frame.normal * offsets[side]);
             corner.map_or(0.0, |p| p.distance(points[side]))
         };
         miss(before.front, after.front, 0).max(miss(before.back, after.back, 1))

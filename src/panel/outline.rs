@@ -6,7 +6,8 @@ use super::error::PanelError;
 use crate::geom::Frame;
 use crate::mesh::{FaceId, HalfEdgeId, Mesh};
 
-/// Sines of turns below this are straight corners: sides moved by different insets would meet nowhere near.
+/// Sines of turns below this are straight corners: sides moved by different insets would meet
+/// nowhere near.
 const STRAIGHT: f64 = 1e-7;
 
 /// A face in the frame of its plate.
@@ -28,11 +29,15 @@ impl FlatFace {
         let ends = |h: HalfEdgeId| mesh.position(mesh.target(h)) - mesh.position(mesh.origin(h));
         let longest = half_edges.iter().map(|&h| ends(h)).reduce(longer).unwrap_or(DVec3::X);
         // Near the face, so that far from the origin no digits are lost.
-        let origin = plane.project(half_edges.first().map_or(plane.point(), |&h| mesh.position(mesh.origin(h))));
-        let frame = Frame::along(origin, longest, plane.normal()).ok_or(PanelError::NoPlane { face: f })?;
-        let corners: Vec<DVec2> = half_edges.iter().map(|&h| frame.flatten(mesh.position(mesh.origin(h)))).collect();
+        let origin = plane
+            .project(half_edges.first().map_or(plane.point(), |&h| mesh.position(mesh.origin(h))));
+        let frame =
+            Frame::along(origin, longest, plane.normal()).ok_or(PanelError::NoPlane { face: f })?;
+        let corners: Vec<DVec2> =
+            half_edges.iter().map(|&h| frame.flatten(mesh.position(mesh.origin(h)))).collect();
         let n = corners.len();
-        let along: Vec<DVec2> = (0..n).map(|i| (corners[(i + 1) % n] - corners[i]).normalize_or_zero()).collect();
+        let along: Vec<DVec2> =
+            (0..n).map(|i| (corners[(i + 1) % n] - corners[i]).normalize_or_zero()).collect();
         if along.contains(&DVec2::ZERO) {
             return Err(PanelError::NoPlane { face: f });
         }
@@ -52,27 +57,30 @@ impl FlatFace {
         self.corners[i].distance(self.corners[(i + 1) % self.len()])
     }
 
-    /// Where corner `i` goes when the side before it is moved inwards by `before` and the side after it by `after`; and
-    /// whether the corner is straight, so that the two insets could only be averaged.
+    /// Where corner `i` goes when the side before it is moved inwards by `before` and the side
+    /// after it by `after`; and whether the corner is straight, so that the two insets could only
+    /// be averaged.
     pub fn corner(&self, i: usize, before: f64, after: f64) -> Option<(DVec2, bool)> {
         let (u, v) = (self.along[self.before(i)], self.along[i]);
         let (sin, open) = (u.perp_dot(v), 1.0 + u.dot(v));
         if open <= f64::EPSILON {
             return None;
         }
-        // Split into what both sides do alike and what they do differently: only the latter gets large at flat corners.
+        // Split into what both sides do alike and what they do differently: only the latter gets
+        // large at flat corners.
         let (alike, differently) = (before.midpoint(after), (before - after) / 2.0);
         let common = (u.perp() + v.perp()) * (alike / open);
         let is_straight = sin.abs() < STRAIGHT;
         if is_straight {
-            let is_rounding = differently.abs() <= 1e3 * f64::EPSILON * (before.abs() + after.abs());
+            let is_rounding =
+                differently.abs() <= 1e3 * f64::EPSILON * (before.abs() + after.abs());
             return Some((self.corners[i] + common, !is_rounding));
         }
         Some((self.corners[i] + common + (u + v) * (differently / sin), false))
     }
 
-    /// The polygon whose side `i` is moved inwards by `insets[i]`; with its straight corners. The face's own corners when a
-    /// corner turns back on itself, which was refused before.
+    /// The polygon whose side `i` is moved inwards by `insets[i]`; with its straight corners. The
+    /// face's own corners when a corner turns back on itself, which was refused before.
     pub fn moved(&self, insets: &[f64]) -> (Vec<DVec2>, Vec<usize>) {
         let mut straight = Vec::new();
         let corner = |i: usize| {
@@ -95,7 +103,9 @@ impl FlatFace {
     /// Refuses corners that turn back on themselves.
     pub fn check(&self, mesh: &Mesh) -> Result<(), PanelError> {
         match (0..self.len()).find(|&i| self.corner(i, 0.0, 0.0).is_none()) {
-            Some(i) => Err(PanelError::Spike { face: self.face, vertex: mesh.origin(self.half_edges[i]) }),
+            Some(i) => {
+                Err(PanelError::Spike { face: self.face, vertex: mesh.origin(self.half_edges[i]) })
+            }
             None => Ok(()),
         }
     }

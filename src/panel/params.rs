@@ -11,14 +11,17 @@ use super::rule::EdgeRules;
 use crate::code::codes;
 use crate::units::{Length, UnitError};
 
-/// How the faces of a model become plates. The thickness itself comes beside it, since sheets need it too.
+/// How the faces of a model become plates. The thickness itself comes beside it, since sheets need
+/// it too.
 #[derive(Debug, Clone, PartialEq, clap::Args, Deserialize)]
 pub struct PanelParams {
-    /// Which side of the plates the model's surface is: their inner side, their middle, or their outer side
+    /// Which side of the plates the model's surface is: their inner side, their middle, or their
+    /// outer side
     #[arg(long, value_enum, default_value = "out")]
     #[serde(default)]
     pub side: ReferenceSide,
-    /// Gap of the joints, from plate to plate square to the cut, 0 or more; half of it is taken off each plate
+    /// Gap of the joints, from plate to plate square to the cut, 0 or more; half of it is taken off
+    /// each plate
     #[arg(long, value_name = "LENGTH", default_value = "0mm")]
     #[serde(default)]
     pub gap: Length,
@@ -34,8 +37,9 @@ pub struct PanelParams {
     #[arg(long, value_enum, default_value = "bevel")]
     #[serde(default)]
     pub cutting: CutStyle,
-    /// What the edges are: mitre, butt, finger, stitch or hinge; or by dihedral angle, 30-100:finger,100-180:stitch, where
-    /// other angles are mitred. Concave edges have angles above 180
+    /// What the edges are: mitre, butt, finger, stitch or hinge; or by dihedral angle,
+    /// 30-100:finger,100-180:stitch, where other angles are mitred. Concave edges have angles above
+    /// 180
     #[arg(long, value_name = "KIND|RULES", default_value = "mitre")]
     #[serde(default)]
     pub edges: EdgeRules,
@@ -43,11 +47,13 @@ pub struct PanelParams {
     #[arg(long, value_enum, default_value = "mitre")]
     #[serde(default)]
     pub shallow: Shallow,
-    /// Cuts the corners of all panels off square to their bisector, this deep, so that a node has room; 0 or more
+    /// Cuts the corners of all panels off square to their bisector, this deep, so that a node has
+    /// room; 0 or more
     #[arg(long, value_name = "LENGTH", default_value = "0mm")]
     #[serde(default)]
     pub corner_relief: Length,
-    /// Density of the material in kg per cubic metre, above 0; unless given that of `material`, without one 2500, which is glass
+    /// Density of the material in kg per cubic metre, above 0; unless given that of `material`,
+    /// without one 2500, which is glass
     #[arg(long, value_name = "KG/M3", value_parser = crate::units::parse_number)]
     #[serde(default)]
     pub density: Option<f64>,
@@ -55,9 +61,16 @@ pub struct PanelParams {
     #[arg(long, value_name = "LENGTH", default_value = "0.1mm")]
     #[serde(default = "default_tolerance")]
     pub tolerance: Length,
-    /// What the model must be, else the exit code is 1: `valence3` (three edges at every vertex, two allowed at a rim),
-    /// `conical` (the plates of every node meet to a millionth of their thickness)
-    #[arg(long, value_enum, value_delimiter = ',', value_name = "LIST", hide_possible_values = true)]
+    /// What the model must be, else the exit code is 1: `valence3` (three edges at every vertex,
+    /// two allowed at a rim), `conical` (the plates of every node meet to a millionth of their
+    /// thickness)
+    #[arg(
+        long,
+        value_enum,
+        value_delimiter = ',',
+        value_name = "LIST",
+        hide_possible_values = true
+    )]
     #[serde(default)]
     pub require: Vec<PanelRequirement>,
 }
@@ -118,9 +131,11 @@ pub enum RimCut {
     /// Square to the plate.
     #[default]
     Square,
-    /// Along the vertical (z), so that the cut stands plumb; square where the edge itself stands upright.
+    /// Along the vertical (z), so that the cut stands plumb; square where the edge itself stands
+    /// upright.
     Plumb,
-    /// Along the plane of the rim: it bisects the angle to the model mirrored there, so that halves of a model meet flush.
+    /// Along the plane of the rim: it bisects the angle to the model mirrored there, so that halves
+    /// of a model meet flush.
     Bisected,
 }
 
@@ -131,7 +146,8 @@ pub enum CutStyle {
     /// At any angle.
     #[default]
     Bevel,
-    /// Square only: plates end where the innermost line of their edge is, and an open V stays between them.
+    /// Square only: plates end where the innermost line of their edge is, and an open V stays
+    /// between them.
     Square,
 }
 
@@ -176,7 +192,11 @@ impl FromStr for GroupThickness {
     type Err = UnitError;
 
     fn from_str(text: &str) -> Result<Self, UnitError> {
-        let wanted = || UnitError { text: text.to_owned(), wanted: "a group with its thickness", example: "roof=12mm" };
+        let wanted = || UnitError {
+            text: text.to_owned(),
+            wanted: "a group with its thickness",
+            example: "roof=12mm",
+        };
         let (group, thickness) = text.rsplit_once('=').ok_or_else(wanted)?;
         Ok(Self { group: group.trim().to_owned(), thickness: thickness.parse()? })
     }
@@ -214,9 +234,17 @@ impl PanelParams {
         for own in &self.thickness_of {
             positive(&format!("the thickness of group {}", own.group), own.thickness.mm())?;
         }
-        for (name, value) in [("gap", self.gap), ("corner-relief", self.corner_relief), ("tolerance", self.tolerance)] {
+        for (name, value) in [
+            ("gap", self.gap),
+            ("corner-relief", self.corner_relief),
+            ("tolerance", self.tolerance),
+        ] {
             if !(value.mm() >= 0.0 && value.mm().is_finite()) {
-                return Err(PanelError::OutOfRange { name: name.to_owned(), value: value.mm(), wanted: "0 or more" });
+                return Err(PanelError::OutOfRange {
+                    name: name.to_owned(),
+                    value: value.mm(),
+                    wanted: "0 or more",
+                });
             }
         }
         Ok(())
@@ -228,7 +256,8 @@ impl PanelParams {
     }
 }
 
-/// Sizes of fingers and holes; on the command line they are those of the sheet options of the same names.
+/// Sizes of fingers and holes; on the command line they are those of the sheet options of the same
+/// names.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Hardware {
     /// Width of a finger, about; three times the thickness unless given, never less than it.
@@ -261,9 +290,14 @@ impl Hardware {
             ("hole-diameter", self.hole_diameter),
             ("hole-inset", self.hole_inset),
         ];
-        for (name, value) in given.into_iter().filter_map(|(name, value)| Some((name, value?.mm()))) {
+        for (name, value) in given.into_iter().filter_map(|(name, value)| Some((name, value?.mm())))
+        {
             if !(value > 0.0 && value.is_finite()) {
-                return Err(PanelError::OutOfRange { name: name.to_owned(), value, wanted: "above 0" });
+                return Err(PanelError::OutOfRange {
+                    name: name.to_owned(),
+                    value,
+                    wanted: "above 0",
+                });
             }
         }
         Ok(())

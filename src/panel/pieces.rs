@@ -1,40 +1,58 @@
 //! Panels as the pieces of a net, so that they are nested, lettered and cut like any other pieces.
 //!
-//! A piece's outline is the blank of its plate; its one face has the corners of the part that is solid at front and back, so
-//! that lettering keeps inside. Every edge between two panels is a seam, every other one a rim.
+//! A piece's outline is the blank of its plate; its one face has the corners of the part that is
+//! solid at front and back, so that lettering keeps inside. Every edge between two panels is a
+//! seam, every other one a rim.
 
 use glam::DVec2;
 
 use super::plate::{Plate, Plates};
 use crate::measure::edge_length;
 use crate::mesh::{EdgeId, FaceMap, HalfEdgeId, Mesh, SplitVertex, VertexMap};
-use crate::net::{EdgeLabel, FlatFace, MeshCounts, Net, Piece, PieceId, Proof, Rim, Seam, SeamSide, Segment};
+use crate::net::{
+    EdgeLabel, FlatFace, MeshCounts, Net, Piece, PieceId, Proof, Rim, Seam, SeamSide, Segment,
+};
 
 /// Sides of the polygon of a round hole on a sheet; they stay within 1 % of the radius.
 const ROUND: usize = 24;
 
-/// The net of a panelled mesh: piece i is plate i. `scale` is the factor from the mesh file's unit to millimetres, `splits` are
-/// the vertices that were split when it was read.
+/// The net of a panelled mesh: piece i is plate i. `scale` is the factor from the mesh file's unit
+/// to millimetres, `splits` are the vertices that were split when it was read.
 pub fn panel_net(mesh: &Mesh, plates: &Plates, scale: f64, splits: &[SplitVertex]) -> Net {
     let mut name = VertexMap::filled(mesh.vertex_slots(), 0);
     mesh.vertices().for_each(|v| name[v] = v.index());
     splits.iter().for_each(|split| name[split.added] = split.given.index());
     let mut index = FaceMap::filled(mesh.face_slots(), usize::MAX);
     plates.plates.iter().enumerate().for_each(|(i, plate)| index[plate.face] = i);
-    let side = |h: HalfEdgeId| Side::of(&plates.plates[index[mesh.face(h)]], index[mesh.face(h)], h);
+    let side =
+        |h: HalfEdgeId| Side::of(&plates.plates[index[mesh.face(h)]], index[mesh.face(h)], h);
     let ends = |e: EdgeId| mesh.edge_vertices(e).map(|v| name[v]);
     let (mut seams, mut rims) = (Vec::new(), Vec::new());
     for cut in &plates.edges {
         let [h, g] = cut.edge.half_edges();
         if let Some(fold) = cut.fold {
-            let sides =
-                [side(h), side(g).turned()].map(|s| SeamSide { piece: s.piece, face: s.face, segment: s.segment });
+            let sides = [side(h), side(g).turned()].map(|s| SeamSide {
+                piece: s.piece,
+                face: s.face,
+                segment: s.segment,
+            });
             let length = edge_length(mesh, cut.edge);
             let id = EdgeLabel(cut.edge.index());
-            seams.push(Seam { id, edge: ends(cut.edge), length, fold_angle: fold.to_degrees(), sides });
+            seams.push(Seam {
+                id,
+                edge: ends(cut.edge),
+                length,
+                fold_angle: fold.to_degrees(),
+                sides,
+            });
         } else if let Some(first) = [h, g].into_iter().find(|&h| !mesh.is_hole(mesh.face(h))) {
             let s = if first == h { side(h) } else { side(g).turned() };
-            rims.push(Rim { edge: ends(cut.edge), piece: s.piece, face: s.face, segment: s.segment });
+            rims.push(Rim {
+                edge: ends(cut.edge),
+                piece: s.piece,
+                face: s.face,
+                segment: s.segment,
+            });
         }
     }
     let piece = |(i, plate): (usize, &Plate)| Piece {
@@ -47,8 +65,11 @@ pub fn panel_net(mesh: &Mesh, plates: &Plates, scale: f64, splits: &[SplitVertex
             polygon: plate.inner.clone(),
         }],
     };
-    let counts =
-        MeshCounts { vertices: mesh.vertex_count() - splits.len(), edges: mesh.edge_count(), faces: mesh.face_count() };
+    let counts = MeshCounts {
+        vertices: mesh.vertex_count() - splits.len(),
+        edges: mesh.edge_count(),
+        faces: mesh.face_count(),
+    };
     Net {
         scale,
         counts,
@@ -91,11 +112,14 @@ fn proof(mesh: &Mesh, plates: &Plates) -> Proof {
     for plate in &plates.plates {
         let corners = mesh.face_positions(plate.face);
         let n = corners.len();
-        let shift = (0..n).map(|i| plate.on_front(plate.reference[i]) - corners[i]).map(|d| d.dot(plate.frame.normal));
+        let shift = (0..n)
+            .map(|i| plate.on_front(plate.reference[i]) - corners[i])
+            .map(|d| d.dot(plate.frame.normal));
         let level = shift.sum::<f64>() / n as f64;
         for i in 0..n {
             let j = (i + 1) % n;
-            let difference = plate.reference[i].distance(plate.reference[j]) - corners[i].distance(corners[j]);
+            let difference =
+                plate.reference[i].distance(plate.reference[j]) - corners[i].distance(corners[j]);
             proof.congruence_mm = proof.congruence_mm.max(difference.abs());
             let lifted = plate.on_front(plate.reference[i]) - plate.frame.normal * level;
             proof.refold_mm = proof.refold_mm.max(lifted.distance(corners[i]));

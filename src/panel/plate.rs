@@ -18,8 +18,8 @@ pub struct Plate {
     pub face: FaceId,
     /// In mm.
     pub thickness: f64,
-    /// On the front: a flat point p of the front lies at `frame.lift(p)`, one of the back at that minus the thickness along
-    /// the normal.
+    /// On the front: a flat point p of the front lies at `frame.lift(p)`, one of the back at that
+    /// minus the thickness along the normal.
     pub frame: Frame,
     /// The sides, counter-clockwise from outside; side i lies along this half-edge.
     pub half_edges: Vec<HalfEdgeId>,
@@ -29,15 +29,15 @@ pub struct Plate {
     pub front: Vec<DVec2>,
     /// The back outline; corner i of the back belongs to corner i of the front.
     pub back: Vec<DVec2>,
-    /// The outline of the blank: every side where it is outermost (the long point). What is cut out of the sheet before
-    /// bevelling; for square cuts the same as front and back.
+    /// The outline of the blank: every side where it is outermost (the long point). What is cut out
+    /// of the sheet before bevelling; for square cuts the same as front and back.
     pub blank: Vec<DVec2>,
     /// For every side, where it begins in the outlines.
     pub begins: Vec<usize>,
     /// For every side, where it ends in the outlines.
     pub ends: Vec<usize>,
-    /// The part of the face that lies inside of every side at front and back, with a corner for each vertex: where there is
-    /// room for lettering.
+    /// The part of the face that lies inside of every side at front and back, with a corner for
+    /// each vertex: where there is room for lettering.
     pub inner: Vec<DVec2>,
     /// Round holes through the plate, square to it.
     pub holes: Vec<Hole>,
@@ -63,7 +63,8 @@ pub struct Plates {
     pub edges: Vec<EdgeCut>,
     /// One node for each vertex with edges, in their order.
     pub nodes: Vec<Node>,
-    /// Corners in a straight line between edges with different insets, as (face, corner): the insets were averaged there.
+    /// Corners in a straight line between edges with different insets, as (face, corner): the
+    /// insets were averaged there.
     pub straight_corners: Vec<(FaceId, usize)>,
     /// Corners too near to their neighbours to be relieved.
     pub unrelieved_corners: usize,
@@ -93,7 +94,9 @@ impl Plate {
     pub fn is_concave(&self) -> bool {
         let n = self.reference.len();
         let side = |i: usize| self.reference[(i + 1) % n] - self.reference[i % n];
-        (0..n).any(|i| side(i).perp_dot(side(i + 1)) < -FLAT * side(i).length() * side(i + 1).length())
+        (0..n).any(|i| {
+            side(i).perp_dot(side(i + 1)) < -FLAT * side(i).length() * side(i + 1).length()
+        })
     }
 
     /// Area of the front, holes taken off, in mm².
@@ -105,10 +108,11 @@ impl Plate {
         self.holes.iter().map(|h| std::f64::consts::PI * h.radius * h.radius).sum()
     }
 
-    /// Volume in mm³. Exact: every cross-section has its corners on straight lines from back to front (the prismatoid
-    /// formula).
+    /// Volume in mm³. Exact: every cross-section has its corners on straight lines from back to
+    /// front (the prismatoid formula).
     pub fn volume(&self) -> f64 {
-        let middle: Vec<DVec2> = self.front.iter().zip(&self.back).map(|(&a, &b)| a.midpoint(b)).collect();
+        let middle: Vec<DVec2> =
+            self.front.iter().zip(&self.back).map(|(&a, &b)| a.midpoint(b)).collect();
         let sum = signed_area(&self.front) + 4.0 * signed_area(&middle) + signed_area(&self.back);
         self.thickness * (sum / 6.0 - self.hole_area())
     }

@@ -20,7 +20,8 @@ pub enum EdgeKind {
     Finger,
     /// A mitre with a row of holes in both plates, opposite each other.
     Stitch,
-    /// Cut square at the line where the plates touch, so that they can turn there, with a row of holes for the hinge.
+    /// Cut square at the line where the plates touch, so that they can turn there, with a row of
+    /// holes for the hinge.
     Hinge,
 }
 
@@ -56,7 +57,8 @@ impl EdgeRules {
         Self { rules: vec![Rule { from: 0.0, to: 360.0, kind }] }
     }
 
-    /// The kind of an edge with a dihedral angle in degrees: of the first range that holds it, ends included.
+    /// The kind of an edge with a dihedral angle in degrees: of the first range that holds it, ends
+    /// included.
     pub fn kind(&self, dihedral: f64) -> EdgeKind {
         let rule = self.rules.iter().find(|r| r.from <= dihedral && dihedral <= r.to);
         rule.map_or(EdgeKind::Mitre, |r| r.kind)
@@ -92,21 +94,26 @@ fn kind(text: &str) -> Result<EdgeKind, UnitError> {
     names.iter().copied().find(|k| k.name() == word).ok_or_else(|| UnitError {
         text: text.to_owned(),
         wanted: "a kind of edge (mitre, butt, finger, stitch, hinge)",
-        example: nearest_word(word, names.iter().map(|k| k.name())).unwrap_or("mitre or 30-100:finger,100-180:stitch"),
+        example: nearest_word(word, names.iter().map(|k| k.name()))
+            .unwrap_or("mitre or 30-100:finger,100-180:stitch"),
     })
 }
 
 fn rule(text: &str) -> Result<Rule, UnitError> {
     let wrong = || UnitError {
         text: text.to_owned(),
-        wanted: "a kind of edge (mitre, butt, finger, stitch, hinge), or a range of dihedral angles with its kind",
+        wanted: "a kind of edge (mitre, butt, finger, stitch, hinge), or a range of dihedral \
+        angles with its kind",
         example: "mitre or 30-100:finger,100-180:stitch",
     };
-    let (range, word) = text.split_once(':').ok_or_else(|| kind(text).map_or_else(|e| e, |_| wrong()))?;
+    let (range, word) =
+        text.split_once(':').ok_or_else(|| kind(text).map_or_else(|e| e, |_| wrong()))?;
     let (from, to) = range.split_once('-').ok_or_else(wrong)?;
-    let degrees =
-        |text: &str| parse_number(text.trim().trim_end_matches("deg")).ok().filter(|d| (0.0..=360.0).contains(d));
-    let (from, to) = degrees(from).zip(degrees(to)).filter(|(from, to)| from < to).ok_or_else(wrong)?;
+    let degrees = |text: &str| {
+        parse_number(text.trim().trim_end_matches("deg")).ok().filter(|d| (0.0..=360.0).contains(d))
+    };
+    let (from, to) =
+        degrees(from).zip(degrees(to)).filter(|(from, to)| from < to).ok_or_else(wrong)?;
     Ok(Rule { from, to, kind: kind(word)? })
 }
 
@@ -137,11 +144,23 @@ mod tests {
     fn ranges_decide_and_everything_else_is_mitred() {
         let rules: EdgeRules = "30-100:finger, 100deg-180deg:stitch".parse().expect("rules");
         let kinds = [20.0, 30.0, 100.0, 100.1, 190.0].map(|d| rules.kind(d));
-        assert_eq!(kinds, [EdgeKind::Mitre, EdgeKind::Finger, EdgeKind::Finger, EdgeKind::Stitch, EdgeKind::Mitre]);
+        assert_eq!(
+            kinds,
+            [
+                EdgeKind::Mitre,
+                EdgeKind::Finger,
+                EdgeKind::Finger,
+                EdgeKind::Stitch,
+                EdgeKind::Mitre
+            ]
+        );
         assert!(rules.has(EdgeKind::Stitch) && !rules.has(EdgeKind::Butt));
         assert_eq!(rules.to_string().parse::<EdgeRules>().as_ref(), Ok(&rules));
         assert_eq!("butt".parse::<EdgeRules>().expect("a kind").kind(300.0), EdgeKind::Butt);
-        assert_eq!(EdgeRules::default(), "mitre".parse::<EdgeRules>().map(|_| EdgeRules::default()).expect("a kind"));
+        assert_eq!(
+            EdgeRules::default(),
+            "mitre".parse::<EdgeRules>().map(|_| EdgeRules::default()).expect("a kind")
+        );
     }
 
     #[test]

@@ -1,4 +1,5 @@
-//! The schedule: panels, edges and nodes as a fabricator lists them, in millimetres, degrees and kilograms.
+//! The schedule: panels, edges and nodes as a fabricator lists them, in millimetres, degrees and
+//! kilograms.
 
 use std::collections::BTreeMap;
 
@@ -130,7 +131,8 @@ pub struct EdgeRow {
     pub kind: EdgeKind,
     /// What it should have been, and why it is not.
     pub fallback: Option<(EdgeKind, Fallback)>,
-    /// Distance between the panels at front and back, in mm; the larger one is the V-gap of square cuts.
+    /// Distance between the panels at front and back, in mm; the larger one is the V-gap of square
+    /// cuts.
     pub opening: Option<[f64; 2]>,
     /// Whether plates of different thickness step there.
     pub is_stepped: bool,
@@ -264,9 +266,20 @@ fn groups(plates: &Plates, params: &PanelParams, panels: &mut [PanelRow]) -> Vec
         let number = *numbers.entry(twin.first).or_insert(rows.len());
         if number == rows.len() {
             let plate = &plates.plates[i];
-            let is_near = plate.front.iter().zip(&plate.back).all(|(a, b)| a.distance(*b) <= params.tolerance.mm());
+            let is_near = plate
+                .front
+                .iter()
+                .zip(&plate.back)
+                .all(|(a, b)| a.distance(*b) <= params.tolerance.mm());
             let (first, panels) = (PieceId(i), Vec::new());
-            rows.push(GroupRow { number, first, copies: 0, mirrored: 0, turns_over: is_near, panels });
+            rows.push(GroupRow {
+                number,
+                first,
+                copies: 0,
+                mirrored: 0,
+                turns_over: is_near,
+                panels,
+            });
         }
         let row = &mut rows[number];
         *(if twin.is_mirrored { &mut row.mirrored } else { &mut row.copies }) += 1;
@@ -282,8 +295,11 @@ fn groups(plates: &Plates, params: &PanelParams, panels: &mut [PanelRow]) -> Vec
 fn edge(mesh: &Mesh, plates: &Plates, cut: &EdgeCut, index: &FaceMap<usize>) -> EdgeRow {
     let panel = |h: HalfEdgeId| (!mesh.is_hole(mesh.face(h))).then(|| index[mesh.face(h)]);
     let sides = cut.edge.half_edges().map(panel);
-    let mitre =
-        |i: usize| sides[i].zip(cut.insets[i]).map(|(p, inset)| inset.bevel(plates.plates[p].thickness).to_degrees());
+    let mitre = |i: usize| {
+        sides[i]
+            .zip(cut.insets[i])
+            .map(|(p, inset)| inset.bevel(plates.plates[p].thickness).to_degrees())
+    };
     let shape = match cut.fold {
         None => EdgeShape::Rim,
         Some(fold) if fold.to_degrees().abs() <= SQUARE => EdgeShape::Flat,
@@ -315,7 +331,11 @@ fn node(mesh: &Mesh, node: &Node) -> NodeRow {
     let angle = |i: usize| {
         // The face on the left of an outgoing half-edge lies between it and the next one.
         let (a, b) = (along(around[i]), along(around[(i + 1) % n]));
-        if mesh.is_hole(mesh.face(around[i])) { 0.0 } else { a.cross(b).length().atan2(a.dot(b)).to_degrees() }
+        if mesh.is_hole(mesh.face(around[i])) {
+            0.0
+        } else {
+            a.cross(b).length().atan2(a.dot(b)).to_degrees()
+        }
     };
     let tilt = |&h: &HalfEdgeId| {
         let a = along(h);

@@ -16,7 +16,8 @@ pub struct Solid {
     pub faces: Vec<SolidFace>,
 }
 
-/// A flat face of a body: seen from outside the outline runs counter-clockwise, holes run clockwise.
+/// A flat face of a body: seen from outside the outline runs counter-clockwise, holes run
+/// clockwise.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SolidFace {
     /// Which one it is.
@@ -51,9 +52,18 @@ pub fn solid(plate: &Plate) -> Solid {
     solid.points.extend(plate.back.iter().map(|&p| plate.on_back(p)));
     let ring = |start: usize, len: usize| (start..start + len).map(|i| i as u32);
     let normal = plate.frame.normal;
-    let mut front = SolidFace { side: SolidSide::Front, outline: ring(0, n).collect(), holes: Vec::new(), normal };
-    let mut back =
-        SolidFace { side: SolidSide::Back, outline: ring(n, n).rev().collect(), holes: Vec::new(), normal: -normal };
+    let mut front = SolidFace {
+        side: SolidSide::Front,
+        outline: ring(0, n).collect(),
+        holes: Vec::new(),
+        normal,
+    };
+    let mut back = SolidFace {
+        side: SolidSide::Back,
+        outline: ring(n, n).rev().collect(),
+        holes: Vec::new(),
+        normal: -normal,
+    };
     let mut walls = Vec::new();
     for i in 0..n {
         let j = (i + 1) % n;
@@ -68,7 +78,11 @@ pub fn solid(plate: &Plate) -> Solid {
         back.holes.push(ring(start + ROUND, ROUND).collect());
         for i in 0..ROUND {
             let j = (i + 1) % ROUND;
-            walls.extend(wall(&solid, [start + i, start + j, start + ROUND + j, start + ROUND + i], SolidSide::Bore));
+            walls.extend(wall(
+                &solid,
+                [start + i, start + j, start + ROUND + j, start + ROUND + i],
+                SolidSide::Bore,
+            ));
         }
     }
     solid.faces.extend([front, back]);

@@ -31,8 +31,8 @@ fn corners(plate: &Plate, h: HalfEdgeId) -> [DVec3; 2] {
     [plate.on_front(plate.front[i]), plate.on_back(plate.back[i])]
 }
 
-/// Thickness exact, neighbours meet in the same corners where three faces meet, and each side's four corners lie in the plane
-/// of the mitre; all to 1e-12 of the size.
+/// Thickness exact, neighbours meet in the same corners where three faces meet, and each side's
+/// four corners lie in the plane of the mitre; all to 1e-12 of the size.
 fn assert_exact(mesh: &Mesh, made: &Plates, gap: f64) {
     let (low, high) = mesh.bounds().expect("vertices");
     let size = (high - low).length();
@@ -42,15 +42,26 @@ fn assert_exact(mesh: &Mesh, made: &Plates, gap: f64) {
         let normal = mesh.plane(plate.face).expect("an area").normal();
         for (&f, &b) in plate.front.iter().zip(&plate.back) {
             let (f, b) = (plate.on_front(f), plate.on_back(b));
-            assert!(((f - b).dot(normal) - plate.thickness).abs() <= bound, "thickness of {:?}", plate.face);
-            assert!((f - plate.on_front(plate.front[0])).dot(normal).abs() <= bound, "front not planar");
-            assert!((b - plate.on_back(plate.back[0])).dot(normal).abs() <= bound, "back not planar");
+            assert!(
+                ((f - b).dot(normal) - plate.thickness).abs() <= bound,
+                "thickness of {:?}",
+                plate.face
+            );
+            assert!(
+                (f - plate.on_front(plate.front[0])).dot(normal).abs() <= bound,
+                "front not planar"
+            );
+            assert!(
+                (b - plate.on_back(plate.back[0])).dot(normal).abs() <= bound,
+                "back not planar"
+            );
         }
     }
     for e in mesh.edges() {
         let [h, g] = e.half_edges();
         let (p, q) = (index[&mesh.face(h)], index[&mesh.face(g)]);
-        // Along the edge, then across the mitre: the plane that both must share, moved apart by the gap.
+        // Along the edge, then across the mitre: the plane that both must share, moved apart by the
+        // gap.
         let [a, b] = mesh.edge_positions(e);
         let [n, m] = [p, q].map(|plate| plate.frame.normal);
         let mitre = (b - a).cross(n + m).normalize();
@@ -64,7 +75,9 @@ fn assert_exact(mesh: &Mesh, made: &Plates, gap: f64) {
         if gap == 0.0 && is_exact {
             for (x, y) in [(h, mesh.next(g)), (mesh.next(h), g)] {
                 let pairs = corners(p, x).into_iter().zip(corners(q, y));
-                pairs.for_each(|(x, y)| assert!(x.distance(y) <= bound, "{e:?}: {} apart", x.distance(y)));
+                pairs.for_each(|(x, y)| {
+                    assert!(x.distance(y) <= bound, "{e:?}: {} apart", x.distance(y))
+                });
             }
         }
     }
@@ -73,7 +86,9 @@ fn assert_exact(mesh: &Mesh, made: &Plates, gap: f64) {
 #[test]
 fn plates_of_all_solids_are_exact() {
     for mesh in all_solids() {
-        for (side, gap) in [(ReferenceSide::Out, 0.0), (ReferenceSide::In, 0.0), (ReferenceSide::Mid, 1.0)] {
+        for (side, gap) in
+            [(ReferenceSide::Out, 0.0), (ReferenceSide::In, 0.0), (ReferenceSide::Mid, 1.0)]
+        {
             let params = PanelParams { side, gap: Length::from_mm(gap), ..PanelParams::default() };
             let made = made(&mesh, 2.0, &params).expect("thin plates fit");
             assert_exact(&mesh, &made, gap);
@@ -85,7 +100,8 @@ fn plates_of_all_solids_are_exact() {
 fn plates_of_random_solids_are_exact() {
     for seed in 0..3 {
         let mesh = random_tangent_polytope(1000, seed);
-        let made = made(&mesh, 0.01, &PanelParams::default()).expect("offsets of a sphere shrink alike");
+        let made =
+            made(&mesh, 0.01, &PanelParams::default()).expect("offsets of a sphere shrink alike");
         assert_exact(&mesh, &made, 0.0);
         assert!(made.nodes.iter().all(|n| n.residual == 0.0 && n.miss_mm == 0.0));
     }
@@ -95,7 +111,8 @@ fn plates_of_random_solids_are_exact() {
 fn the_plates_fill_the_shell_between_two_solids() {
     // Offsetting a tangent polytope of the unit sphere scales it, so the shell's volume is known.
     let mesh = random_tangent_polytope(60, 7);
-    let made = made(&mesh, 0.25, &PanelParams::default()).expect("offsets of a sphere shrink alike");
+    let made =
+        made(&mesh, 0.25, &PanelParams::default()).expect("offsets of a sphere shrink alike");
     let sum: f64 = made.plates.iter().map(Plate::volume).sum();
     let shell = volume(&mesh) * (1.0 - 0.75_f64.powi(3));
     assert!((sum / shell - 1.0).abs() < 1e-12, "{sum} {shell}");
@@ -140,16 +157,27 @@ fn different_thicknesses_still_meet_at_three_valent_nodes() {
     let faces: Vec<_> = mesh.faces().collect();
     faces.iter().step_by(2).for_each(|&f| mesh.set_group(f, "thick"));
     let thick = "thick=4mm".parse().expect("a group");
-    let params = PanelParams { thickness_of: vec![thick], side: ReferenceSide::Mid, ..PanelParams::default() };
+    let params = PanelParams {
+        thickness_of: vec![thick],
+        side: ReferenceSide::Mid,
+        ..PanelParams::default()
+    };
     let made = made(&mesh, 2.0, &params).expect("fits");
-    let plate = |h: HalfEdgeId| made.plates.iter().find(|p| p.face == mesh.face(h)).expect("a plate");
+    let plate =
+        |h: HalfEdgeId| made.plates.iter().find(|p| p.face == mesh.face(h)).expect("a plate");
     for node in &made.nodes {
         for h in mesh.outgoing(node.vertex) {
             let [front, back] = corners(plate(h), h);
-            assert!(front.distance(node.front) < 1e-10 && back.distance(node.back) < 1e-10, "{node:?}");
+            assert!(
+                front.distance(node.front) < 1e-10 && back.distance(node.back) < 1e-10,
+                "{node:?}"
+            );
         }
     }
-    let unknown = PanelParams { thickness_of: vec!["roof=1".parse().expect("a group")], ..PanelParams::default() };
+    let unknown = PanelParams {
+        thickness_of: vec!["roof=1".parse().expect("a group")],
+        ..PanelParams::default()
+    };
     let error = super::tests::made(&mesh, 2.0, &unknown).expect_err("no such group").to_string();
     assert!(error.contains("its groups are thick"), "{error}");
 }
@@ -158,7 +186,8 @@ fn different_thicknesses_still_meet_at_three_valent_nodes() {
 fn chamfered() -> Mesh {
     let at = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
     let flat = [(0., 0.), (98., 0.), (100., 2.), (100., 80.), (0., 80.)];
-    let points = flat.iter().map(|&(x, y)| at(x, y, 0.0)).chain(flat.iter().map(|&(x, y)| at(x, y, 60.0)));
+    let points =
+        flat.iter().map(|&(x, y)| at(x, y, 0.0)).chain(flat.iter().map(|&(x, y)| at(x, y, 60.0)));
     let sides = (0..5).map(|i| vec![i, (i + 1) % 5, (i + 1) % 5 + 5, i + 5]);
     let faces = [vec![4, 3, 2, 1, 0], vec![5, 6, 7, 8, 9]].into_iter().chain(sides);
     Mesh::from_faces(points, faces).expect("a box")
@@ -178,7 +207,8 @@ fn collisions_are_named_with_the_largest_thickness_that_works() {
     assert!(made(&mesh, expected * 1.001, &PanelParams::default()).is_err());
     // Where all sides of a cube's plates would vanish, a little less is advised, and that works.
     let cube = named("box-20x20x20");
-    let error = made(&cube, 10.0, &PanelParams::default()).expect_err("nothing is left of the backs");
+    let error =
+        made(&cube, 10.0, &PanelParams::default()).expect_err("nothing is left of the backs");
     assert!(error.to_string().contains("works everywhere is 9.99 mm"), "{error}");
     assert!(made(&cube, 9.99, &PanelParams::default()).is_ok());
     // Outwards there is room for anything.
@@ -213,7 +243,10 @@ fn concave_panels_and_concave_edges_are_exact() {
         for h in mesh.outgoing(node.vertex) {
             let plate = made.plates.iter().find(|p| p.face == mesh.face(h)).expect("a plate");
             let [front, back] = corners(plate, h);
-            assert!(front.distance(node.front) < 1e-11 && back.distance(node.back) < 1e-11, "{node:?}");
+            assert!(
+                front.distance(node.front) < 1e-11 && back.distance(node.back) < 1e-11,
+                "{node:?}"
+            );
         }
     }
 }
@@ -225,9 +258,15 @@ fn rims_are_cut_square_plumb_or_along_their_plane() {
     assert!(rim_cuts(&mesh, RimCut::Square).iter().all(square));
     // These walls are too upright to be cut plumb.
     assert!(rim_cuts(&mesh, RimCut::Plumb).iter().all(square));
-    assert!(rim_cuts(&mesh, RimCut::Bisected).iter().all(|(cut, _)| cut.cross(DVec3::Z).length() < 1e-12));
+    assert!(
+        rim_cuts(&mesh, RimCut::Bisected)
+            .iter()
+            .all(|(cut, _)| cut.cross(DVec3::Z).length() < 1e-12)
+    );
     let base = [(-50., -50., 0.), (50., -50., 0.), (50., 50., 3.), (-50., 50., 0.), (0., 0., 30.)];
-    let roof = Mesh::from_faces(base.map(DVec3::from), [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]]).expect("a roof");
+    let roof =
+        Mesh::from_faces(base.map(DVec3::from), [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
+            .expect("a roof");
     let plumb = rim_cuts(&roof, RimCut::Plumb);
     assert!(plumb.iter().all(|(cut, normal)| cut.z.abs() < 1e-12 && cut.dot(*normal).abs() > 0.1));
 }
@@ -236,7 +275,12 @@ fn rims_are_cut_square_plumb_or_along_their_plane() {
 fn rim_cuts(mesh: &Mesh, rim: RimCut) -> Vec<(DVec3, DVec3)> {
     let made = made(mesh, 2.0, &PanelParams { rim, ..PanelParams::default() }).expect("fits");
     let across = |cut: &EdgeCut| {
-        let h = cut.edge.half_edges().into_iter().find(|&h| !mesh.is_hole(mesh.face(h))).expect("one plate");
+        let h = cut
+            .edge
+            .half_edges()
+            .into_iter()
+            .find(|&h| !mesh.is_hole(mesh.face(h)))
+            .expect("one plate");
         let plate = made.plates.iter().find(|p| p.face == mesh.face(h)).expect("a plate");
         let i = plate.half_edges.iter().position(|&g| g == h).expect("a side");
         let n = plate.front.len();
@@ -276,7 +320,8 @@ fn fingers_interlock_and_never_overlap() {
         assert_eq!(plate.front, plate.back);
         assert!(plate.front.len() > 12, "{}", plate.front.len());
     }
-    // Together the plates fill the shell but for the three-way corners, and a quarter of the thickness at the ends of the edges.
+    // Together the plates fill the shell but for the three-way corners, and a quarter of the
+    // thickness at the ends of the edges.
     let sum: f64 = made.plates.iter().map(Plate::volume).sum();
     let shell = 80.0 * 60.0 * 50.0 - 72.0 * 52.0 * 42.0;
     assert!((shell - sum - 8.0 * 64.0 - 24.0 * 16.0).abs() < 1e-6, "{sum} {shell}");
@@ -296,7 +341,12 @@ fn what_fingers_cannot_hold_falls_back_and_says_so() {
     let stitched = made.edges.iter().filter(|c| c.kind == EdgeKind::Stitch).count();
     // Hexagons meet at 138.2°, hexagons and pentagons at 142.6°.
     assert_eq!((fingers, fallen, stitched), (30, 60, 60));
-    assert!(made.edges.iter().filter_map(|c| c.fallback).all(|f| f == (EdgeKind::Finger, Fallback::Shallow)));
+    assert!(
+        made.edges
+            .iter()
+            .filter_map(|c| c.fallback)
+            .all(|f| f == (EdgeKind::Finger, Fallback::Shallow))
+    );
 }
 
 #[test]
@@ -305,11 +355,13 @@ fn holes_stand_opposite_each_other_and_keep_clear() {
     let params = PanelParams { edges: EdgeKind::Stitch.into(), ..PanelParams::default() };
     let hardware = Hardware { hole_spacing: Some(Length::from_mm(20.0)), ..Hardware::default() };
     let made = plates(&mesh, Length::from_mm(3.0), (&params, &hardware), &Silent).expect("fits");
-    // Of the three edges at a corner one gets the hole there, since those of two would touch on their common plate.
+    // Of the three edges at a corner one gets the hole there, since those of two would touch on
+    // their common plate.
     assert_eq!((made.hole_pairs, made.lost_hole_pairs), (12 * 5 - 16, 16));
     for plate in &made.plates {
         for hole in &plate.holes {
-            // 3 mm of mitre and twice the diameter from its own edge; the nearest hole of another edge may be at 10 mm.
+            // 3 mm of mitre and twice the diameter from its own edge; the nearest hole of another
+            // edge may be at 10 mm.
             let sides = plate.reference.iter().zip(plate.reference.iter().cycle().skip(1));
             let mut insets = sides.map(|(&a, &b)| (b - a).normalize().perp_dot(hole.centre - a));
             assert!(insets.any(|inset| (inset - 11.0).abs() < 1e-9));
@@ -323,7 +375,10 @@ fn relieved_corners_take_the_depth_asked_for() {
     let params = PanelParams { corner_relief: Length::from_mm(5.0), ..PanelParams::default() };
     let made = made(&mesh, 3.0, &params).expect("fits");
     for plate in &made.plates {
-        assert_eq!((plate.front.len(), plate.back.len(), plate.begins.as_slice()), (8, 8, &[1, 3, 5, 7][..]));
+        assert_eq!(
+            (plate.front.len(), plate.back.len(), plate.begins.as_slice()),
+            (8, 8, &[1, 3, 5, 7][..])
+        );
         let chamfer = plate.back[1].distance(plate.back[0]);
         assert!((chamfer - 10.0).abs() < 1e-9, "{chamfer}");
     }
@@ -343,11 +398,15 @@ fn facades_are_exact_and_saddles_have_concave_panels() {
         let size = size(&mesh).length();
         for cut in &made.edges {
             let Some([front, back]) = cut.opening else { continue };
-            assert!((front - gap).abs() < 1e-12 * size && (back - gap).abs() < 1e-12 * size, "{front} {back}");
+            assert!(
+                (front - gap).abs() < 1e-12 * size && (back - gap).abs() < 1e-12 * size,
+                "{front} {back}"
+            );
         }
         assert!(made.nodes.iter().all(|n| n.valence <= 3 && n.residual == 0.0));
         let listed = schedule(&mesh, &made, &params);
-        // The surface has two mirror planes or its panels come at least in pairs turned by half a turn.
+        // The surface has two mirror planes or its panels come at least in pairs turned by half a
+        // turn.
         assert!(listed.groups.len() <= 60, "{} groups", listed.groups.len());
         assert!(listed.panels.iter().all(|p| p.planarity < 1e-9 && p.mass > 15.0 && p.mass < 22.0));
     }
@@ -357,7 +416,8 @@ fn facades_are_exact_and_saddles_have_concave_panels() {
 fn mirror_images_are_told_from_copies() {
     let snub = made(&named("snub-cube"), 2.0, &PanelParams::default()).expect("fits");
     let rows = schedule(&named("snub-cube"), &snub, &PanelParams::default()).groups;
-    // Squares, triangles among triangles, and triangles beside squares, which have one bevel of another kind.
+    // Squares, triangles among triangles, and triangles beside squares, which have one bevel of
+    // another kind.
     let mut sizes: Vec<usize> = rows.iter().map(|r| r.panels.len()).collect();
     sizes.sort_unstable();
     assert_eq!(sizes, [6, 8, 24]);
@@ -365,7 +425,9 @@ fn mirror_images_are_told_from_copies() {
     let plates = made(&mesh, 0.05, &PanelParams::default()).expect("fits").plates;
     let plate = plates.iter().find(|p| p.front.len() > 4).expect("a panel without symmetry");
     let mut mirrored = plate.clone();
-    let flipped = |points: &[DVec2]| points.iter().rev().map(|p| DVec2::new(5.0 - p.x, p.y + 3.0)).collect::<Vec<_>>();
+    let flipped = |points: &[DVec2]| {
+        points.iter().rev().map(|p| DVec2::new(5.0 - p.x, p.y + 3.0)).collect::<Vec<_>>()
+    };
     (mirrored.front, mirrored.back) = (flipped(&plate.front), flipped(&plate.back));
     let found = twins(&[plate.clone(), mirrored, plate.clone()], 1e-6);
     assert_eq!(found[1], Twin { first: 0, is_mirrored: true });
@@ -377,7 +439,8 @@ fn mirror_images_are_told_from_copies() {
 fn size_and_place_change_nothing_but_the_numbers() {
     let mesh = named("truncated-octahedron");
     let here = made(&mesh, 2.0, &PanelParams::default()).expect("fits");
-    for (scale, far) in [(1e-3, DVec3::ZERO), (1e3, DVec3::ZERO), (1.0, DVec3::new(1e6, -2e6, 5e5))] {
+    for (scale, far) in [(1e-3, DVec3::ZERO), (1e3, DVec3::ZERO), (1.0, DVec3::new(1e6, -2e6, 5e5))]
+    {
         let mut moved = mesh.clone();
         moved.clear_planes();
         moved.vertices().collect::<Vec<_>>().into_iter().for_each(|v| {
@@ -386,7 +449,9 @@ fn size_and_place_change_nothing_but_the_numbers() {
         let there = made(&moved, 2.0 * scale, &PanelParams::default()).expect("fits");
         let bound = 1e-9 * scale + 1e-15 * far.length();
         for (a, b) in here.plates.iter().zip(&there.plates) {
-            let same = |p: &[DVec2], q: &[DVec2]| p.iter().zip(q).all(|(p, q)| (*p * scale).distance(*q) < 1e3 * bound);
+            let same = |p: &[DVec2], q: &[DVec2]| {
+                p.iter().zip(q).all(|(p, q)| (*p * scale).distance(*q) < 1e3 * bound)
+            };
             assert!(same(&a.front, &b.front) && same(&a.back, &b.back), "{scale} {far}");
         }
     }

@@ -1,8 +1,9 @@
-//! Congruent panels: the same front and back outlines after moving one onto the other, or onto its mirror image.
+//! Congruent panels: the same front and back outlines after moving one onto the other, or onto its
+//! mirror image.
 //!
-//! The best turn for a matching of corners follows from one sum of complex products (Procrustes in the plane); all cyclic
-//! matchings are tried, so panels may begin at any corner. Panels are only compared with the first panel of every group, so
-//! the tolerance does not add up along a chain.
+//! The best turn for a matching of corners follows from one sum of complex products (Procrustes in
+//! the plane); all cyclic matchings are tried, so panels may begin at any corner. Panels are only
+//! compared with the first panel of every group, so the tolerance does not add up along a chain.
 
 use std::collections::BTreeMap;
 
@@ -33,7 +34,11 @@ impl Shape {
         let corners: Vec<[DVec2; 2]> =
             plate.front.iter().zip(&plate.back).map(|(&a, &b)| [a - mean, b - mean]).collect();
         let perimeter = (0..n).map(|i| corners[i][0].distance(corners[(i + 1) % n][0])).sum();
-        Self { corners, holes: plate.holes.iter().map(|h| (h.centre - mean, h.radius)).collect(), perimeter }
+        Self {
+            corners,
+            holes: plate.holes.iter().map(|h| (h.centre - mean, h.radius)).collect(),
+            perimeter,
+        }
     }
 
     /// Seen from behind in a mirror: corners keep front and back, and run counter-clockwise again.
@@ -46,7 +51,8 @@ impl Shape {
         }
     }
 
-    /// Whether some turn brings all corners and holes of `self` within the tolerance of those of `other`.
+    /// Whether some turn brings all corners and holes of `self` within the tolerance of those of
+    /// `other`.
     fn fits(&self, other: &Self, tolerance: f64) -> bool {
         self.corners.len() == other.corners.len()
             && self.holes.len() == other.holes.len()
@@ -63,10 +69,9 @@ impl Shape {
         let Some(turn) = sum.try_normalize() else { return false };
         let is_near = |a: DVec2, b: DVec2| turn.rotate(a).distance(b) <= tolerance;
         pairs().all(|(a, b)| is_near(a, b))
-            && self
-                .holes
-                .iter()
-                .all(|&(p, r)| other.holes.iter().any(|&(q, s)| is_near(p, q) && (r - s).abs() <= tolerance))
+            && self.holes.iter().all(|&(p, r)| {
+                other.holes.iter().any(|&(q, s)| is_near(p, q) && (r - s).abs() <= tolerance)
+            })
     }
 }
 
@@ -82,9 +87,13 @@ pub fn twins(plates: &[Plate], tolerance: f64) -> Vec<Twin> {
         let corners = shape.corners.len();
         // Corners that differ by the tolerance let the perimeter differ by twice that for each.
         let width = 2.0 * corners as f64 * tolerance;
-        let key = |step: i64| (corners, plate.thickness.to_bits(), (shape.perimeter / width).floor() as i64 + step);
-        let mut near: Vec<usize> =
-            [-1, 0, 1].iter().flat_map(|&s| firsts.get(&key(s)).into_iter().flatten().copied()).collect();
+        let key = |step: i64| {
+            (corners, plate.thickness.to_bits(), (shape.perimeter / width).floor() as i64 + step)
+        };
+        let mut near: Vec<usize> = [-1, 0, 1]
+            .iter()
+            .flat_map(|&s| firsts.get(&key(s)).into_iter().flatten().copied())
+            .collect();
         near.sort_unstable();
         let mirrored = shape.mirrored();
         let twin = near.iter().find_map(|&first| match &shapes[first] {

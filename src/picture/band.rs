@@ -1,7 +1,8 @@
 //! A band of rows of the picture: depth buffer, faces, visible parts of lines.
 //!
-//! A picture is drawn band by band, so that the buffer stays small however large the picture is. A band sees some rows
-//! beyond its own ones, so that lines near its border come out as in its neighbour.
+//! A picture is drawn band by band, so that the buffer stays small however large the picture is. A
+//! band sees some rows beyond its own ones, so that lines near its border come out as in its
+//! neighbour.
 
 use glam::{DVec2, DVec3};
 
@@ -56,8 +57,8 @@ impl<'a> Band<'a> {
         (self.rows.end + self.halo) as f64
     }
 
-    /// The first row of samples, counted from the top of the picture. Samples are placed by these whole numbers, so that
-    /// bands agree to the last bit.
+    /// The first row of samples, counted from the top of the picture. Samples are placed by these
+    /// whole numbers, so that bands agree to the last bit.
     fn first_sample_row(&self) -> i64 {
         (self.rows.start as i64 - self.halo as i64) * SAMPLES as i64
     }
@@ -67,7 +68,8 @@ impl<'a> Band<'a> {
         ((self.first_sample_row() + row as i64) as f64 + 0.5) / SAMPLES as f64
     }
 
-    /// Fills a facet by the even-odd rule, so that concave ones and ones with slits need no cutting.
+    /// Fills a facet by the even-odd rule, so that concave ones and ones with slits need no
+    /// cutting.
     fn fill(&mut self, facet: &Facet, id: u32, crossings: &mut Vec<f64>) {
         if facet.bottom <= self.top() || facet.top >= self.bottom() {
             return;
@@ -75,7 +77,8 @@ impl<'a> Band<'a> {
         let per_pixel = SAMPLES as f64;
         let sample_rows = self.depths.len() / (self.width * SAMPLES);
         let first = self.first_sample_row() as f64;
-        let row_of = |y: f64| ((y * per_pixel - 0.5).ceil() - first).clamp(0.0, sample_rows as f64) as usize;
+        let row_of =
+            |y: f64| ((y * per_pixel - 0.5).ceil() - first).clamp(0.0, sample_rows as f64) as usize;
         for row in row_of(facet.top)..row_of(facet.bottom) {
             cross(&self.scene.corners[facet.corners.clone()], self.sample_y(row), crossings);
             for span in crossings.chunks_exact(2) {
@@ -87,7 +90,8 @@ impl<'a> Band<'a> {
     fn fill_span(&mut self, facet: &Facet, id: u32, row: usize, span: [f64; 2]) {
         let per_pixel = SAMPLES as f64;
         let columns = self.width * SAMPLES;
-        let [from, to] = span.map(|x| (x * per_pixel - 0.5).ceil().clamp(0.0, columns as f64) as usize);
+        let [from, to] =
+            span.map(|x| (x * per_pixel - 0.5).ceil().clamp(0.0, columns as f64) as usize);
         let y = self.sample_y(row);
         for column in from..to {
             let depth = facet.depth((column as f64 + 0.5) / per_pixel, y) as f32;
@@ -104,13 +108,14 @@ impl<'a> Band<'a> {
         let columns = self.width * SAMPLES;
         let first = (y - self.rows.start + self.halo) * SAMPLES * columns + x * SAMPLES;
         let rows = (0..SAMPLES).map(|row| &self.facets[first + row * columns..][..SAMPLES]);
-        let light = |&id: &u32| if id == NONE { paper } else { self.scene.facets[id as usize].light };
+        let light =
+            |&id: &u32| if id == NONE { paper } else { self.scene.facets[id as usize].light };
         rows.flatten().map(light).sum::<Light>() / (SAMPLES * SAMPLES) as f32
     }
 
-    /// Whether something at `place` is seen that belongs to the faces which `owns` accepts: one of them is seen within a
-    /// pixel, or nothing is in front. Outlines are also seen beside the background: on fine meshes their own faces are
-    /// often too narrow for a sample.
+    /// Whether something at `place` is seen that belongs to the faces which `owns` accepts: one of
+    /// them is seen within a pixel, or nothing is in front. Outlines are also seen beside the
+    /// background: on fine meshes their own faces are often too narrow for a sample.
     fn sees(&self, place: DVec3, is_outline: bool, owns: impl Fn(FaceId) -> bool) -> bool {
         let columns = (self.width * SAMPLES) as i64;
         let rows = self.depths.len() as i64 / columns;
@@ -120,13 +125,15 @@ impl<'a> Band<'a> {
             let is_in = (0..rows).contains(&row) && (0..columns).contains(&column);
             is_in.then(|| self.facets[(row * columns + column) as usize])
         };
-        // The sight of the own faces is surer than depths: no bias, no stipple, and a hidden edge that leaves from a
-        // visible corner does not peep out.
+        // The sight of the own faces is surer than depths: no bias, no stipple, and a hidden edge
+        // that leaves from a visible corner does not peep out.
         let around = (-1..=1).flat_map(|i| (-1..=1).map(move |j| (row + i, column + j)));
         let near = around.filter_map(|(row, column)| facet(row, column));
         let mut last = NONE - 1;
         for id in near {
-            if id != last && (if id == NONE { is_outline } else { owns(self.scene.facets[id as usize].face) }) {
+            if id != last
+                && (if id == NONE { is_outline } else { owns(self.scene.facets[id as usize].face) })
+            {
                 return true;
             }
             last = id;
@@ -147,8 +154,8 @@ impl<'a> Band<'a> {
         }
     }
 
-    /// The visible parts of a line near the band. Tested at steps that depend on the line alone, so that neighbouring
-    /// bands find the same.
+    /// The visible parts of a line near the band. Tested at steps that depend on the line alone, so
+    /// that neighbouring bands find the same.
     fn visible_parts(&self, line: &Line) -> Vec<[DVec2; 2]> {
         let [a, b] = line.ends;
         let (top, bottom) = (self.top() + 1.0, self.bottom() - 1.0);
@@ -189,8 +196,8 @@ impl<'a> Band<'a> {
     }
 }
 
-/// Where the outline of a facet crosses a row, ascending. Both faces of an edge compute the same numbers, so no gap
-/// opens between them.
+/// Where the outline of a facet crosses a row, ascending. Both faces of an edge compute the same
+/// numbers, so no gap opens between them.
 fn cross(corners: &[DVec3], y: f64, crossings: &mut Vec<f64>) {
     crossings.clear();
     let Some(mut a) = corners.last() else { return };
@@ -204,7 +211,8 @@ fn cross(corners: &[DVec3], y: f64, crossings: &mut Vec<f64>) {
     crossings.sort_unstable_by(f64::total_cmp);
 }
 
-/// How much of each pixel of a band is covered by lines. Where lines meet, the stronger counts, so joints do not darken.
+/// How much of each pixel of a band is covered by lines. Where lines meet, the stronger counts, so
+/// joints do not darken.
 pub(super) struct Coverage {
     width: usize,
     rows: std::ops::Range<usize>,
@@ -219,7 +227,8 @@ impl Coverage {
         Self { width, rows, edges: none.clone(), rims: none }
     }
 
-    /// Covers the pixels within half a line width of the segment, softly over one pixel, with round ends.
+    /// Covers the pixels within half a line width of the segment, softly over one pixel, with round
+    /// ends.
     fn draw(&mut self, from: DVec2, to: DVec2, line: &Line) {
         // Thinner than a pixel is a pixel of less strength.
         let half = line.width.max(1.0) / 2.0;
@@ -228,14 +237,16 @@ impl Coverage {
         let along = to - from;
         let scale = along.length_squared().recip();
         let rows = [from.y.min(to.y) - reach, from.y.max(to.y) + reach];
-        let [first, end] = rows.map(|y| (y.floor().clamp(0.0, 1e9) as usize).clamp(self.rows.start, self.rows.end));
+        let [first, end] = rows
+            .map(|y| (y.floor().clamp(0.0, 1e9) as usize).clamp(self.rows.start, self.rows.end));
         let pixels = if line.is_rim { &mut self.rims } else { &mut self.edges };
         for row in first..(end + 1).min(self.rows.end) {
             let y = row as f64 + 0.5;
             let [left, right] = reached(from, to, y, reach, self.width);
             for column in left..right {
                 let p = DVec2::new(column as f64 + 0.5, y) - from;
-                let t = if scale.is_finite() { (p.dot(along) * scale).clamp(0.0, 1.0) } else { 0.0 };
+                let t =
+                    if scale.is_finite() { (p.dot(along) * scale).clamp(0.0, 1.0) } else { 0.0 };
                 let cover = (reach - p.distance(along * t)).clamp(0.0, 1.0) as f32 * strength;
                 let pixel = &mut pixels[(row - self.rows.start) * self.width + column];
                 *pixel = pixel.max(cover);

@@ -16,7 +16,8 @@ pub(super) struct Window {
     pub high: DVec2,
 }
 
-/// Maps the model to pixels. Planes stay planes: the third coordinate, larger when nearer, is a projective depth.
+/// Maps the model to pixels. Planes stay planes: the third coordinate, larger when nearer, is a
+/// projective depth.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Camera {
     axes: [DVec3; 3],
@@ -29,7 +30,11 @@ pub(super) struct Camera {
 
 impl Camera {
     /// A camera that sees all of some models as large as the window allows.
-    pub fn fitted(meshes: &[&Mesh], params: &RenderParams, window: Window) -> Result<Self, PictureError> {
+    pub fn fitted(
+        meshes: &[&Mesh],
+        params: &RenderParams,
+        window: Window,
+    ) -> Result<Self, PictureError> {
         let axes = params.axes()?;
         for (mesh, v) in meshes.iter().flat_map(|mesh| mesh.vertices().map(move |v| (mesh, v))) {
             // Half of the largest number, so that differences stay finite.
@@ -39,13 +44,17 @@ impl Camera {
             }
         }
         let bounds = meshes.iter().filter_map(|mesh| mesh.bounds());
-        let (low, high) = bounds.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).ok_or(PictureError::NoFaces)?;
+        let (low, high) =
+            bounds.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).ok_or(PictureError::NoFaces)?;
         let centre = low.midpoint(high);
         let extent = (high - low).max_element();
         // Half the diagonal, without squaring what could overflow.
-        let radius = if extent > 0.0 { ((high - low) / extent).length() / 2.0 * extent } else { 1.0 };
-        let eye_distance = if params.projection == Projection::Perspective { EYE_DISTANCE } else { f64::INFINITY };
-        let mut camera = Self { axes, centre, radius, eye_distance, scale: 1.0, shift: DVec2::ZERO };
+        let radius =
+            if extent > 0.0 { ((high - low) / extent).length() / 2.0 * extent } else { 1.0 };
+        let eye_distance =
+            if params.projection == Projection::Perspective { EYE_DISTANCE } else { f64::INFINITY };
+        let mut camera =
+            Self { axes, centre, radius, eye_distance, scale: 1.0, shift: DVec2::ZERO };
         camera.fit(meshes, window);
         Ok(camera)
     }
@@ -58,7 +67,8 @@ impl Camera {
             (low, high) = (low.min(p), high.max(p));
         }
         let (room, size) = (window.high - window.low, high - low);
-        // A model seen from its end can have no width or no height, but a point-like one must not become infinite.
+        // A model seen from its end can have no width or no height, but a point-like one must not
+        // become infinite.
         self.scale = (room / size.max(DVec2::splat(1e-6))).min_element();
         self.shift = window.low.midpoint(window.high) - low.midpoint(high) * self.scale;
     }
@@ -93,10 +103,15 @@ mod tests {
         let window = Window { low: DVec2::new(10.0, 20.0), high: DVec2::new(410.0, 320.0) };
         for (size, place) in [(1.0, 0.0), (1e-9, 0.0), (1e5, 1e9), (1e-140, 0.0), (1e140, 0.0)] {
             let mesh = cuboid(DVec3::splat(place), DVec3::splat(size) + place);
-            let camera = Camera::fitted(&[&mesh], &RenderParams::default(), window).expect("a camera");
-            let points: Vec<DVec2> = mesh.vertices().map(|v| camera.project(mesh.position(v)).truncate()).collect();
+            let camera =
+                Camera::fitted(&[&mesh], &RenderParams::default(), window).expect("a camera");
+            let points: Vec<DVec2> =
+                mesh.vertices().map(|v| camera.project(mesh.position(v)).truncate()).collect();
             let (low, high) = crate::geom::polygon::bounds(&points).expect("points");
-            assert!((high - low).y - 300.0 < 1e-6 && (300.0 - (high - low).y) < 1e-3, "{size}: {low} {high}");
+            assert!(
+                (high - low).y - 300.0 < 1e-6 && (300.0 - (high - low).y) < 1e-3,
+                "{size}: {low} {high}"
+            );
             assert!(low.x > 10.0 && high.x < 410.0 && (low.y - 20.0).abs() < 1e-3);
         }
     }
@@ -106,7 +121,8 @@ mod tests {
         let window = Window { low: DVec2::ZERO, high: DVec2::splat(100.0) };
         let mesh = cuboid(DVec3::ZERO, DVec3::ONE);
         let camera = Camera::fitted(&[&mesh], &RenderParams::default(), window).expect("a camera");
-        let [a, b, c] = [DVec3::ZERO, DVec3::X, DVec3::new(0.0, 0.6, 0.8)].map(|p| camera.project(p));
+        let [a, b, c] =
+            [DVec3::ZERO, DVec3::X, DVec3::new(0.0, 0.6, 0.8)].map(|p| camera.project(p));
         let d = camera.project(DVec3::new(0.3, 0.3, 0.4));
         assert!((d - a).dot((b - a).cross(c - a)).abs() < 1e-6);
         assert!(camera.project(DVec3::new(0.0, -1.0, 0.0)).z > camera.project(DVec3::ZERO).z);

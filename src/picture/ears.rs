@@ -5,8 +5,8 @@ use glam::DVec2;
 
 use crate::geom::predicate::orient2d;
 
-/// Triangles of a counter-clockwise polygon, as corners; concave polygons too. Always corners − 2 of them: where the
-/// polygon crosses itself, some overlap.
+/// Triangles of a counter-clockwise polygon, as corners; concave polygons too. Always corners − 2
+/// of them: where the polygon crosses itself, some overlap.
 pub(super) fn ears(corners: &[DVec2]) -> Vec<[usize; 3]> {
     let mut left: Vec<usize> = (0..corners.len()).collect();
     let mut triangles = Vec::with_capacity(corners.len().saturating_sub(2));
@@ -28,8 +28,11 @@ pub(super) fn ears(corners: &[DVec2]) -> Vec<[usize; 3]> {
 
 fn is_ear(corners: &[DVec2], left: &[usize], [a, b, c]: [usize; 3]) -> bool {
     let (pa, pb, pc) = (corners[a], corners[b], corners[c]);
-    let inside = |p: DVec2| orient2d(pa, pb, p) >= 0.0 && orient2d(pb, pc, p) >= 0.0 && orient2d(pc, pa, p) >= 0.0;
-    // A corner at the place of the ear's own corners is the other side of a slit and does not block.
+    let inside = |p: DVec2| {
+        orient2d(pa, pb, p) >= 0.0 && orient2d(pb, pc, p) >= 0.0 && orient2d(pc, pa, p) >= 0.0
+    };
+    // A corner at the place of the ear's own corners is the other side of a slit and does not
+    // block.
     let blocks = |&i: &usize| ![pa, pb, pc].contains(&corners[i]) && inside(corners[i]);
     orient2d(pa, pb, pc) > 0.0 && !left.iter().any(blocks)
 }
@@ -43,7 +46,8 @@ mod tests {
     fn ears_cover_a_concave_polygon_once() {
         let star: Vec<DVec2> = (0..14)
             .map(|i| {
-                DVec2::from_angle(f64::from(i) * std::f64::consts::TAU / 14.0) * if i % 2 == 0 { 3.0 } else { 1.0 }
+                DVec2::from_angle(f64::from(i) * std::f64::consts::TAU / 14.0)
+                    * if i % 2 == 0 { 3.0 } else { 1.0 }
             })
             .collect();
         let triangles = ears(&star);

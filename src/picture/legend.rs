@@ -64,13 +64,23 @@ fn draw_scale(pixmap: &mut Pixmap, title: &str, top: f64, [left, letter]: [f32; 
     let rows = bar.round() as usize;
     for row in 0..rows {
         let share = 1.0 - (row as f64 + 0.5) / rows as f64;
-        rectangle(pixmap, [left, above + row as f32, 1.6 * letter, 1.0], paint::scale_colour(share));
+        rectangle(
+            pixmap,
+            [left, above + row as f32, 1.6 * letter, 1.0],
+            paint::scale_colour(share),
+        );
     }
     for i in 0..=4 {
         let share = f64::from(i) / 4.0;
         let y = above + bar * (1.0 - share as f32);
         rectangle(pixmap, [left + 1.6 * letter, y - 0.5, 0.6 * letter, 1.0], paint::LINE);
-        write(pixmap, &three_digits(top * share), (left + 2.9 * letter, y + letter / 2.0), letter, paint::LINE);
+        write(
+            pixmap,
+            &three_digits(top * share),
+            (left + 2.9 * letter, y + letter / 2.0),
+            letter,
+            paint::LINE,
+        );
     }
 }
 
@@ -93,13 +103,19 @@ fn three_digits(x: f64) -> String {
         return "0".to_owned();
     }
     let magnitude = x.abs().log10().floor() as i32;
-    if (-4..6).contains(&magnitude) { format!("{x:.*}", (2 - magnitude).max(0) as usize) } else { format!("{x:.2e}") }
+    if (-4..6).contains(&magnitude) {
+        format!("{x:.*}", (2 - magnitude).max(0) as usize)
+    } else {
+        format!("{x:.2e}")
+    }
 }
 
 fn rectangle(pixmap: &mut Pixmap, [x, y, width, height]: [f32; 4], colour: [u8; 3]) {
     let mut paint = Paint { anti_alias: false, ..Paint::default() };
     paint.set_color_rgba8(colour[0], colour[1], colour[2], 255);
-    if let Some(rect) = Rect::from_xywh(x.round(), y.round(), width.round().max(1.0), height.round().max(1.0)) {
+    if let Some(rect) =
+        Rect::from_xywh(x.round(), y.round(), width.round().max(1.0), height.round().max(1.0))
+    {
         pixmap.fill_rect(rect, &paint, Transform::identity(), None);
     }
 }

@@ -3,7 +3,8 @@
 
 use tiny_skia::{LineCap, LineJoin, Paint, PathBuilder, Pixmap, Stroke, Transform};
 
-/// Strokes on a grid of 4 × 6, y up from the base line: two digits a point, a blank between strokes.
+/// Strokes on a grid of 4 × 6, y up from the base line: two digits a point, a blank between
+/// strokes.
 const GLYPHS: [(char, &str); 29] = [
     ('0', "10 01 05 16 36 45 41 30 10"),
     ('1', "15 26 20"),
@@ -38,9 +39,15 @@ const GLYPHS: [(char, &str); 29] = [
 /// From one character to the next, in grid steps.
 const ADVANCE: f32 = 5.6;
 
-/// Writes `text` with its base line beginning at (x, y), in pixels; `height` is that of a capital. Characters that are
-/// not in the table leave a blank.
-pub(super) fn write(pixmap: &mut Pixmap, text: &str, (x, y): (f32, f32), height: f32, colour: [u8; 3]) {
+/// Writes `text` with its base line beginning at (x, y), in pixels; `height` is that of a capital.
+/// Characters that are not in the table leave a blank.
+pub(super) fn write(
+    pixmap: &mut Pixmap,
+    text: &str,
+    (x, y): (f32, f32),
+    height: f32,
+    colour: [u8; 3],
+) {
     let step = height / 6.0;
     let mut path = PathBuilder::new();
     for (i, character) in text.chars().enumerate() {
@@ -72,7 +79,9 @@ mod tests {
 
     #[test]
     fn all_that_legends_write_has_glyphs_on_the_grid() {
-        for character in "PLANARITY MM VALENCE 0123456789 6+ 1.50e-7 % OF LIMIT".chars().filter(|&c| c != ' ') {
+        for character in
+            "PLANARITY MM VALENCE 0123456789 6+ 1.50e-7 % OF LIMIT".chars().filter(|&c| c != ' ')
+        {
             let (_, strokes) = GLYPHS.iter().find(|&&(c, _)| c == character).expect("a glyph");
             for point in strokes.split(['|', ' ']) {
                 let on_grid = matches!(point.as_bytes(), [b'0'..=b'4', b'0'..=b'6']);

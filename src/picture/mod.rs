@@ -1,8 +1,9 @@
 //! Pictures of models and sheets as pixels.
 //!
-//! A model is drawn with an own depth buffer: faces first, at 3 × 3 samples per pixel, then the edges on top, each only
-//! where one of its own faces is seen (an item buffer: Weghorst, Hooper and Greenberg 1984). A sheet is drawn by strokes.
-//! Both become PNG through tiny-skia. The same input gives the same bytes, on any number of threads.
+//! A model is drawn with an own depth buffer: faces first, at 3 × 3 samples per pixel, then the
+//! edges on top, each only where one of its own faces is seen (an item buffer: Weghorst, Hooper and
+//! Greenberg 1984). A sheet is drawn by strokes. Both become PNG through tiny-skia. The same input
+//! gives the same bytes, on any number of threads.
 
 mod band;
 mod camera;
@@ -50,7 +51,9 @@ pub enum PictureError {
         pixels: u32,
     },
     /// The direction of view is zero or not finite.
-    #[error("{x},{y},{z} is no direction to look from; give three finite numbers that are not all zero")]
+    #[error(
+        "{x},{y},{z} is no direction to look from; give three finite numbers that are not all zero"
+    )]
     NoDirection {
         /// First coordinate.
         x: f64,
@@ -75,7 +78,9 @@ pub enum PictureError {
         z: f64,
     },
     /// The sheet has no size.
-    #[error("a sheet of {width_mm} mm by {height_mm} mm cannot be drawn; both must be positive numbers")]
+    #[error(
+        "a sheet of {width_mm} mm by {height_mm} mm cannot be drawn; both must be positive numbers"
+    )]
     SheetWithoutSize {
         /// Width of the sheet in mm.
         width_mm: f64,
@@ -120,7 +125,8 @@ impl Picture {
 
     /// Red, green and blue (sRGB) of a pixel; `None` outside.
     pub fn pixel(&self, x: u32, y: u32) -> Option<[u8; 3]> {
-        // Compared here, because tiny-skia looks at the number of the pixel only: beyond the right end is the next row.
+        // Compared here, because tiny-skia looks at the number of the pixel only: beyond the right
+        // end is the next row.
         let pixel = (x < self.width()).then(|| self.pixmap.pixel(x, y)).flatten()?;
         Some([pixel.red(), pixel.green(), pixel.blue()])
     }

@@ -14,15 +14,17 @@ use crate::mesh::{FaceId, FaceMap, Mesh};
 
 /// The margin around the model, as a part of the smaller side of the picture.
 const MARGIN: f64 = 0.06;
-/// Deviations below this part of the model's diagonal look planar in every picture: they may be no more than rounding.
+/// Deviations below this part of the model's diagonal look planar in every picture: they may be no
+/// more than rounding.
 const PLANAR: f64 = 1e-6;
 
 /// Draws a model: shaded faces, edges, hidden parts hidden.
 ///
-/// The background is nearly white. Outlines are thicker than folds; edges between coplanar faces are light, and where edges
-/// are only a few pixels apart they fade, so that fine meshes stay readable. Rims are orange. What is seen from behind
-/// is blue-grey with [`Colour::Faces`]. The planarity of a face is the largest distance of its corners from their
-/// least-squares plane, in the model's unit, taken as mm. Pictures with a side below 160 pixels have no legend.
+/// The background is nearly white. Outlines are thicker than folds; edges between coplanar faces
+/// are light, and where edges are only a few pixels apart they fade, so that fine meshes stay
+/// readable. Rims are orange. What is seen from behind is blue-grey with [`Colour::Faces`]. The
+/// planarity of a face is the largest distance of its corners from their least-squares plane, in
+/// the model's unit, taken as mm. Pictures with a side below 160 pixels have no legend.
 ///
 /// # Errors
 /// [`PictureError::SizeOutOfRange`], [`PictureError::NoDirection`], [`PictureError::NoFaces`] and
@@ -32,24 +34,37 @@ pub fn render_model(mesh: &Mesh, params: &RenderParams) -> Result<Picture, Pictu
     draw_model(mesh, params, legend, &colours)
 }
 
-/// Draws a model with each face coloured by how much of its limit it uses: 1 is the limit, from 2 on the colour stays. The
-/// legend is in per cent. `params.colour` does not count.
+/// Draws a model with each face coloured by how much of its limit it uses: 1 is the limit, from 2
+/// on the colour stays. The legend is in per cent. `params.colour` does not count.
 ///
 /// # Errors
 /// As [`render_model`].
-pub fn render_shares(mesh: &Mesh, params: &RenderParams, shares: &FaceMap<f64>) -> Result<Picture, PictureError> {
+pub fn render_shares(
+    mesh: &Mesh,
+    params: &RenderParams,
+    shares: &FaceMap<f64>,
+) -> Result<Picture, PictureError> {
     let mut colours = FaceMap::filled(mesh.face_slots(), paint::FRONT);
     for f in mesh.faces() {
         colours[f] = paint::scale_colour(shares[f] / 2.0);
     }
-    draw_model(mesh, &RenderParams { colour: Colour::Planarity, ..params.clone() }, Some(Legend::limit()), &colours)
+    draw_model(
+        mesh,
+        &RenderParams { colour: Colour::Planarity, ..params.clone() },
+        Some(Legend::limit()),
+        &colours,
+    )
 }
 
 /// Draws a pale model with one face in red, without a legend. `params.colour` does not count.
 ///
 /// # Errors
 /// As [`render_model`].
-pub fn render_marked(mesh: &Mesh, params: &RenderParams, marked: FaceId) -> Result<Picture, PictureError> {
+pub fn render_marked(
+    mesh: &Mesh,
+    params: &RenderParams,
+    marked: FaceId,
+) -> Result<Picture, PictureError> {
     let mut colours = FaceMap::filled(mesh.face_slots(), paint::PALE);
     colours[marked] = paint::scale_colour(0.8);
     draw_model(mesh, &RenderParams { colour: Colour::Planarity, ..params.clone() }, None, &colours)
@@ -95,7 +110,8 @@ pub(super) fn colours(mesh: &Mesh, colour: Colour) -> (Option<Legend>, FaceMap<[
     match colour {
         Colour::Faces => (None, colours),
         Colour::Planarity => {
-            let deviations: Vec<(FaceId, f64)> = mesh.faces().map(|f| (f, deviation(mesh, f))).collect();
+            let deviations: Vec<(FaceId, f64)> =
+                mesh.faces().map(|f| (f, deviation(mesh, f))).collect();
             let diagonal = crate::measure::size(mesh).length();
             let top = deviations.iter().map(|&(_, d)| d).fold(PLANAR * diagonal, f64::max);
             for (f, deviation) in deviations {
@@ -130,7 +146,9 @@ fn deviation(mesh: &Mesh, f: FaceId) -> f64 {
         return 0.0;
     }
     let plane = fit_plane(&corners);
-    plane.map_or(0.0, |plane| corners.iter().map(|&p| plane.signed_distance(p).abs()).fold(0.0, f64::max))
+    plane.map_or(0.0, |plane| {
+        corners.iter().map(|&p| plane.signed_distance(p).abs()).fold(0.0, f64::max)
+    })
 }
 
 /// How the work is divided; the picture does not depend on it.
@@ -159,8 +177,12 @@ pub(super) fn draw(pixmap: &mut Pixmap, mesh: &Mesh, scene: &Scene, division: Di
         share.into_iter().flat_map(draw).collect()
     };
     let mut dots: Vec<&Dot> = std::thread::scope(|scope| {
-        let threads: Vec<_> = shares.into_iter().map(|share| scope.spawn(|| draw_share(share))).collect();
-        threads.into_iter().flat_map(|thread| thread.join().expect("drawing a band does not panic")).collect()
+        let threads: Vec<_> =
+            shares.into_iter().map(|share| scope.spawn(|| draw_share(share))).collect();
+        threads
+            .into_iter()
+            .flat_map(|thread| thread.join().expect("drawing a band does not panic"))
+            .collect()
     });
     // Dots can overlap, so their order must not depend on who finished first.
     dots.sort_by_key(|dot| dot.vertex);
@@ -193,10 +215,13 @@ fn draw_dot(pixmap: &mut Pixmap, dot: &Dot, radius: f64) {
     let (width, height) = (pixmap.width() as usize, pixmap.height() as usize);
     let ring = radius * 1.25 + 0.5;
     let range = |middle: f64, end: usize| {
-        let [low, high] = [middle - ring - 1.0, middle + ring + 1.0].map(|x| x.clamp(0.0, end as f64) as usize);
+        let [low, high] =
+            [middle - ring - 1.0, middle + ring + 1.0].map(|x| x.clamp(0.0, end as f64) as usize);
         low..high
     };
-    for (y, x) in range(dot.place.y, height).flat_map(|y| range(dot.place.x, width).map(move |x| (y, x))) {
+    for (y, x) in
+        range(dot.place.y, height).flat_map(|y| range(dot.place.x, width).map(move |x| (y, x)))
+    {
         let distance = DVec2::new(x as f64 + 0.5, y as f64 + 0.5).distance(dot.place.truncate());
         let pixel = &mut pixmap.data_mut()[(y * width + x) * 4..][..3];
         let mut light = paint::ink([pixel[0], pixel[1], pixel[2]]);
@@ -215,7 +240,8 @@ pub(super) mod tests {
     use glam::DVec3;
     use proptest::prelude::*;
 
-    const BOX: [[usize; 4]; 6] = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    const BOX: [[usize; 4]; 6] =
+        [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
 
     fn box_corner(low: DVec3, high: DVec3, i: usize) -> DVec3 {
         DVec3::new([low.x, high.x][i & 1], [low.y, high.y][i >> 1 & 1], [low.z, high.z][i >> 2])
@@ -273,7 +299,8 @@ pub(super) mod tests {
             assert_eq!(picture.pixel(x, y), Some(paint::PAPER));
         }
         assert_eq!((picture.pixel(240, 0), picture.pixel(0, 180)), (None, None));
-        // The box is 180 − 2 · 10.8 pixels high; nothing of its hidden edges is seen, not even at the border of a band.
+        // The box is 180 − 2 · 10.8 pixels high; nothing of its hidden edges is seen, not even at
+        // the border of a band.
         let face = facing(paint::FRONT, Modelling::Full);
         for (x, y) in (45..195).flat_map(|x| (15..165).map(move |y| (x, y))) {
             assert_eq!(picture.pixel(x, y), Some(face), "{x} {y}");
@@ -305,16 +332,17 @@ pub(super) mod tests {
     #[test]
     fn what_is_behind_is_hidden() {
         let (near, far) = (DVec3::ZERO, DVec3::new(1.0, 3.0, 1.0));
-        let points = (0..8)
-            .map(|i| box_corner(near, near + 4.0, i))
-            .chain((0..8).map(|i| box_corner(far + DVec3::Y * 4.0, far + DVec3::new(1.0, 5.0, 1.0), i)));
+        let points = (0..8).map(|i| box_corner(near, near + 4.0, i)).chain(
+            (0..8).map(|i| box_corner(far + DVec3::Y * 4.0, far + DVec3::new(1.0, 5.0, 1.0), i)),
+        );
         let faces = BOX.into_iter().chain(BOX.map(|face| face.map(|v| v + 8)));
         let mut mesh = Mesh::from_faces(points, faces).expect("two boxes");
         for f in mesh.faces().collect::<Vec<_>>() {
             mesh.set_group(f, if f.index() < 6 { "near" } else { "far" });
         }
         let colour = |group: usize| facing(paint::GROUPS[group], Modelling::Soft);
-        let picture = |view| render(&mesh, &RenderParams { colour: Colour::Group, ..seen_from(view) });
+        let picture =
+            |view| render(&mesh, &RenderParams { colour: Colour::Group, ..seen_from(view) });
         let front = picture(View::Front);
         assert!(shows(&front, colour(0)) && !shows(&front, colour(1)));
         let back = picture(View::Back);
@@ -324,7 +352,8 @@ pub(super) mod tests {
     #[test]
     fn an_open_box_shows_its_inside_and_its_rim() {
         let points = (0..8).map(|i| box_corner(DVec3::ZERO, DVec3::ONE, i));
-        let open = Mesh::from_faces(points, BOX.into_iter().filter(|&face| face != BOX[1])).expect("a box");
+        let open = Mesh::from_faces(points, BOX.into_iter().filter(|&face| face != BOX[1]))
+            .expect("a box");
         let picture = render(&open, &seen_from(View::Top));
         assert_eq!(picture.pixel(120, 90), Some(facing(paint::BACK, Modelling::Full)));
         assert!(pixels(&picture).any(|[r, _, b]| r > 150 && b < 100));
@@ -364,7 +393,11 @@ pub(super) mod tests {
     #[test]
     fn planarity_is_seen() {
         let mut mesh = cuboid(DVec3::ZERO, DVec3::ONE);
-        let params = RenderParams { colour: Colour::Planarity, edges: EdgeLines::Off, ..seen_from(View::Front) };
+        let params = RenderParams {
+            colour: Colour::Planarity,
+            edges: EdgeLines::Off,
+            ..seen_from(View::Front)
+        };
         let centre = |mesh: &Mesh| render(mesh, &params).pixel(90, 100).expect("within");
         let [r, _, b] = centre(&mesh);
         assert!(b > r, "planar is blue");
@@ -403,7 +436,8 @@ pub(super) mod tests {
     fn the_outline_of_a_fine_mesh_has_no_gaps() {
         let picture = render(&torus(400, 200), &seen_from(View::Top));
         for y in 20..160 {
-            let row = (0..240).filter_map(|x| picture.pixel(x, y)).skip_while(|&p| p == paint::PAPER);
+            let row =
+                (0..240).filter_map(|x| picture.pixel(x, y)).skip_while(|&p| p == paint::PAPER);
             let darkest = row.take(4).map(|p| p[1]).min();
             assert!(darkest.is_some_and(|g| g < 150), "row {y}: {darkest:?}");
         }
@@ -422,11 +456,16 @@ pub(super) mod tests {
             PictureError::SizeOutOfRange { .. }
         ));
         let view = View::From(DVec3::new(f64::NAN, 0.0, 1.0));
-        assert!(matches!(error(RenderParams { view, ..small() }), PictureError::NoDirection { .. }));
+        assert!(matches!(
+            error(RenderParams { view, ..small() }),
+            PictureError::NoDirection { .. }
+        ));
         assert_eq!(render_model(&Mesh::new(), &small()), Err(PictureError::NoFaces));
         let mut far = mesh.clone();
         let v = far.vertices().nth(3).expect("a corner");
-        for place in [DVec3::splat(f64::NAN), DVec3::new(0.0, f64::INFINITY, 0.0), DVec3::splat(f64::MAX)] {
+        for place in
+            [DVec3::splat(f64::NAN), DVec3::new(0.0, f64::INFINITY, 0.0), DVec3::splat(f64::MAX)]
+        {
             far.set_position(v, place, false);
             let fault = render_model(&far, &small()).expect_err("too far");
             assert!(matches!(fault, PictureError::VertexTooFar { vertex, .. } if vertex == v));
@@ -448,7 +487,8 @@ pub(super) mod tests {
                 }
             }
         }
-        let tiny = RenderParams { width: 16, height: Some(16), colour: Colour::Planarity, ..small() };
+        let tiny =
+            RenderParams { width: 16, height: Some(16), colour: Colour::Planarity, ..small() };
         assert!(shows(&render(&flat, &tiny), paint::PAPER));
     }
 

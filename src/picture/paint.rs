@@ -2,8 +2,9 @@
 
 use glam::{DVec3, Vec3};
 
-/// Light as red, green and blue in 0..=1, in a scale where light adds up: the square of what a screen is told. The square
-/// instead of the sRGB curve, because square roots are the same on every machine.
+/// Light as red, green and blue in 0..=1, in a scale where light adds up: the square of what a
+/// screen is told. The square instead of the sRGB curve, because square roots are the same on every
+/// machine.
 pub(super) type Light = Vec3;
 
 /// What a screen shows for `[red, green, blue]`.
@@ -77,8 +78,9 @@ pub(super) enum Modelling {
     Soft,
 }
 
-/// A surface of colour `base` in the light of the studio: a key light from the upper left, a weak fill from the right, and
-/// sky. `normal` has unit length, x right, y up, z to the eye, and looks to the eye.
+/// A surface of colour `base` in the light of the studio: a key light from the upper left, a weak
+/// fill from the right, and sky. `normal` has unit length, x right, y up, z to the eye, and looks
+/// to the eye.
 pub(super) fn lit(base: [u8; 3], normal: DVec3, modelling: Modelling) -> Light {
     let key = DVec3::new(-0.50, 0.60, 0.62).dot(normal).max(0.0);
     let fill = DVec3::new(0.80, 0.10, 0.59).dot(normal).max(0.0);
@@ -108,10 +110,14 @@ mod tests {
 
     #[test]
     fn the_three_sides_of_a_box_differ_in_every_light() {
-        let [top, front, right] =
-            [DVec3::new(0.0, 0.875, 0.484), DVec3::new(-0.461, -0.427, 0.778), DVec3::new(0.887, -0.222, 0.404)];
+        let [top, front, right] = [
+            DVec3::new(0.0, 0.875, 0.484),
+            DVec3::new(-0.461, -0.427, 0.778),
+            DVec3::new(0.887, -0.222, 0.404),
+        ];
         for modelling in [Modelling::Full, Modelling::Soft] {
-            let [top, front, right] = [top, front, right].map(|n| i32::from(shown(lit(FRONT, n, modelling))[1]));
+            let [top, front, right] =
+                [top, front, right].map(|n| i32::from(shown(lit(FRONT, n, modelling))[1]));
             assert!(top > front + 8 && front > right + 4, "{top} {front} {right}");
         }
     }

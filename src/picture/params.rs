@@ -26,7 +26,8 @@ pub struct RenderParams {
     #[arg(long, value_enum, default_value_t)]
     #[serde(default)]
     pub colour: Colour,
-    /// Where to look from: three-quarter, iso, front, back, left, right, top, bottom, or a direction x,y,z from the model to the eye.
+    /// Where to look from: three-quarter, iso, front, back, left, right, top, bottom, or a
+    /// direction x,y,z from the model to the eye.
     #[arg(long, default_value_t, allow_hyphen_values = true)]
     #[serde(default)]
     pub view: View,
@@ -149,7 +150,8 @@ const VIEWS: [(&str, View); 8] = [
 /// A view that could not be read.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "`{text}` is not a view; write three-quarter, iso, front, back, left, right, top, bottom or a direction like 1,-2,0.5"
+    "`{text}` is not a view; write three-quarter, iso, front, back, left, right, top, bottom or a \
+    direction like 1,-2,0.5"
 )]
 pub struct ViewError {
     /// What was typed.
@@ -230,12 +232,19 @@ impl RenderParams {
             View::Bottom => (-DVec3::Z, Some(-DVec3::Y)),
         };
         let up = if self.up == UpAxis::Z { DVec3::Z } else { DVec3::Y };
-        // Named views are told with z up; the quarter turn about x takes z to y and the front (−y) to z.
+        // Named views are told with z up; the quarter turn about x takes z to y and the front (−y)
+        // to z.
         let is_named = !matches!(self.view, View::From(_));
-        let turn = |d: DVec3| if is_named && self.up == UpAxis::Y { DVec3::new(d.x, d.z, -d.y) } else { d };
+        let turn = |d: DVec3| {
+            if is_named && self.up == UpAxis::Y { DVec3::new(d.x, d.z, -d.y) } else { d }
+        };
         // Scaled first, so that neither tiny nor huge directions vanish or overflow when squared.
         let eye = (turn(direction) / direction.abs().max_element()).try_normalize();
-        let eye = eye.ok_or(PictureError::NoDirection { x: direction.x, y: direction.y, z: direction.z })?;
+        let eye = eye.ok_or(PictureError::NoDirection {
+            x: direction.x,
+            y: direction.y,
+            z: direction.z,
+        })?;
         let up = upright.map_or(up, turn);
         let right = up.cross(eye).try_normalize().filter(|_| up.cross(eye).length() > 1e-6);
         let right = right.unwrap_or(DVec3::X);
@@ -269,9 +278,11 @@ mod tests {
 
     #[test]
     fn flags_and_keys_read_the_same_words() {
-        let recipe: RenderParams =
-            toml::from_str("width = 800\nheight = 600\ncolour = \"planarity\"\nview = [1, -2, 0.5]\nup = \"y\"\nprojection = \"parallel\"\nedges = \"off\"")
-                .expect("a recipe");
+        let recipe: RenderParams = toml::from_str(
+            "width = 800\nheight = 600\ncolour = \"planarity\"\nview = [1, -2, \
+            0.5]\nup = \"y\"\nprojection = \"parallel\"\nedges = \"off\"",
+        )
+        .expect("a recipe");
         let line = typed(&[
             "--width=800",
             "--height=600",
@@ -290,14 +301,19 @@ mod tests {
 
     #[test]
     fn views_are_shown_as_they_are_typed() {
-        for text in ["three-quarter", "iso", "front", "back", "left", "right", "top", "bottom", "1,-2,0.5"] {
+        for text in
+            ["three-quarter", "iso", "front", "back", "left", "right", "top", "bottom", "1,-2,0.5"]
+        {
             assert_eq!(text.parse::<View>().expect("a view").to_string(), text);
         }
     }
 
     #[test]
     fn axes_are_right_handed_for_every_view() {
-        for view in VIEWS.map(|(_, view)| view).into_iter().chain([View::From(DVec3::Z), View::From(DVec3::X * 1e-200)])
+        for view in VIEWS
+            .map(|(_, view)| view)
+            .into_iter()
+            .chain([View::From(DVec3::Z), View::From(DVec3::X * 1e-200)])
         {
             for up in [UpAxis::Z, UpAxis::Y] {
                 let params = RenderParams { view, up, ..RenderParams::default() };

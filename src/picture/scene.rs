@@ -9,7 +9,8 @@ use super::{Colour, RenderParams};
 use crate::geom::{Frame, Plane};
 use crate::mesh::{EdgeId, FaceId, FaceMap, HalfEdgeId, HalfEdgeMap, Mesh, VertexId, VertexMap};
 
-/// Faces that are bent by more than this part of their size are cut into triangles; flatter ones are drawn whole.
+/// Faces that are bent by more than this part of their size are cut into triangles; flatter ones
+/// are drawn whole.
 const BENT: f64 = 1e-3;
 /// Faces with more corners are always drawn whole: cutting takes the square of their number.
 const MAX_CUT_CORNERS: usize = 256;
@@ -31,10 +32,11 @@ pub(super) struct Facet {
 }
 
 impl Facet {
-    /// The depth at a point of the picture. Kept between the depths of the corners, because rounding tilts facets that
-    /// are seen from the edge.
+    /// The depth at a point of the picture. Kept between the depths of the corners, because
+    /// rounding tilts facets that are seen from the edge.
     pub fn depth(&self, x: f64, y: f64) -> f64 {
-        let depth = self.anchor.z + self.slope.x * (x - self.anchor.x) + self.slope.y * (y - self.anchor.y);
+        let depth =
+            self.anchor.z + self.slope.x * (x - self.anchor.x) + self.slope.y * (y - self.anchor.y);
         depth.clamp(self.depths.0, self.depths.1)
     }
 }
@@ -76,8 +78,14 @@ pub(super) fn line_width(width: u32, height: u32) -> f64 {
 }
 
 impl Scene {
-    /// Projects and colours the faces, edges and vertices. `colours` are those of the faces seen from the front.
-    pub fn new(mesh: &Mesh, params: &RenderParams, camera: &Camera, colours: &FaceMap<[u8; 3]>) -> Self {
+    /// Projects and colours the faces, edges and vertices. `colours` are those of the faces seen
+    /// from the front.
+    pub fn new(
+        mesh: &Mesh,
+        params: &RenderParams,
+        camera: &Camera,
+        colours: &FaceMap<[u8; 3]>,
+    ) -> Self {
         let mut stage = Stage::new(mesh, params, camera);
         let corners = mesh.faces().map(|f| mesh.sides(f)).sum();
         stage.scene.corners.reserve(corners);
@@ -124,8 +132,13 @@ impl<'a> Stage<'a> {
             places[v] = camera.project(mesh.position(v));
         }
         let (width, height) = params.pixels();
-        let scene =
-            Scene { corners: Vec::new(), facets: Vec::new(), lines: Vec::new(), dots: Vec::new(), dot_radius: 0.0 };
+        let scene = Scene {
+            corners: Vec::new(),
+            facets: Vec::new(),
+            lines: Vec::new(),
+            dots: Vec::new(),
+            dot_radius: 0.0,
+        };
         Self {
             mesh,
             plain: params.colour == Colour::Faces,
@@ -151,7 +164,8 @@ impl<'a> Stage<'a> {
             let frame = Frame::on_plane(&plane);
             let flat: Vec<DVec2> = turned.iter().map(|&p| frame.flatten(p)).collect();
             for triangle in super::ears::ears(&flat) {
-                let normal = Plane::newell(&triangle.map(|i| turned[i])).map_or(plane.normal(), |p| p.normal());
+                let normal = Plane::newell(&triangle.map(|i| turned[i]))
+                    .map_or(plane.normal(), |p| p.normal());
                 let is_front = self.add_facet(f, &triangle.map(|i| half_edges[i]), normal, colour);
                 // The sides of the triangle that are edges of the face, not cuts.
                 for (i, j) in [(0, 1), (1, 2), (2, 0)].map(|(i, j)| (triangle[i], triangle[j])) {
@@ -169,7 +183,13 @@ impl<'a> Stage<'a> {
     }
 
     /// Adds the polygon of the origins of `half_edges`; tells whether its front is seen.
-    fn add_facet(&mut self, face: FaceId, half_edges: &[HalfEdgeId], normal: DVec3, colour: [u8; 3]) -> bool {
+    fn add_facet(
+        &mut self,
+        face: FaceId,
+        half_edges: &[HalfEdgeId],
+        normal: DVec3,
+        colour: [u8; 3],
+    ) -> bool {
         let start = self.scene.corners.len();
         self.scene.corners.extend(half_edges.iter().map(|&h| self.places[self.mesh.origin(h)]));
         let places = &self.scene.corners[start..];
@@ -181,11 +201,14 @@ impl<'a> Stage<'a> {
             self.scene.corners.truncate(start);
             return is_front;
         }
-        let (low, high) = places.iter().fold((places[0], places[0]), |(low, high), &p| (low.min(p), high.max(p)));
+        let (low, high) =
+            places.iter().fold((places[0], places[0]), |(low, high), &p| (low.min(p), high.max(p)));
         let light = match (self.plain, is_front) {
             (true, true) => paint::lit(colour, normal, Modelling::Full),
             (true, false) => paint::lit(paint::BACK, -normal, Modelling::Full),
-            (false, _) => paint::lit(colour, if is_front { normal } else { -normal }, Modelling::Soft),
+            (false, _) => {
+                paint::lit(colour, if is_front { normal } else { -normal }, Modelling::Soft)
+            }
         };
         self.scene.facets.push(Facet {
             face,
@@ -208,20 +231,30 @@ impl<'a> Stage<'a> {
         let is_outline = is_rim || is_front != is_other_front;
         let [n, m] = faces.map(|f| self.normals[f]);
         let fold = n.cross(m).length().atan2(n.dot(m)).to_degrees();
-        // How many line widths there are between this edge and the next ones: where few, lines would blacken the faces.
+        // How many line widths there are between this edge and the next ones: where few, lines
+        // would blacken the faces.
         let [area, other_area] = faces.map(|f| self.areas[f]);
         let spacing = area.max(other_area).sqrt() / self.line_width;
         let strength = if is_outline {
             ramp(spacing, 0.1, 0.5)
         } else {
-            // Edges in a smooth or flat part are light, real folds dark; sharp folds stay longer where it gets dense.
+            // Edges in a smooth or flat part are light, real folds dark; sharp folds stay longer
+            // where it gets dense.
             let sharp = ramp(fold, 20.0, 40.0);
             let by_fold = 0.13 + 0.45 * ramp(fold, 0.5, 8.0) + 0.32 * ramp(fold, 8.0, 30.0);
             by_fold * ramp(spacing, 2.5 - 1.5 * sharp, 16.0 - 10.0 * sharp)
         };
-        let width = self.line_width * if is_outline { 1.9 } else { 0.75 + 0.45 * ramp(fold, 0.5, 8.0) };
+        let width =
+            self.line_width * if is_outline { 1.9 } else { 0.75 + 0.45 * ramp(fold, 0.5, 8.0) };
         let ends = self.mesh.edge_vertices(e).map(|v| self.places[v]);
-        (strength > 0.02).then_some(Line { ends, faces, width, strength: strength as f32, is_outline, is_rim })
+        (strength > 0.02).then_some(Line {
+            ends,
+            faces,
+            width,
+            strength: strength as f32,
+            is_outline,
+            is_rim,
+        })
     }
 
     fn add_dots(&mut self) {
@@ -233,7 +266,11 @@ impl<'a> Stage<'a> {
         let mean = lengths.sum::<f64>() / mesh.edge_count().max(1) as f64;
         self.scene.dot_radius = (5.5 * self.line_width).min(mean / 5.0).max(0.75);
         let dots = mesh.vertices().filter(|&v| mesh.vertex_start(v).is_some());
-        let dot = |v| Dot { place: self.places[v], vertex: v, colour: paint::valence_colour(mesh.valence(v)) };
+        let dot = |v| Dot {
+            place: self.places[v],
+            vertex: v,
+            colour: paint::valence_colour(mesh.valence(v)),
+        };
         self.scene.dots = dots.map(dot).collect();
     }
 }
@@ -268,6 +305,9 @@ mod tests {
 
     #[test]
     fn ramps_are_clamped() {
-        assert_eq!([ramp(-1.0, 0.0, 2.0), ramp(1.0, 0.0, 2.0), ramp(9.0, 0.0, 2.0)], [0.0, 0.5, 1.0]);
+        assert_eq!(
+            [ramp(-1.0, 0.0, 2.0), ramp(1.0, 0.0, 2.0), ramp(9.0, 0.0, 2.0)],
+            [0.0, 0.5, 1.0]
+        );
     }
 }

@@ -1,7 +1,9 @@
 //! The picture of one cutting sheet.
 
 use glam::DVec2;
-use tiny_skia::{Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Rect, Stroke, Transform};
+use tiny_skia::{
+    Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Rect, Stroke, Transform,
+};
 
 use super::{MAX_PIXELS, MIN_PIXELS, Picture, PictureError};
 
@@ -27,8 +29,8 @@ pub struct StrokeLayer {
     pub width_mm: f64,
     /// The lines.
     pub polylines: Vec<Polyline>,
-    /// Whether the closed lines bound parts. What they enclose by the even-odd rule, over all such layers together, is
-    /// tinted: outer contours and their holes.
+    /// Whether the closed lines bound parts. What they enclose by the even-odd rule, over all such
+    /// layers together, is tinted: outer contours and their holes.
     pub bounds_parts: bool,
 }
 
@@ -48,10 +50,12 @@ const BORDER: [u8; 3] = [150, 146, 140];
 const AROUND: [u8; 3] = [236, 234, 230];
 const PART: [u8; 3] = [246, 238, 222];
 
-/// Draws a sheet `width` pixels wide; the height follows from the sheet, within the limits of a picture.
+/// Draws a sheet `width` pixels wide; the height follows from the sheet, within the limits of a
+/// picture.
 ///
 /// # Errors
-/// [`PictureError::SizeOutOfRange`], [`PictureError::SheetWithoutSize`] and [`PictureError::StrokeNotFinite`].
+/// [`PictureError::SizeOutOfRange`], [`PictureError::SheetWithoutSize`] and
+/// [`PictureError::StrokeNotFinite`].
 pub fn render_sheet(strokes: &Strokes, width: u32) -> Result<Picture, PictureError> {
     super::blank(width, MIN_PIXELS)?;
     check(strokes)?;
@@ -148,7 +152,8 @@ fn fill(pixmap: &mut Pixmap, path: &Path, colour: [u8; 3]) {
 }
 
 fn stroke(pixmap: &mut Pixmap, path: &Path, colour: [u8; 3], width: f32) {
-    let stroke = Stroke { width, line_cap: LineCap::Round, line_join: LineJoin::Round, ..Stroke::default() };
+    let stroke =
+        Stroke { width, line_cap: LineCap::Round, line_join: LineJoin::Round, ..Stroke::default() };
     pixmap.stroke_path(path, &plain(colour), &stroke, Transform::identity(), None);
 }
 
@@ -163,12 +168,21 @@ mod tests {
     }
 
     fn layer(name: &str, colour: [u8; 3], polylines: Vec<Polyline>) -> StrokeLayer {
-        StrokeLayer { name: name.to_owned(), colour, width_mm: 0.1, polylines, bounds_parts: name.starts_with("cut") }
+        StrokeLayer {
+            name: name.to_owned(),
+            colour,
+            width_mm: 0.1,
+            polylines,
+            bounds_parts: name.starts_with("cut"),
+        }
     }
 
     /// A part of 60 × 60 mm with a hole of 20 × 20 mm at the lower left of a sheet of 200 × 100 mm.
     fn sheet() -> Strokes {
-        let fold = Polyline { points: vec![DVec2::new(10.0, 60.0), DVec2::new(70.0, 60.0)], is_closed: false };
+        let fold = Polyline {
+            points: vec![DVec2::new(10.0, 60.0), DVec2::new(70.0, 60.0)],
+            is_closed: false,
+        };
         let inner = layer("cut-inner", [255, 0, 0], vec![rectangle([30.0, 30.0], [50.0, 50.0])]);
         let outer = layer("cut-outer", [255, 0, 0], vec![rectangle([10.0, 10.0], [70.0, 70.0])]);
         let layers = vec![layer("score", [0, 0, 255], vec![fold]), inner, outer];
@@ -180,10 +194,13 @@ mod tests {
         let picture = render_sheet(&sheet(), 1000).expect("a picture");
         // A margin of 20 pixels on each side: 4.8 pixels per mm.
         assert_eq!((picture.width(), picture.height()), (1000, 520));
-        let at = |x: f64, y: f64| picture.pixel((20.0 + 4.8 * x) as u32, (500.0 - 4.8 * y) as u32).expect("within");
+        let at = |x: f64, y: f64| {
+            picture.pixel((20.0 + 4.8 * x) as u32, (500.0 - 4.8 * y) as u32).expect("within")
+        };
         assert_eq!((at(20.0, 20.0), at(40.0, 40.0), at(100.0, 90.0)), (PART, SHEET, SHEET));
         assert_eq!(picture.pixel(0, 0), Some(AROUND));
-        let column = |x: f64| (20..500).filter_map(move |y| picture.pixel((20.0 + 4.8 * x) as u32, y));
+        let column =
+            |x: f64| (20..500).filter_map(move |y| picture.pixel((20.0 + 4.8 * x) as u32, y));
         let red = column.clone()(20.0).filter(|[r, g, _]| *r > 200 && *g < 160).count();
         assert!((2..=6).contains(&red), "two cuts: {red}");
         assert!(column(20.0).any(|[r, _, b]| b > 200 && r < 160), "a fold");
@@ -191,7 +208,10 @@ mod tests {
 
     #[test]
     fn sheets_that_cannot_be_drawn_are_told() {
-        assert!(matches!(render_sheet(&sheet(), 9000), Err(PictureError::SizeOutOfRange { pixels: 9000, .. })));
+        assert!(matches!(
+            render_sheet(&sheet(), 9000),
+            Err(PictureError::SizeOutOfRange { pixels: 9000, .. })
+        ));
         for width_mm in [0.0, -1.0, f64::NAN, f64::INFINITY] {
             let fault = render_sheet(&Strokes { width_mm, ..sheet() }, 100).expect_err("no size");
             assert!(matches!(fault, PictureError::SheetWithoutSize { .. }));

@@ -19,12 +19,16 @@ pub struct Cell {
     pub label: String,
 }
 
-/// Draws the cells in rows of `columns`, `params.width` pixels wide in all. `params.height` is that of one cell; without it, three
-/// quarters of its width. All cells are drawn to the same scale.
+/// Draws the cells in rows of `columns`, `params.width` pixels wide in all. `params.height` is that
+/// of one cell; without it, three quarters of its width. All cells are drawn to the same scale.
 ///
 /// # Errors
 /// As [`super::render_model`], for the size of a cell and of the whole.
-pub fn render_strip(cells: &[Cell], columns: u32, params: &RenderParams) -> Result<Picture, PictureError> {
+pub fn render_strip(
+    cells: &[Cell],
+    columns: u32,
+    params: &RenderParams,
+) -> Result<Picture, PictureError> {
     let columns = columns.max(1);
     let cell = RenderParams { width: params.width / columns, ..params.clone() };
     let (width, height) = cell.pixels();
@@ -73,21 +77,31 @@ mod tests {
 
     #[test]
     fn cells_stand_in_rows_to_one_scale() {
-        let cell = |size: f64| Cell { mesh: cuboid(DVec3::ZERO, DVec3::splat(size)), label: "1".to_owned() };
+        let cell = |size: f64| Cell {
+            mesh: cuboid(DVec3::ZERO, DVec3::splat(size)),
+            label: "1".to_owned(),
+        };
         let params = RenderParams { width: 300, ..RenderParams::default() };
-        let picture = render_strip(&[cell(1.0), cell(4.0), cell(2.0), cell(4.0)], 3, &params).expect("a picture");
+        let picture = render_strip(&[cell(1.0), cell(4.0), cell(2.0), cell(4.0)], 3, &params)
+            .expect("a picture");
         assert_eq!((picture.width(), picture.height()), (300, 150));
         let covered = |column: u32, row: u32| {
-            let inner =
-                (column * 100 + 20..(column + 1) * 100).flat_map(|x| (row * 75..(row + 1) * 75).map(move |y| (x, y)));
+            let inner = (column * 100 + 20..(column + 1) * 100)
+                .flat_map(|x| (row * 75..(row + 1) * 75).map(move |y| (x, y)));
             inner.filter(|&(x, y)| picture.pixel(x, y) != Some(paint::PAPER)).count()
         };
         let [small, large, middle, again, nothing] =
             [covered(0, 0), covered(1, 0), covered(2, 0), covered(0, 1), covered(1, 1)];
-        assert!(small * 8 < large && small < middle && middle * 2 < large, "{small} {middle} {large}");
+        assert!(
+            small * 8 < large && small < middle && middle * 2 < large,
+            "{small} {middle} {large}"
+        );
         assert_eq!((again, nothing), (large, 0));
         assert!(matches!(render_strip(&[], 3, &params), Err(PictureError::NoFaces)));
         let narrow = RenderParams { width: 30, ..RenderParams::default() };
-        assert!(matches!(render_strip(&[cell(1.0)], 3, &narrow), Err(PictureError::SizeOutOfRange { .. })));
+        assert!(matches!(
+            render_strip(&[cell(1.0)], 3, &narrow),
+            Err(PictureError::SizeOutOfRange { .. })
+        ));
     }
 }

@@ -1,4 +1,5 @@
-//! Carves a D-form: takes the folds of a choice, cuts them off, and looks whether the pieces lie flat; if not, takes the next.
+//! Carves a D-form: takes the folds of a choice, cuts them off, and looks whether the pieces lie
+//! flat; if not, takes the next.
 
 use std::collections::HashMap;
 
@@ -9,15 +10,17 @@ use crate::mesh::{EdgeId, EdgeMap, Mesh, VertexId};
 use crate::op::{OpContext, Scope, TruncateEdge, truncate_edges};
 use crate::progress::Progress;
 use crate::seam::{
-    MATCHING_LIMIT, SeamError, dullest_matching, fold_sum, hamiltonian_folds, least_matching, matching,
-    one_piece_folds, piece_count, seam_cycles, table,
+    MATCHING_LIMIT, SeamError, dullest_matching, fold_sum, hamiltonian_folds, least_matching,
+    matching, one_piece_folds, piece_count, seam_cycles, table,
 };
 use crate::select::{Made, Selection};
 use crate::unfold::{Seams, Source, UnfoldParams, unfold};
 
-/// Choices of folds that are carved and laid out, at most, until one lies flat in as many pieces as it should.
+/// Choices of folds that are carved and laid out, at most, until one lies flat in as many pieces as
+/// it should.
 const TRIED: usize = 24;
-/// Up to this many vertices all two-piece seams are candidates; of larger meshes only the best one found.
+/// Up to this many vertices all two-piece seams are candidates; of larger meshes only the best one
+/// found.
 const LISTED_VERTICES: usize = 64;
 
 /// A carved D-form.
@@ -43,25 +46,34 @@ impl CarvedDform {
 
 /// Chooses the folds and cuts them off, round after round.
 ///
-/// For two pieces and for one, choices are tried in the order of their fold sums, 24 at most, until the carved pieces lie
-/// flat without overlap and no fold has to be opened (but the one that opens a ring); the first choice is kept where none
-/// does. On a mesh that is not convex only those folds are cut off whose ends are convex corners, each without touching the
-/// rest of the mesh; no plane can shave the others, which stay sharp folds.
+/// For two pieces and for one, choices are tried in the order of their fold sums, 24 at most, until
+/// the carved pieces lie flat without overlap and no fold has to be opened (but the one that opens
+/// a ring); the first choice is kept where none does. On a mesh that is not convex only those folds
+/// are cut off whose ends are convex corners, each without touching the rest of the mesh; no plane
+/// can shave the others, which stay sharp folds.
 ///
 /// # Errors
-/// [`StepFailure::Seam`] when the mesh is open, not 3-valent, or has no such choice; [`StepFailure::Op`] when it cannot be
-/// cut so.
-pub fn carve_dform(mesh: &Mesh, params: &DformParams, progress: &dyn Progress) -> Result<CarvedDform, StepFailure> {
+/// [`StepFailure::Seam`] when the mesh is open, not 3-valent, or has no such choice;
+/// [`StepFailure::Op`] when it cannot be cut so.
+pub fn carve_dform(
+    mesh: &Mesh,
+    params: &DformParams,
+    progress: &dyn Progress,
+) -> Result<CarvedDform, StepFailure> {
     let Candidates { folds, pieces, mut notes } = candidates(mesh, params.matching, progress)?;
     let (mut first, mut failure) = (None, None);
     let count = folds.len().min(TRIED);
     for (i, folds) in folds.iter().take(TRIED).enumerate() {
         progress.report("trying folds", i, count);
         match carve(mesh, folds, params, progress) {
-            Ok(carved) if count == 1 || pieces.is_none_or(|pieces| lies_flat_in(pieces, &carved, progress)) => {
+            Ok(carved)
+                if count == 1
+                    || pieces.is_none_or(|pieces| lies_flat_in(pieces, &carved, progress)) =>
+            {
                 if i > 0 {
                     notes.push(format!(
-                        "{i} choices of folds with no larger fold sum were passed over: carved, their pieces overlap"
+                        "{i} choices of folds with no larger fold sum were passed over: carved, \
+                        their pieces overlap"
                     ));
                 }
                 return Ok(carved.after(notes));
@@ -76,7 +88,8 @@ pub fn carve_dform(mesh: &Mesh, params: &DformParams, progress: &dyn Progress) -
     match (first, failure) {
         (Some(carved), _) => {
             notes.push(format!(
-                "{count} choices of folds were carved, but none lies flat unless a further fold opens; the first was taken, \
+                "{count} choices of folds were carved, but none lies flat unless a further fold \
+                opens; the first was taken, \
                  another `--offset` or fewer `--rounds` may do"
             ));
             Ok(carved.after(notes))
@@ -94,15 +107,21 @@ struct Candidates {
     notes: Vec<String>,
 }
 
-fn candidates(mesh: &Mesh, choice: MatchingChoice, progress: &dyn Progress) -> Result<Candidates, SeamError> {
+fn candidates(
+    mesh: &Mesh,
+    choice: MatchingChoice,
+    progress: &dyn Progress,
+) -> Result<Candidates, SeamError> {
     let one = |folds| Candidates { folds: vec![folds], pieces: None, notes: Vec::new() };
     match choice {
         MatchingChoice::Least => least_matching(mesh, progress).map(one),
         MatchingChoice::Dullest => dullest_matching(mesh, progress).map(one),
         MatchingChoice::Row(row) => matching(mesh, row, progress).map(one),
-        MatchingChoice::OnePiece => {
-            Ok(Candidates { folds: one_piece_folds(mesh, progress)?, pieces: Some(1), notes: Vec::new() })
-        }
+        MatchingChoice::OnePiece => Ok(Candidates {
+            folds: one_piece_folds(mesh, progress)?,
+            pieces: Some(1),
+            notes: Vec::new(),
+        }),
         MatchingChoice::TwoPieces => match hamiltonian_folds(mesh, progress) {
             Ok(folds) => Ok(two_pieces(mesh, folds, progress)),
             Err(
@@ -125,17 +144,26 @@ fn two_pieces(mesh: &Mesh, best: Vec<EdgeId>, progress: &dyn Progress) -> Candid
     if mesh.vertex_count() <= LISTED_VERTICES
         && let Ok(rows) = table(mesh, MATCHING_LIMIT, progress)
     {
-        let others = rows.into_iter().filter(|r| r.pieces == pieces && r.seam_cycles == 1 && r.folds != folds[0]);
+        let others = rows
+            .into_iter()
+            .filter(|r| r.pieces == pieces && r.seam_cycles == 1 && r.folds != folds[0]);
         let others: Vec<_> = others.map(|r| r.folds).collect();
         folds.extend(others);
     }
     Candidates { folds, pieces: Some(pieces), notes: Vec::new() }
 }
 
-/// Whether the carved mesh comes apart along its seams into that many pieces, so that no fold opens for an overlap.
+/// Whether the carved mesh comes apart along its seams into that many pieces, so that no fold opens
+/// for an overlap.
 fn lies_flat_in(pieces: usize, carved: &CarvedDform, progress: &dyn Progress) -> bool {
     let params = UnfoldParams::default();
-    let net = unfold(&carved.mesh, &Seams::Folds(carved.folds.clone()), &params, &Source::default(), progress);
+    let net = unfold(
+        &carved.mesh,
+        &Seams::Folds(carved.folds.clone()),
+        &params,
+        &Source::default(),
+        progress,
+    );
     net.is_ok_and(|net| net.pieces.len() == pieces)
 }
 
@@ -163,12 +191,18 @@ fn carve(
         return Ok(uncarved(notes));
     }
     let Some(select) = Selection::of_ids(round.iter().map(|e| e.index() as u32)) else {
-        notes.push("no fold is cut: none has two convex ends, where a plane could shave it off".to_owned());
+        notes.push(
+            "no fold is cut: none has two convex ends, where a plane could shave it off".to_owned(),
+        );
         return Ok(uncarved(notes));
     };
     let scope = if sharp.is_empty() { Scope::Global } else { Scope::Local };
-    let cut =
-        TruncateEdge { bend: params.bend, repeat: params.rounds, scope, ..TruncateEdge::new(select, params.offset) };
+    let cut = TruncateEdge {
+        bend: params.bend,
+        repeat: params.rounds,
+        scope,
+        ..TruncateEdge::new(select, params.offset)
+    };
     let (carved, report) = truncate_edges(mesh, &cut, &OpContext { made: None, progress })?;
     notes.extend(report.notes("edge"));
     let mut folds = report.made.strip.clone();
@@ -183,18 +217,19 @@ fn carve(
     Ok(CarvedDform { mesh: carved, made: report.made, folds, notes })
 }
 
-/// The folds that planes can cut off, and the others. On a convex mesh these are all; else those that, as all edges at
-/// their ends, bend outwards.
+/// The folds that planes can cut off, and the others. On a convex mesh these are all; else those
+/// that, as all edges at their ends, bend outwards.
 fn rollable(mesh: &Mesh, folds: &[EdgeId]) -> (Vec<EdgeId>, Vec<EdgeId>) {
     let mut is_concave = EdgeMap::filled(mesh.edge_slots(), false);
     concave_edges(mesh).into_iter().for_each(|e| is_concave[e] = true);
-    let bends_outwards =
-        |v: VertexId| mesh.outgoing(v).all(|h| !is_concave[h.edge()] && fold_angle(mesh, h.edge()).is_some());
+    let bends_outwards = |v: VertexId| {
+        mesh.outgoing(v).all(|h| !is_concave[h.edge()] && fold_angle(mesh, h.edge()).is_some())
+    };
     folds.iter().partition(|&&e| mesh.edge_vertices(e).into_iter().all(bends_outwards))
 }
 
-/// Edges that no cut has touched, by the places of their ends. One that a cut did touch is not among them: it is cut off, and
-/// the unfolder will open what it must.
+/// Edges that no cut has touched, by the places of their ends. One that a cut did touch is not
+/// among them: it is cut off, and the unfolder will open what it must.
 fn found_again(before: &Mesh, edges: &[EdgeId], after: &Mesh) -> Vec<EdgeId> {
     let place = |mesh: &Mesh, v: VertexId| mesh.position(v).to_array().map(f64::to_bits);
     let at: HashMap<[u64; 3], VertexId> = after.vertices().map(|v| (place(after, v), v)).collect();

@@ -1,7 +1,8 @@
 //! The designer of D-forms: chooses the folds of a coarse solid and carves them into smooth strips.
 //!
-//! In a closed 3-valent mesh the folds are a perfect matching, and the seams are the closed cycles that it leaves. Cutting the
-//! folds over and over turns each into a developable strip (`docs/operators.md`, sections 2 and 4).
+//! In a closed 3-valent mesh the folds are a perfect matching, and the seams are the closed cycles
+//! that it leaves. Cutting the folds over and over turns each into a developable strip
+//! (`docs/operators.md`, sections 2 and 4).
 
 use std::fmt;
 use std::str::FromStr;
@@ -12,11 +13,12 @@ use serde::{Deserialize, Deserializer};
 /// Which of the solid's edges become folds, one at every vertex.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum MatchingChoice {
-    /// Two pieces: of the folds that leave one closed seam those with the least fold sum. Where there is no such seam, or
-    /// none was found, the least matching.
+    /// Two pieces: of the folds that leave one closed seam those with the least fold sum. Where
+    /// there is no such seam, or none was found, the least matching.
     #[default]
     TwoPieces,
-    /// One piece, on a mesh with handles: of the folds that leave one piece those with the least fold sum.
+    /// One piece, on a mesh with handles: of the folds that leave one piece those with the least
+    /// fold sum.
     OnePiece,
     /// The matching with the least fold sum, however many pieces it leaves.
     Least,
@@ -29,7 +31,8 @@ pub enum MatchingChoice {
 /// A choice of folds that could not be read.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "`{text}` is no choice of folds; write hamiltonian (two pieces), one (one piece, on a mesh with handles), least, dullest, or \
+    "`{text}` is no choice of folds; write hamiltonian (two pieces), one (one piece, on a mesh \
+    with handles), least, dullest, or \
      a row of the table of `kerfold seams`"
 )]
 pub struct MatchingChoiceError {
@@ -48,7 +51,10 @@ impl FromStr for MatchingChoice {
             "one" => Ok(Self::OnePiece),
             "least" => Ok(Self::Least),
             "dullest" => Ok(Self::Dullest),
-            _ => text.parse().map(Self::Row).map_err(|_| MatchingChoiceError { text: text.to_owned() }),
+            _ => text
+                .parse()
+                .map(Self::Row)
+                .map_err(|_| MatchingChoiceError { text: text.to_owned() }),
         }
     }
 }
@@ -68,7 +74,10 @@ impl fmt::Display for MatchingChoice {
 impl<'de> Deserialize<'de> for MatchingChoice {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         #[derive(Deserialize)]
-        #[serde(untagged, expecting = "hamiltonian, one, least, dullest, or a row of the table of `kerfold seams`")]
+        #[serde(
+            untagged,
+            expecting = "hamiltonian, one, least, dullest, or a row of the table of `kerfold seams`"
+        )]
         enum Written {
             Row(usize),
             Text(String),
@@ -83,16 +92,18 @@ impl<'de> Deserialize<'de> for MatchingChoice {
 /// How to make a D-form of a closed 3-valent mesh.
 #[derive(Debug, Clone, PartialEq, clap::Args, Deserialize)]
 pub struct DformParams {
-    /// Folds: hamiltonian (two pieces), one (one piece; needs a handle), least (angle × length), dullest (angle), or a row of
-    /// the table of `kerfold seams`, from 0
+    /// Folds: hamiltonian (two pieces), one (one piece; needs a handle), least (angle × length),
+    /// dullest (angle), or a row of the table of `kerfold seams`, from 0
     #[arg(long, default_value = "hamiltonian", value_name = "CHOICE")]
     #[serde(default)]
     pub matching: MatchingChoice,
-    /// How often the folds are cut, 0 to 64; each round halves the steps of the strips, 0 leaves the solid as it is
+    /// How often the folds are cut, 0 to 64; each round halves the steps of the strips, 0 leaves
+    /// the solid as it is
     #[arg(long, default_value_t = DEFAULT_ROUNDS, value_name = "N")]
     #[serde(default = "default_rounds")]
     pub rounds: u32,
-    /// How deep, in (0, 2]: 0 at the fold, 1 at the far ends of the edges beside it; up to 1/2 the cuts stay apart
+    /// How deep, in (0, 2]: 0 at the fold, 1 at the far ends of the edges beside it; up to 1/2 the
+    /// cuts stay apart
     #[arg(long, default_value_t = DEFAULT_OFFSET, value_parser = crate::units::parse_number)]
     #[serde(default = "default_offset")]
     pub offset: f64,
@@ -115,7 +126,12 @@ fn default_offset() -> f64 {
 
 impl Default for DformParams {
     fn default() -> Self {
-        Self { matching: MatchingChoice::default(), rounds: DEFAULT_ROUNDS, offset: DEFAULT_OFFSET, bend: 0.0 }
+        Self {
+            matching: MatchingChoice::default(),
+            rounds: DEFAULT_ROUNDS,
+            offset: DEFAULT_OFFSET,
+            bend: 0.0,
+        }
     }
 }
 
@@ -133,8 +149,14 @@ mod tests {
     fn the_three_doors_give_the_same_defaults() {
         let command = DformParams::augment_args(clap::Command::new("dform"));
         let matches = command.try_get_matches_from(["dform"]).expect("no flag is needed");
-        assert_eq!(DformParams::from_arg_matches(&matches).expect("defaults parse"), DformParams::default());
-        assert_eq!(toml::from_str::<DformParams>("").expect("no key is needed"), DformParams::default());
+        assert_eq!(
+            DformParams::from_arg_matches(&matches).expect("defaults parse"),
+            DformParams::default()
+        );
+        assert_eq!(
+            toml::from_str::<DformParams>("").expect("no key is needed"),
+            DformParams::default()
+        );
     }
 
     #[test]
@@ -146,7 +168,12 @@ mod tests {
         let read = |text: &str| toml::from_str::<DformParams>(text).map(|p| p.matching);
         assert_eq!(read("matching = 3"), Ok(MatchingChoice::Row(3)));
         assert_eq!(read("matching = \"least\""), Ok(MatchingChoice::Least));
-        assert!(read("matching = \"most\"").expect_err("no choice").to_string().contains("kerfold seams"));
+        assert!(
+            read("matching = \"most\"")
+                .expect_err("no choice")
+                .to_string()
+                .contains("kerfold seams")
+        );
     }
 
     fn named(name: &str) -> Mesh {
@@ -196,7 +223,10 @@ mod tests {
     #[test]
     fn what_cannot_be_a_d_form_is_told() {
         let octahedron = carve_dform(&named("octahedron"), &DformParams::default(), &Silent);
-        assert!(matches!(octahedron, Err(StepFailure::Seam(SeamError::Valence { valence: 4, .. }))));
+        assert!(matches!(
+            octahedron,
+            Err(StepFailure::Seam(SeamError::Valence { valence: 4, .. }))
+        ));
         let params = DformParams { matching: MatchingChoice::OnePiece, ..DformParams::default() };
         let one = carve_dform(&named("cube"), &params, &Silent);
         assert!(matches!(one, Err(StepFailure::Seam(SeamError::NoHandle))));

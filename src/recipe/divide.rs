@@ -1,4 +1,5 @@
-//! Divides a piece that no sheet can hold: halves it by area along folds, again and again, until every part fits.
+//! Divides a piece that no sheet can hold: halves it by area along folds, again and again, until
+//! every part fits.
 
 use std::collections::hash_map::Entry;
 use std::collections::{HashMap, HashSet};
@@ -23,16 +24,18 @@ impl Room {
     }
 }
 
-/// The folds of a piece that is too large to open, by edge number, so that its parts fit. It is halved once in any case:
-/// a piece that fits by itself may be too large with its flaps. Where the folds of the piece form rings, all folds
-/// between two parts are opened. A single face is never divided.
+/// The folds of a piece that is too large to open, by edge number, so that its parts fit. It is
+/// halved once in any case: a piece that fits by itself may be too large with its flaps. Where the
+/// folds of the piece form rings, all folds between two parts are opened. A single face is never
+/// divided.
 pub(super) fn folds_to_open(net: &Net, id: PieceId, room: Room) -> Vec<usize> {
     let Some(graph) = FoldGraph::new(net, id) else { return Vec::new() };
     let mut open = Vec::new();
     let count = graph.polygons.len();
     let mut parts = vec![(0..count).collect::<Vec<usize>>()];
     while let Some(part) = parts.pop() {
-        let points: Vec<DVec2> = part.iter().flat_map(|&f| graph.polygons[f].iter().copied()).collect();
+        let points: Vec<DVec2> =
+            part.iter().flat_map(|&f| graph.polygons[f].iter().copied()).collect();
         if part.len() > 1 && (part.len() == count || !room.holds(&points)) {
             let (half, rest) = graph.halve(&part);
             open.extend(graph.folds_between(&half, &rest));
@@ -53,7 +56,8 @@ struct FoldGraph<'a> {
 impl<'a> FoldGraph<'a> {
     fn new(net: &'a Net, id: PieceId) -> Option<Self> {
         let piece = net.pieces.iter().find(|p| p.id == id)?;
-        let place: HashMap<usize, usize> = piece.faces.iter().enumerate().map(|(i, f)| (f.face, i)).collect();
+        let place: HashMap<usize, usize> =
+            piece.faces.iter().enumerate().map(|(i, f)| (f.face, i)).collect();
         let mut neighbours = vec![Vec::new(); piece.faces.len()];
         for fold in net.folds.iter().filter(|f| f.piece == id) {
             let [a, b] = fold.faces.map(|f| place[&f]);
@@ -87,8 +91,12 @@ impl<'a> FoldGraph<'a> {
         }
         let whole = below[&part[0]];
         let unevenness = |f: usize| (whole / 2.0 - below[&f]).abs();
-        let top =
-            order.iter().copied().skip(1).min_by(|&a, &b| unevenness(a).total_cmp(&unevenness(b))).expect("two faces");
+        let top = order
+            .iter()
+            .copied()
+            .skip(1)
+            .min_by(|&a, &b| unevenness(a).total_cmp(&unevenness(b)))
+            .expect("two faces");
         let mut half = HashSet::from([top]);
         for &f in order.iter().skip(1) {
             if half.contains(&parent[&f]) {
@@ -100,7 +108,8 @@ impl<'a> FoldGraph<'a> {
 
     fn folds_between(&self, half: &[usize], rest: &[usize]) -> Vec<usize> {
         let rest: HashSet<usize> = rest.iter().copied().collect();
-        let crossing = half.iter().flat_map(|&f| &self.neighbours[f]).filter(|(g, _)| rest.contains(g));
+        let crossing =
+            half.iter().flat_map(|&f| &self.neighbours[f]).filter(|(g, _)| rest.contains(g));
         crossing.map(|&(_, edge)| edge).collect()
     }
 }

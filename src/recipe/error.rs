@@ -84,7 +84,10 @@ pub enum RecipeError {
         message: String,
     },
     /// No step at all.
-    #[error("the recipe has no [[step]]; the first one names a solid or reads a file, e.g. solid = \"dodecahedron\"")]
+    #[error(
+        "the recipe has no [[step]]; the first one names a solid or reads a file, e.g. solid = \
+        \"dodecahedron\""
+    )]
     NoSteps,
 }
 

@@ -15,13 +15,17 @@ use crate::net::{Net, PieceId};
 use crate::progress::Progress;
 use crate::select::{Context, Made, Selection};
 use crate::sheet::{SheetError, SheetParams, SheetSet, lay_out_watched};
-use crate::unfold::{PiecesMode, Seams, Source, UnfoldParams, check_folded, check_seams, seams_by_angle, unfold};
+use crate::unfold::{
+    PiecesMode, Seams, Source, UnfoldParams, check_folded, check_seams, seams_by_angle, unfold,
+};
 use crate::units::Angle;
 
-/// Which edges open. Without either, marked seams of the file are used; without marks the unfolder chooses.
+/// Which edges open. Without either, marked seams of the file are used; without marks the unfolder
+/// chooses.
 #[derive(Debug, Clone, Default, clap::Args, Deserialize)]
 pub struct FabricateParams {
-    /// Edges to open: a selection, or a file (OBJ with `l` lines, or `v0 v1` per line); others open only where faces overlap.
+    /// Edges to open: a selection, or a file (OBJ with `l` lines, or `v0 v1` per line); others open
+    /// only where faces overlap.
     #[arg(long, value_name = "SELECTION|FILE", conflicts_with = "folds")]
     #[serde(default)]
     pub seams: Option<SeamChoice>,
@@ -29,8 +33,9 @@ pub struct FabricateParams {
     #[arg(long, value_name = "SELECTION")]
     #[serde(default)]
     pub folds: Option<Selection>,
-    /// Edges that fold by more than this angle open, e.g. 40deg, and the shortest ways from them to every vertex around which
-    /// the faces cannot lie flat; above 0. For meshes with more than three edges at a vertex.
+    /// Edges that fold by more than this angle open, e.g. 40deg, and the shortest ways from them to
+    /// every vertex around which the faces cannot lie flat; above 0. For meshes with more than
+    /// three edges at a vertex.
     #[arg(long, value_name = "ANGLE", conflicts_with_all = ["seams", "folds"])]
     #[serde(default)]
     pub sharp: Option<Angle>,
@@ -66,8 +71,8 @@ pub struct Fabrication {
     pub sources: Vec<order_json::Source>,
 }
 
-/// Unfolds a mesh, in millimetres, and lays the pieces out. Pieces too large for the sheet are opened at the fold that
-/// divides their area best until they fit.
+/// Unfolds a mesh, in millimetres, and lays the pieces out. Pieces too large for the sheet are
+/// opened at the fold that divides their area best until they fit.
 ///
 /// # Errors
 /// What selecting, unfolding and laying out can refuse; a single face too large for the sheet is
@@ -91,11 +96,17 @@ pub fn fabricate(
                 check_folded(&net, &keep)?;
                 return Ok(Fabrication { net, sheets, seams: words, divided, sources: Vec::new() });
             }
-            Err(SheetError::PiecesTooLarge { pieces, width, height, margin }) if pieces.iter().all(|p| p.faces > 1) => {
+            Err(SheetError::PiecesTooLarge { pieces, width, height, margin })
+                if pieces.iter().all(|p| p.faces > 1) =>
+            {
                 let mut open: BTreeSet<usize> = net.seams.iter().map(|s| s.id.0).collect();
                 let before = open.len();
                 for too_large in &pieces {
-                    open.extend(room(sheet).into_iter().flat_map(|room| folds_to_open(&net, too_large.piece, room)));
+                    open.extend(
+                        room(sheet)
+                            .into_iter()
+                            .flat_map(|room| folds_to_open(&net, too_large.piece, room)),
+                    );
                 }
                 if open.len() == before {
                     return Err(SheetError::PiecesTooLarge { pieces, width, height, margin }.into());
@@ -124,19 +135,29 @@ fn choose_seams(
         return Ok((seams, words));
     }
     if !keep.is_empty() || !cut.is_empty() {
-        return Ok((Seams::Within { keep, cut }, "the unfolder chose the seams within what was to be kept and cut"));
+        return Ok((
+            Seams::Within { keep, cut },
+            "the unfolder chose the seams within what was to be kept and cut",
+        ));
     }
-    // Cutting a matching over and over leaves strips; where they reach every face, they are the pieces.
+    // Cutting a matching over and over leaves strips; where they reach every face, they are the
+    // pieces.
     if params.pieces == PiecesMode::Auto
         && let Some(made) = made
         && strips_reach_every_face(mesh, &made.strip)
     {
-        return Ok((Seams::Folds(made.strip.clone()), "the strips that the last cut made fold, all other edges open"));
+        return Ok((
+            Seams::Folds(made.strip.clone()),
+            "the strips that the last cut made fold, all other edges open",
+        ));
     }
     if params.pieces == PiecesMode::Auto
         && let Some(folds) = dull_folds::folds(mesh, context.progress)
     {
-        return Ok((Seams::Folds(folds), "the model is a D-form: its dull edges fold, all others open"));
+        return Ok((
+            Seams::Folds(folds),
+            "the model is a D-form: its dull edges fold, all others open",
+        ));
     }
     Ok((Seams::Free, "the unfolder chose the seams"))
 }
@@ -158,7 +179,10 @@ fn given_seams(
     }
     if let Some(angle) = choice.sharp {
         let edges = seams_by_angle(context.mesh, angle.radians());
-        return Ok(Some((open(edges), "sharp edges open, and ways from them to all points that cannot lie flat")));
+        return Ok(Some((
+            open(edges),
+            "sharp edges open, and ways from them to all points that cannot lie flat",
+        )));
     }
     if let Some(folds) = &choice.folds {
         let mut edges = folds.edges(context)?;
@@ -185,9 +209,11 @@ fn strips_reach_every_face(mesh: &Mesh, strip: &[EdgeId]) -> bool {
     mesh.is_closed() && mesh.faces().all(|f| is_reached[f])
 }
 
-/// The room inside the margin of a sheet for a piece with its joints, kerf included; `None` without sheets.
+/// The room inside the margin of a sheet for a piece with its joints, kerf included; `None` without
+/// sheets.
 fn room(sheet: &SheetParams) -> Option<Room> {
-    let inside = sheet.sheet.mm()? - 2.0 * (sheet.margin.mm() + sheet.joint_reach()) - sheet.kerf.mm();
+    let inside =
+        sheet.sheet.mm()? - 2.0 * (sheet.margin.mm() + sheet.joint_reach()) - sheet.kerf.mm();
     Some(Room { longer: inside.max_element(), shorter: inside.min_element() })
 }
 

@@ -4,8 +4,9 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use super::{
-    DformParams, FabricateParams, Fabrication, OperatorStep, PanelFiles, Panelled, Recipe, ShowParams, Step, StepError,
-    StepFailure, carve_dform, fabricate, nest_files, operate, panel_model, solid_of_planes, with_material,
+    DformParams, FabricateParams, Fabrication, OperatorStep, PanelFiles, Panelled, Recipe,
+    ShowParams, Step, StepError, StepFailure, carve_dform, fabricate, nest_files, operate,
+    panel_model, solid_of_planes, with_material,
 };
 use crate::check::{CheckParams, Report, check};
 use crate::io::{ReadMesh, read_mesh};
@@ -97,7 +98,13 @@ impl Job {
         Ok(check(self.mesh()?, &self.check)?)
     }
 
-    fn step(&mut self, number: usize, step: &Step, folder: &Path, progress: &dyn Progress) -> Result<(), StepFailure> {
+    fn step(
+        &mut self,
+        number: usize,
+        step: &Step,
+        folder: &Path,
+        progress: &dyn Progress,
+    ) -> Result<(), StepFailure> {
         if progress.is_cancelled() {
             return Err(OpError::Cancelled.into());
         }
@@ -129,7 +136,8 @@ impl Job {
                 (self.mesh, self.made) = (Some(operated.mesh), operated.made);
             }
             Step::Hull(params) => {
-                let (mesh, report) = hull(self.mesh()?, params, &OpContext { made: None, progress })?;
+                let (mesh, report) =
+                    hull(self.mesh()?, params, &OpContext { made: None, progress })?;
                 self.notes.extend(report.notes());
                 self.hull_steps = report.steps;
                 // The hull is a solid of its own, whatever its corners came from.
@@ -167,7 +175,12 @@ impl Job {
         Ok(())
     }
 
-    fn dform(&mut self, params: &DformParams, sheet: &SheetParams, progress: &dyn Progress) -> Result<(), StepFailure> {
+    fn dform(
+        &mut self,
+        params: &DformParams,
+        sheet: &SheetParams,
+        progress: &dyn Progress,
+    ) -> Result<(), StepFailure> {
         let carved = carve_dform(self.mesh()?, params, progress)?;
         self.notes.extend(carved.notes);
         self.mesh = Some(carved.mesh);
@@ -205,7 +218,13 @@ impl Job {
         let splits: &[SplitVertex] = &[];
         let source = Source { scale: 1.0, split_vertices: splits };
         let choice = choice.in_folder(folder);
-        let fabrication = fabricate(self.mesh()?, self.made.as_ref(), (unfold, &choice, sheet), &source, progress)?;
+        let fabrication = fabricate(
+            self.mesh()?,
+            self.made.as_ref(),
+            (unfold, &choice, sheet),
+            &source,
+            progress,
+        )?;
         self.notes.extend(fabrication.notes());
         (self.fabrication, self.panelled) = (Some((fabrication, sheet.clone())), None);
         Ok(())

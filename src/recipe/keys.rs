@@ -1,5 +1,6 @@
-//! Which steps there are and which keys they take: the fields of the parameter structs of their verbs. The structs' own
-//! command-line definitions are asked for them, so that recipe, command line and reference cannot part.
+//! Which steps there are and which keys they take: the fields of the parameter structs of their
+//! verbs. The structs' own command-line definitions are asked for them, so that recipe, command
+//! line and reference cannot part.
 
 use std::sync::Arc;
 
@@ -8,11 +9,14 @@ use serde::de::DeserializeOwned;
 
 use super::error::RecipeError;
 use super::parse::StepFields;
-use super::{DformParams, FabricateParams, NestStep, OperatorStep, PanelFiles, PlanesStep, ReadStep, ShowParams, Step};
+use super::{
+    DformParams, FabricateParams, NestStep, OperatorStep, PanelFiles, PlanesStep, ReadStep,
+    ShowParams, Step,
+};
 use crate::check::CheckParams;
 use crate::op::{
-    HandleParams, HullParams, MengerParams, Operate, PlanarizeParams, ResolveParams, RindParams, SierpinskiParams,
-    SliceParams, SubdivideParams, TruncateEdge, TruncateFace, TruncateVertex,
+    HandleParams, HullParams, MengerParams, Operate, PlanarizeParams, ResolveParams, RindParams,
+    SierpinskiParams, SliceParams, SubdivideParams, TruncateEdge, TruncateFace, TruncateVertex,
 };
 use crate::panel::PanelParams;
 use crate::picture::RenderParams;
@@ -24,11 +28,13 @@ use crate::unfold::UnfoldParams;
 pub struct StepKind {
     /// The key that says what the step does.
     pub verb: &'static str,
-    /// What that key must be for this kind; `None` where it is the value of [`Self::field`]. Only `cut` has kinds.
+    /// What that key must be for this kind; `None` where it is the value of [`Self::field`]. Only
+    /// `cut` has kinds.
     pub kind: Option<&'static str>,
     /// The parameter that the value of the verb's key goes to; empty where there is a kind.
     pub field: &'static str,
-    /// Words for the values of a parameter that is a switch on the command line: the word and what it stands for.
+    /// Words for the values of a parameter that is a switch on the command line: the word and what
+    /// it stands for.
     pub words: &'static [(&'static str, &'static str)],
     params: &'static [fn(Command) -> Command],
     pub(super) read: Read,
@@ -37,7 +43,8 @@ pub struct StepKind {
 type Read = fn(&StepFields<'_>) -> Result<Step, RecipeError>;
 
 impl StepKind {
-    /// The command-line definition of everything that the step takes. The id of an argument is the key.
+    /// The command-line definition of everything that the step takes. The id of an argument is the
+    /// key.
     pub fn command(&self) -> Command {
         self.params.iter().fold(Command::new(self.verb), |command, augment| augment(command))
     }
@@ -65,12 +72,24 @@ const STEPS: &[StepKind] = &[
         words: &[("\"convex\"", "false"), ("\"dual\"", "true")],
         ..step("hull", "dual", &[HullParams::augment_args], |s| Ok(Step::Hull(s.read()?)))
     },
-    step("resolve", "select", &[ResolveParams::augment_args], |s| operator::<ResolveParams>(s, "resolve")),
-    step("planarize", "profile", &[PlanarizeParams::augment_args], |s| operator::<PlanarizeParams>(s, "planarize")),
-    step("subdivide", "scheme", &[SubdivideParams::augment_args], |s| operator::<SubdivideParams>(s, "subdivide")),
-    step("sierpinski", "rounds", &[SierpinskiParams::augment_args], |s| operator::<SierpinskiParams>(s, "sierpinski")),
-    step("handle", "from", &[HandleParams::augment_args], |s| operator::<HandleParams>(s, "handle")),
-    step("menger", "rounds", &[MengerParams::augment_args], |s| operator::<MengerParams>(s, "menger")),
+    step("resolve", "select", &[ResolveParams::augment_args], |s| {
+        operator::<ResolveParams>(s, "resolve")
+    }),
+    step("planarize", "profile", &[PlanarizeParams::augment_args], |s| {
+        operator::<PlanarizeParams>(s, "planarize")
+    }),
+    step("subdivide", "scheme", &[SubdivideParams::augment_args], |s| {
+        operator::<SubdivideParams>(s, "subdivide")
+    }),
+    step("sierpinski", "rounds", &[SierpinskiParams::augment_args], |s| {
+        operator::<SierpinskiParams>(s, "sierpinski")
+    }),
+    step("handle", "from", &[HandleParams::augment_args], |s| {
+        operator::<HandleParams>(s, "handle")
+    }),
+    step("menger", "rounds", &[MengerParams::augment_args], |s| {
+        operator::<MengerParams>(s, "menger")
+    }),
     step("rind", "thickness", &[RindParams::augment_args], |s| operator::<RindParams>(s, "rind")),
     step("check", "profile", &[CheckParams::augment_args], |s| Ok(Step::Check(s.read()?))),
     step(
@@ -82,14 +101,27 @@ const STEPS: &[StepKind] = &[
             SheetParams::augment_args,
             ShowParams::augment_args,
         ],
-        |s| Ok(Step::Unfold { unfold: s.read()?, fabricate: s.read()?, sheet: s.read()?, show: s.read()? }),
+        |s| {
+            Ok(Step::Unfold {
+                unfold: s.read()?,
+                fabricate: s.read()?,
+                sheet: s.read()?,
+                show: s.read()?,
+            })
+        },
     ),
-    step("dform", "matching", &[DformParams::augment_args, SheetParams::augment_args, ShowParams::augment_args], |s| {
-        Ok(Step::Dform { dform: s.read()?, sheet: s.read()?, show: s.read()? })
-    }),
-    step("panels", "side", &[PanelParams::augment_args, PanelFiles::augment_args, SheetParams::augment_args], |s| {
-        Ok(Step::Panels { panels: s.read()?, files: s.read()?, sheet: s.read()? })
-    }),
+    step(
+        "dform",
+        "matching",
+        &[DformParams::augment_args, SheetParams::augment_args, ShowParams::augment_args],
+        |s| Ok(Step::Dform { dform: s.read()?, sheet: s.read()?, show: s.read()? }),
+    ),
+    step(
+        "panels",
+        "side",
+        &[PanelParams::augment_args, PanelFiles::augment_args, SheetParams::augment_args],
+        |s| Ok(Step::Panels { panels: s.read()?, files: s.read()?, sheet: s.read()? }),
+    ),
     step("nest", "pieces", &[NestStep::augment_args, SheetParams::augment_args], |s| {
         Ok(Step::Nest { nest: s.read()?, sheet: s.read()? })
     }),
@@ -105,7 +137,11 @@ const fn step(
     StepKind { verb, kind: None, field, words: &[], params, read }
 }
 
-const fn cut(kind: &'static str, params: &'static [fn(Command) -> Command], read: Read) -> StepKind {
+const fn cut(
+    kind: &'static str,
+    params: &'static [fn(Command) -> Command],
+    read: Read,
+) -> StepKind {
     StepKind { verb: "cut", kind: Some(kind), field: "", words: &[], params, read }
 }
 

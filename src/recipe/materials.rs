@@ -89,12 +89,15 @@ fn read(text: &str, path: &Path) -> Result<BTreeMap<String, Material>, MaterialE
     toml::from_str(text).map_err(|error| {
         let at = error.span().map_or(0, |s| s.start).min(text.len());
         let line = text[..at].matches('\n').count() + 1;
-        MaterialError::Table { path: path.to_owned(), message: format!("line {line}: {}", error.message()) }
+        MaterialError::Table {
+            path: path.to_owned(),
+            message: format!("line {line}: {}", error.message()),
+        }
     })
 }
 
-/// Sheet parameters with what their material decides; unchanged without a material. A file of materials is looked for from
-/// `folder`.
+/// Sheet parameters with what their material decides; unchanged without a material. A file of
+/// materials is looked for from `folder`.
 ///
 /// # Errors
 /// [`MaterialError`].
@@ -139,14 +142,22 @@ mod tests {
         let text = material("plyy3", None).expect_err("unknown").to_string();
         assert!(text.contains("did you mean `ply"), "{text}");
         let params = SheetParams { materials: Some("mine.toml".into()), ..SheetParams::default() };
-        assert!(with_material(&params, Path::new("")).expect_err("no name").to_string().contains("--material"));
+        assert!(
+            with_material(&params, Path::new(""))
+                .expect_err("no name")
+                .to_string()
+                .contains("--material")
+        );
         let own = "[felt]\ntitle = \"Felt\"\nthickness = \"3mm\"\nkerf = \"0.3mm\"\nweb = \"3mm\"\n\
                    speed = { cut = 30, score = 50, engrave = 100, travel = 300 }\ncolours = { cut-outer = \"#00FFFF\" }\n";
         assert!(read(own, Path::new("mine.toml")).is_ok());
-        for (from, to, what) in
-            [("kerf", "kurf", "line 4"), ("#00FFFF", "cyan", "#FF0000"), ("cut = 30", "cut = \"fast\"", "line 6")]
-        {
-            let text = read(&own.replace(from, to), Path::new("mine.toml")).expect_err(from).to_string();
+        for (from, to, what) in [
+            ("kerf", "kurf", "line 4"),
+            ("#00FFFF", "cyan", "#FF0000"),
+            ("cut = 30", "cut = \"fast\"", "line 6"),
+        ] {
+            let text =
+                read(&own.replace(from, to), Path::new("mine.toml")).expect_err(from).to_string();
             assert!(text.starts_with("mine.toml: ") && text.contains(what), "{text}");
         }
     }

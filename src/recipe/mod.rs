@@ -1,6 +1,7 @@
 //! A chain of steps read from TOML, run in order.
 //!
-//! Every step is the same parameter struct as the verb of that name on the command line. The steps of a recipe share one
+//! Every step is the same parameter struct as the verb of that name on the command line. The steps
+//! of a recipe share one
 //! [`Job`]: the mesh as it is by then, what the last step made, and the results that are written at the end.
 
 mod carve;
@@ -95,7 +96,8 @@ pub enum Step {
     Read(ReadStep),
     /// `planes = "planes.csv"`: the solid that half-spaces bound.
     Planes(PlanesStep),
-    /// `cut = "edge"`, `planarize = "exact"`, `subdivide = "loop"` and all other operators that take one mesh and make one.
+    /// `cut = "edge"`, `planarize = "exact"`, `subdivide = "loop"` and all other operators that
+    /// take one mesh and make one.
     Operator(OperatorStep),
     /// `hull = "convex"` or `hull = "dual"`.
     Hull(HullParams),

@@ -1,4 +1,5 @@
-//! Anybody's pieces onto sheets: reads the files, lays everything out, gives back what an unfolding gives.
+//! Anybody's pieces onto sheets: reads the files, lays everything out, gives back what an unfolding
+//! gives.
 
 use std::path::{Path, PathBuf};
 
@@ -13,11 +14,13 @@ use crate::sheet::{SheetParams, lay_out_watched};
 /// Which pieces are nested.
 #[derive(Debug, Clone, PartialEq, Eq, clap::Args, Deserialize)]
 pub struct NestStep {
-    /// Files of pieces, like the pieces.json that unfold writes; of a piece only its outline is needed
+    /// Files of pieces, like the pieces.json that unfold writes; of a piece only its outline is
+    /// needed
     #[arg(value_name = "PIECES", required = true)]
     #[serde(deserialize_with = "one_or_many")]
     pub pieces: Vec<PathBuf>,
-    /// How often everything is made, 1 to 10000; a file may give a quantity for each of its pieces, too
+    /// How often everything is made, 1 to 10000; a file may give a quantity for each of its pieces,
+    /// too
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     #[serde(default = "once")]
     pub quantity: u32,
@@ -28,7 +31,9 @@ fn once() -> u32 {
 }
 
 /// Recipes may name one file without brackets.
-fn one_or_many<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<Vec<PathBuf>, D::Error> {
+fn one_or_many<'de, D: serde::Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Vec<PathBuf>, D::Error> {
     #[derive(Deserialize)]
     #[serde(untagged)]
     enum Files {
@@ -96,7 +101,9 @@ pub fn nest_files(
             Ok(text) => text,
             Err(error) => return Err(NestError::Unreadable { path, error }.into()),
         };
-        order.add(&text, step.quantity as usize).map_err(|error| NestError::Order { path, error })?;
+        order
+            .add(&text, step.quantity as usize)
+            .map_err(|error| NestError::Order { path, error })?;
     }
     let path = step.pieces.first().cloned().unwrap_or_default();
     let nest = order.params(&sheet.nest).map_err(|error| NestError::Order { path, error })?;

@@ -7,7 +7,8 @@ use crate::io::read_points;
 use crate::mesh::Mesh;
 use crate::op::{OpContext, Operate, Operated};
 
-/// Reads the file of points that the parameters name, if any, relative to `folder`, and carries the operator out.
+/// Reads the file of points that the parameters name, if any, relative to `folder`, and carries the
+/// operator out.
 ///
 /// # Errors
 /// [`StepFailure::Io`] for the file, [`StepFailure::Op`] for the operator.

@@ -17,7 +17,8 @@ use crate::sheet::{Drawing, Fallback, JointReport, LayerKind, SheetParams};
 /// A file to be written: its name in the folder, and its bytes.
 pub type Output = (String, Vec<u8>);
 
-/// The files of a whole recipe: model, picture, report, the steps of a hull where asked for, and if it was unfolded pieces, layout, sheets and their pictures.
+/// The files of a whole recipe: model, picture, report, the steps of a hull where asked for, and if
+/// it was unfolded pieces, layout, sheets and their pictures.
 ///
 /// # Errors
 /// [`StepFailure`] when the model cannot be written, checked or drawn.
@@ -43,7 +44,11 @@ pub fn job_outputs(job: &Job, command: &str) -> Result<Vec<Output>, StepFailure>
     if let Some((fabrication, sheet)) = &job.fabrication {
         outputs.extend(fabrication_outputs(fabrication, sheet, command)?);
     }
-    let made = job.fabrication.as_ref().map(|(f, _)| f).or(job.panelled.as_ref().map(|(p, _)| &p.fabrication));
+    let made = job
+        .fabrication
+        .as_ref()
+        .map(|(f, _)| f)
+        .or(job.panelled.as_ref().map(|(p, _)| &p.fabrication));
     if let Some(fabrication) = made {
         for drawing in &fabrication.sheets.drawings {
             let picture = sheet_picture(drawing, job.render.width)?;
@@ -61,7 +66,14 @@ fn report_page(job: &Job, command: &str) -> Result<String, StepFailure> {
     let (mesh, report) = (job.mesh()?, job.report()?);
     let pictures = report_pictures(mesh, &report, &job.render)?;
     let (title, rows, details) = ("model", ReportRows::Worst, details(mesh));
-    Ok(check_html(&ReportPage { title, report: &report, details: &details, pictures: &pictures, rows, command }))
+    Ok(check_html(&ReportPage {
+        title,
+        report: &report,
+        details: &details,
+        pictures: &pictures,
+        rows,
+        command,
+    }))
 }
 
 /// Pieces, layout and sheets; the pieces only when no sheets were asked for.
@@ -73,9 +85,11 @@ pub fn fabrication_outputs(
     sheet: &SheetParams,
     command: &str,
 ) -> Result<Vec<Output>, StepFailure> {
-    let mut outputs = vec![("pieces.json".to_owned(), write_pieces_json(&fabrication.net, command).into_bytes())];
+    let mut outputs =
+        vec![("pieces.json".to_owned(), write_pieces_json(&fabrication.net, command).into_bytes())];
     if !fabrication.sheets.drawings.is_empty() {
-        let layout = write_order_layout_json(&fabrication.sheets.layout, &fabrication.sources, command);
+        let layout =
+            write_order_layout_json(&fabrication.sheets.layout, &fabrication.sources, command);
         outputs.push(("layout.json".to_owned(), layout.into_bytes()));
         outputs.push(("assembly.txt".to_owned(), assembly_text(fabrication, command).into_bytes()));
     }
@@ -100,7 +114,8 @@ pub fn sheet_picture(drawing: &Drawing, width: u32) -> Result<Vec<u8>, PictureEr
             .collect(),
         bounds_parts: matches!(layer.kind, LayerKind::CutInner | LayerKind::CutOuter),
     });
-    let strokes = Strokes { width_mm: drawing.width, height_mm: drawing.height, layers: layers.collect() };
+    let strokes =
+        Strokes { width_mm: drawing.width, height_mm: drawing.height, layers: layers.collect() };
     Ok(render_sheet(&strokes, width)?.to_png())
 }
 
@@ -118,35 +133,67 @@ impl Fabrication {
     /// What the user should know about pieces and sheets.
     pub fn notes(&self) -> Vec<String> {
         let report = &self.sheets.report;
-        let mut notes: Vec<String> = Some(self.seams.to_owned()).into_iter().filter(|s| !s.is_empty()).collect();
+        let mut notes: Vec<String> =
+            Some(self.seams.to_owned()).into_iter().filter(|s| !s.is_empty()).collect();
         let mut note = |count: usize, text: String| {
             if count > 0 {
                 notes.push(text);
             }
         };
-        note(self.divided, format!("{} folds were opened so that the pieces fit on the sheet", self.divided));
+        note(
+            self.divided,
+            format!("{} folds were opened so that the pieces fit on the sheet", self.divided),
+        );
         let unnamed = &report.unnamed_pieces;
         note(unnamed.len(), format!("no room for the names of pieces {}", piece_list(unnamed)));
-        note(report.unnumbered_sides, format!("no room for {} seam numbers", report.unnumbered_sides));
-        note(report.flat_folds, format!("{} folds are flat and were not scored", report.flat_folds));
+        note(
+            report.unnumbered_sides,
+            format!("no room for {} seam numbers", report.unnumbered_sides),
+        );
+        note(
+            report.flat_folds,
+            format!("{} folds are flat and were not scored", report.flat_folds),
+        );
         let unscored = report.unscored_folds;
-        note(unscored, format!("{unscored} folds are shorter than what is left out at their ends and were not scored"));
-        note(report.lost_holes, format!("{} holes are narrower than the kerf and were left out", report.lost_holes));
+        note(
+            unscored,
+            format!(
+                "{unscored} folds are shorter than what is left out at their ends and were not \
+                scored"
+            ),
+        );
+        note(
+            report.lost_holes,
+            format!("{} holes are narrower than the kerf and were left out", report.lost_holes),
+        );
         let closed = report.closed_notches;
-        note(closed, format!("{closed} notches are narrower than the kerf: flaps hang together there"));
-        note(usize::from(report.is_stopped), "the search was stopped; this is the best layout so far".to_owned());
+        note(
+            closed,
+            format!("{closed} notches are narrower than the kerf: flaps hang together there"),
+        );
+        note(
+            usize::from(report.is_stopped),
+            "the search was stopped; this is the best layout so far".to_owned(),
+        );
         if let Some([left, web]) = report.narrow_spacing {
             let left = (left * 1000.0).round() / 1000.0;
             note(
                 1,
                 format!(
-                    "only {left} mm are left between parts, less than the {web} mm that the material wants: raise the spacing"
+                    "only {left} mm are left between parts, less than the {web} mm that the \
+                    material wants: raise the spacing"
                 ),
             );
         }
         let shared = (report.shared_length * 10.0).round() / 10.0;
-        note(usize::from(shared > 0.0), format!("{shared} mm of cuts are shared by two parts and cut once"));
-        note(report.unmarked_angles, format!("no room for the angles of {} folds", report.unmarked_angles));
+        note(
+            usize::from(shared > 0.0),
+            format!("{shared} mm of cuts are shared by two parts and cut once"),
+        );
+        note(
+            report.unmarked_angles,
+            format!("no room for the angles of {} folds", report.unmarked_angles),
+        );
         notes.extend(joint_notes(&report.joints));
         notes
     }
@@ -175,7 +222,8 @@ fn joint_notes(joints: &JointReport) -> Vec<String> {
     if joints.tabbed > 0 {
         notes.push(format!("{} seams have tabs and slots", joints.tabbed));
     }
-    let substitute = if joints.mitred.is_empty() { "they are stitched" } else { "they are left to be mitred" };
+    let substitute =
+        if joints.mitred.is_empty() { "they are stitched" } else { "they are left to be mitred" };
     for (why, words) in [
         (Fallback::Shallow, "too shallow for fingers or tabs (dihedral angle above 140°)"),
         (Fallback::Sharp, "too sharp for fingers or tabs (dihedral angle below 30°)"),
@@ -183,7 +231,8 @@ fn joint_notes(joints: &JointReport) -> Vec<String> {
         (Fallback::Short, "too short for fingers or a tab"),
         (Fallback::Narrow, "beside faces too narrow for notches, tabs or slots"),
     ] {
-        let seams: Vec<EdgeLabel> = joints.fallbacks.iter().filter(|f| f.1 == why).map(|f| f.0).collect();
+        let seams: Vec<EdgeLabel> =
+            joints.fallbacks.iter().filter(|f| f.1 == why).map(|f| f.0).collect();
         if !seams.is_empty() {
             let count = seams.len();
             notes.push(format!("{count} seams are {words}; {substitute}: {}", edge_list(&seams)));
@@ -199,27 +248,32 @@ fn joint_notes(joints: &JointReport) -> Vec<String> {
 
 /// What to take off the square edges of mitred seams, one angle after the other.
 fn mitre_note(mitred: &[(EdgeLabel, f64)]) -> Option<String> {
-    let mut by_angle: std::collections::BTreeMap<i64, Vec<EdgeLabel>> = std::collections::BTreeMap::new();
+    let mut by_angle: std::collections::BTreeMap<i64, Vec<EdgeLabel>> =
+        std::collections::BTreeMap::new();
     for &(edge, degrees) in mitred {
         by_angle.entry((10.0 * degrees).round() as i64).or_default().push(edge);
     }
-    let angle =
-        |(tenths, edges): (&i64, &Vec<EdgeLabel>)| format!("{}° at {}", *tenths as f64 / 10.0, edge_list(edges));
+    let angle = |(tenths, edges): (&i64, &Vec<EdgeLabel>)| {
+        format!("{}° at {}", *tenths as f64 / 10.0, edge_list(edges))
+    };
     let angles: Vec<String> = by_angle.iter().map(angle).collect();
-    (!angles.is_empty()).then(|| format!("mitre, off the square edge of either side: {}", angles.join("; ")))
+    (!angles.is_empty())
+        .then(|| format!("mitre, off the square edge of either side: {}", angles.join("; ")))
 }
 
 /// The first names of a list of edges.
 fn edge_list(edges: &[EdgeLabel]) -> String {
     const LISTED: usize = 12;
-    let mut text = edges.iter().take(LISTED).map(ToString::to_string).collect::<Vec<_>>().join(", ");
+    let mut text =
+        edges.iter().take(LISTED).map(ToString::to_string).collect::<Vec<_>>().join(", ");
     if edges.len() > LISTED {
         text += ", …";
     }
     text
 }
 
-/// The order in which seams are closed, for people: one line a step, then the edges behind every number.
+/// The order in which seams are closed, for people: one line a step, then the edges behind every
+/// number.
 fn assembly_text(fabrication: &Fabrication, command: &str) -> String {
     let assembly = &fabrication.sheets.assembly;
     let mut text = format!("{command}\n\n");
@@ -234,7 +288,8 @@ fn assembly_text(fabrication: &Fabrication, command: &str) -> String {
     }
     text += "\n";
     for stretch in &assembly.stretches {
-        let edges: Vec<String> = stretch.seams.iter().map(|&(s, _)| fabrication.net.seams[s].id.to_string()).collect();
+        let edges: Vec<String> =
+            stretch.seams.iter().map(|&(s, _)| fabrication.net.seams[s].id.to_string()).collect();
         text += &format!("seam {}: {}\n", stretch.number, edges.join(" "));
     }
     text

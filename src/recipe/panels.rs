@@ -13,8 +13,8 @@ use crate::io::plates::{NamedPlate, plates_glb, plates_obj, plates_stl};
 use crate::io::step::{StepPart, step_bytes};
 use crate::mesh::Mesh;
 use crate::panel::{
-    EdgeKind, Hardware, PanelFinding, PanelParams, Plates, Schedule, assembly_map, panel_findings, panel_net, plates,
-    schedule,
+    EdgeKind, Hardware, PanelFinding, PanelParams, Plates, Schedule, assembly_map, panel_findings,
+    panel_net, plates, schedule,
 };
 use crate::progress::Progress;
 use crate::sheet::{Joint, Labels, SheetParams, lay_out_watched};
@@ -25,7 +25,13 @@ use crate::units::Length;
 #[derive(Debug, Clone, PartialEq, clap::Args, Deserialize)]
 pub struct PanelFiles {
     /// 3D files of the plates, separated by commas: step, obj, glb, stl; or none
-    #[arg(long, value_enum, value_delimiter = ',', value_name = "LIST", default_value = "step,obj,glb,stl")]
+    #[arg(
+        long,
+        value_enum,
+        value_delimiter = ',',
+        value_name = "LIST",
+        default_value = "step,obj,glb,stl"
+    )]
     #[serde(default = "all_solids")]
     pub solids: Vec<SolidFile>,
 }
@@ -79,7 +85,9 @@ pub enum PanelOptionError {
     #[error("panels need a thickness; give it, for example thickness 10mm, or a material")]
     NoThickness,
     /// A joint of the sheets instead of one of the panels.
-    #[error("panels do not take joint; say what their edges are with edges, for example edges finger")]
+    #[error(
+        "panels do not take joint; say what their edges are with edges, for example edges finger"
+    )]
     Joint,
     /// An option that nothing uses.
     #[error("{option} is used by no edge; leave it out, or let edges be {by}")]
@@ -97,12 +105,14 @@ codes!(error PanelOptionError {
     Unused = 743,
 });
 
-/// Makes the plates of a mesh in millimetres, lists them and lays them out on sheets. The thickness, the width of fingers and
-/// the sizes of holes are those of the sheet's parameters; without a thickness that of the material is taken.
+/// Makes the plates of a mesh in millimetres, lists them and lays them out on sheets. The
+/// thickness, the width of fingers and the sizes of holes are those of the sheet's parameters;
+/// without a thickness that of the material is taken.
 ///
 /// # Errors
-/// [`StepFailure::PanelOption`] for options that do not fit together, [`StepFailure::Panel`] for a mesh that cannot be made of
-/// such plates, [`StepFailure::Sheet`] for panels that no sheet can hold.
+/// [`StepFailure::PanelOption`] for options that do not fit together, [`StepFailure::Panel`] for a
+/// mesh that cannot be made of such plates, [`StepFailure::Sheet`] for panels that no sheet can
+/// hold.
 pub fn panel_model(
     mesh: &Mesh,
     (params, files, sheet): (&PanelParams, &PanelFiles, &SheetParams),
@@ -123,19 +133,25 @@ pub fn panel_model(
 }
 
 /// The options of the sheet that plates take over.
-fn hardware(params: &PanelParams, sheet: &SheetParams) -> Result<(Length, Hardware), PanelOptionError> {
+fn hardware(
+    params: &PanelParams,
+    sheet: &SheetParams,
+) -> Result<(Length, Hardware), PanelOptionError> {
     if sheet.joint != Joint::None {
         return Err(PanelOptionError::Joint);
     }
     let has = |kinds: &[EdgeKind]| kinds.iter().any(|&k| params.edges.has(k));
-    let has_holes = has(&[EdgeKind::Stitch, EdgeKind::Hinge]) || params.shallow == crate::panel::Shallow::Stitch;
+    let has_holes = has(&[EdgeKind::Stitch, EdgeKind::Hinge])
+        || params.shallow == crate::panel::Shallow::Stitch;
     let unused = |option: &'static str, is_given: bool, is_used: bool, by: &'static str| {
         if is_given && !is_used { Err(PanelOptionError::Unused { option, by }) } else { Ok(()) }
     };
     unused("finger-width", sheet.finger_width.is_some(), has(&[EdgeKind::Finger]), "finger")?;
-    for (option, value) in
-        [("hole-spacing", sheet.hole_spacing), ("hole-diameter", sheet.hole_diameter), ("hole-inset", sheet.hole_inset)]
-    {
+    for (option, value) in [
+        ("hole-spacing", sheet.hole_spacing),
+        ("hole-diameter", sheet.hole_diameter),
+        ("hole-inset", sheet.hole_inset),
+    ] {
         unused(option, value.is_some(), has_holes, "stitch or hinge")?;
     }
     let of_material = sheet.made_of.as_ref().map(|material| material.thickness);
@@ -149,7 +165,8 @@ fn hardware(params: &PanelParams, sheet: &SheetParams) -> Result<(Length, Hardwa
     Ok((thickness, hardware))
 }
 
-/// The sheet's parameters without what the plates have taken; seams carry the numbers of the edges, as the schedule does.
+/// The sheet's parameters without what the plates have taken; seams carry the numbers of the edges,
+/// as the schedule does.
 fn bare(sheet: &SheetParams) -> SheetParams {
     let labels = if sheet.labels == Labels::All { Labels::Edges } else { sheet.labels };
     SheetParams {
@@ -167,7 +184,11 @@ fn bare(sheet: &SheetParams) -> SheetParams {
 ///
 /// # Errors
 /// [`StepFailure::Io`] when a number does not fit into a file.
-pub fn panel_outputs(panelled: &Panelled, sheet: &SheetParams, command: &str) -> Result<Vec<Output>, StepFailure> {
+pub fn panel_outputs(
+    panelled: &Panelled,
+    sheet: &SheetParams,
+    command: &str,
+) -> Result<Vec<Output>, StepFailure> {
     let Panelled { plates, schedule, findings, fabrication, files } = panelled;
     let layout = &fabrication.sheets.layout;
     let map = assembly_map(plates);
@@ -176,7 +197,10 @@ pub fn panel_outputs(panelled: &Panelled, sheet: &SheetParams, command: &str) ->
         ("edges.csv".to_owned(), edges_csv(schedule, command).into_bytes()),
         ("nodes.csv".to_owned(), nodes_csv(schedule, command).into_bytes()),
         ("cutting-list.csv".to_owned(), cutting_list_csv(schedule, command).into_bytes()),
-        ("panels.json".to_owned(), panels_json(schedule, plates, layout, findings, command).into_bytes()),
+        (
+            "panels.json".to_owned(),
+            panels_json(schedule, plates, layout, findings, command).into_bytes(),
+        ),
         ("assembly-map.svg".to_owned(), map_svg(&map, command).into_bytes()),
         ("assembly-map.pdf".to_owned(), map_pdf(&map, command)),
     ];
@@ -216,10 +240,14 @@ impl Panelled {
         let above = self.schedule.totals.nodes_above_three;
         note(
             above,
-            "nodes have more than three edges: plates of constant thickness meet there only where the node is conical",
+            "nodes have more than three edges: plates of constant thickness meet there only where \
+            the node is conical",
         );
         let stepped = plates.edges.iter().filter(|e| e.is_stepped).count();
-        note(stepped, "edges are too flat for their two thicknesses to meet: the surfaces step there");
+        note(
+            stepped,
+            "edges are too flat for their two thicknesses to meet: the surfaces step there",
+        );
         note(
             plates.straight_corners.len(),
             "straight corners lie between edges with different cuts, which were averaged there",
@@ -228,7 +256,8 @@ impl Panelled {
         let fallen = plates.edges.iter().filter(|e| e.fallback.is_some()).count();
         note(
             fallen,
-            "edges could not have the joint of their rule and are mitred or stitched instead; edges.csv says why",
+            "edges could not have the joint of their rule and are mitred or stitched instead; \
+            edges.csv says why",
         );
         note(plates.hole_pairs, "pairs of holes");
         note(plates.lost_hole_pairs, "pairs of holes had no room and were left out");

@@ -26,14 +26,29 @@ impl Recipe {
         for (key, value) in table.get_ref().iter() {
             match (key.get_ref().as_ref(), value.get_ref()) {
                 ("name", DeValue::String(name)) => recipe.name = Some(name.to_string()),
-                ("name", _) => return Err(source.bad(value.span(), "the name of a recipe is a text, in quotes")),
+                ("name", _) => {
+                    return Err(
+                        source.bad(value.span(), "the name of a recipe is a text, in quotes")
+                    );
+                }
                 ("step", DeValue::Array(steps)) => {
                     for step in steps.iter() {
                         recipe.steps.push(source.step(step)?);
                     }
                 }
-                ("step", _) => return Err(source.bad(value.span(), "steps are written [[step]], with two brackets")),
-                _ => return Err(source.unknown(key.span(), key.get_ref(), "in a recipe", &["name", "step"])),
+                ("step", _) => {
+                    return Err(
+                        source.bad(value.span(), "steps are written [[step]], with two brackets")
+                    );
+                }
+                _ => {
+                    return Err(source.unknown(
+                        key.span(),
+                        key.get_ref(),
+                        "in a recipe",
+                        &["name", "step"],
+                    ));
+                }
             }
         }
         if recipe.steps.is_empty() { Err(RecipeError::NoSteps) } else { Ok(recipe) }
@@ -55,7 +70,10 @@ impl Source<'_> {
     fn position(&self, offset: usize) -> Position {
         let before = &self.text[..offset.min(self.text.len())];
         let line_start = before.rfind('\n').map_or(0, |i| i + 1);
-        Position { line: before.matches('\n').count() + 1, column: before[line_start..].chars().count() + 1 }
+        Position {
+            line: before.matches('\n').count() + 1,
+            column: before[line_start..].chars().count() + 1,
+        }
     }
 
     fn syntax(&self, error: &toml::de::Error) -> RecipeError {
@@ -68,9 +86,16 @@ impl Source<'_> {
     }
 
     fn unknown(&self, span: Range<usize>, key: &str, place: &str, known: &[&str]) -> RecipeError {
-        let advice = nearest_word(key, known.iter().copied())
-            .map_or_else(|| format!("known are {}", known.join(", ")), |near| format!("did you mean `{near}`?"));
-        RecipeError::UnknownKey { at: self.position(span.start), key: key.to_owned(), place: place.to_owned(), advice }
+        let advice = nearest_word(key, known.iter().copied()).map_or_else(
+            || format!("known are {}", known.join(", ")),
+            |near| format!("did you mean `{near}`?"),
+        );
+        RecipeError::UnknownKey {
+            at: self.position(span.start),
+            key: key.to_owned(),
+            place: place.to_owned(),
+            advice,
+        }
     }
 
     fn step(&self, step: &Spanned<DeValue<'_>>) -> Result<Step, RecipeError> {
@@ -84,14 +109,20 @@ impl Source<'_> {
         entries.sort_by_key(|e| e.key_span.start);
         // An unfold step has a list of edges called `cut`, which is no verb there.
         let is_unfold = entries.iter().any(|e| e.key == "unfold");
-        let is_verb = |e: &&Entry<'_>| steps().iter().any(|s| s.verb == e.key) && !(is_unfold && e.key == "cut");
+        let is_verb = |e: &&Entry<'_>| {
+            steps().iter().any(|s| s.verb == e.key) && !(is_unfold && e.key == "cut")
+        };
         let mut found = entries.iter().filter(is_verb);
         let Some(verb) = found.next() else {
             return Err(self.no_verb(step.span(), &entries));
         };
         if let Some(second) = found.next() {
             let at = self.position(second.key_span.start);
-            return Err(RecipeError::TwoVerbs { at, first: verb.key.to_owned(), second: second.key.to_owned() });
+            return Err(RecipeError::TwoVerbs {
+                at,
+                first: verb.key.to_owned(),
+                second: second.key.to_owned(),
+            });
         }
         self.step_of(verb, &entries, step.span())
     }
@@ -105,15 +136,25 @@ impl Source<'_> {
         }
     }
 
-    fn step_of(&self, verb: &Entry<'_>, entries: &[Entry<'_>], span: Range<usize>) -> Result<Step, RecipeError> {
+    fn step_of(
+        &self,
+        verb: &Entry<'_>,
+        entries: &[Entry<'_>],
+        span: Range<usize>,
+    ) -> Result<Step, RecipeError> {
         let kind = match (verb.key, verb.value.get_ref()) {
             ("cut", DeValue::String(kind)) => kind.to_string(),
             ("cut", _) => {
-                return Err(self.bad(verb.value.span(), "cut takes \"vertex\", \"edge\", \"face\" or \"plane\""));
+                return Err(self.bad(
+                    verb.value.span(),
+                    "cut takes \"vertex\", \"edge\", \"face\" or \"plane\"",
+                ));
             }
             _ => String::new(),
         };
-        let is_meant = |step: &&StepKind| step.verb == verb.key && step.kind.is_none_or(|wanted| wanted == kind);
+        let is_meant = |step: &&StepKind| {
+            step.verb == verb.key && step.kind.is_none_or(|wanted| wanted == kind)
+        };
         let Some(step) = steps().iter().find(is_meant) else {
             return Err(self.unknown(verb.value.span(), &kind, "as something to cut", &cuts()));
         };
@@ -137,11 +178,14 @@ impl StepFields<'_> {
         let known = self.step.keys();
         let known: Vec<&str> = known.iter().map(String::as_str).collect();
         let field_of_verb = self.step.field;
-        let is_known = |e: &&Entry<'_>| e.key == self.verb.key || (known.contains(&e.key) && e.key != field_of_verb);
+        let is_known = |e: &&Entry<'_>| {
+            e.key == self.verb.key || (known.contains(&e.key) && e.key != field_of_verb)
+        };
         match self.entries.iter().find(|e| !is_known(e)) {
             None => Ok(()),
             Some(e) => {
-                let others: Vec<&str> = known.iter().copied().filter(|k| *k != field_of_verb).collect();
+                let others: Vec<&str> =
+                    known.iter().copied().filter(|k| *k != field_of_verb).collect();
                 let place = format!("in a step with `{}`", self.verb.key);
                 Err(self.source.unknown(e.key_span.clone(), e.key, &place, &others))
             }
@@ -155,8 +199,8 @@ impl StepFields<'_> {
         word.map_or(text, |(_, switch)| switch)
     }
 
-    /// Reads one parameter struct from those entries that are its fields. Each value is read from its own text, so that an
-    /// error inside it can be placed.
+    /// Reads one parameter struct from those entries that are its fields. Each value is read from
+    /// its own text, so that an error inside it can be placed.
     pub(super) fn read<T: Args + DeserializeOwned>(&self) -> Result<T, RecipeError> {
         let names = field_names::<T>();
         let mut document = String::new();
@@ -171,11 +215,15 @@ impl StepFields<'_> {
             document += &format!("{field} = {}\n", self.value_text(entry, &span));
             places.push((start..document.len(), span.start));
         }
-        let deserializer = toml::Deserializer::parse(&document).map_err(|e| self.source.syntax(&e))?;
+        let deserializer =
+            toml::Deserializer::parse(&document).map_err(|e| self.source.syntax(&e))?;
         T::deserialize(deserializer).map_err(|e| {
-            // What is wrong with the step as a whole, such as a missing field, spans all of its text or none of it.
-            let in_value = e.span().filter(|s| !s.is_empty() && s.len() < document.trim_end().len());
-            let place = in_value.and_then(|s| places.iter().find(|(range, _)| range.contains(&s.start)));
+            // What is wrong with the step as a whole, such as a missing field, spans all of its
+            // text or none of it.
+            let in_value =
+                e.span().filter(|s| !s.is_empty() && s.len() < document.trim_end().len());
+            let place =
+                in_value.and_then(|s| places.iter().find(|(range, _)| range.contains(&s.start)));
             let offset = place.map_or(self.span.start, |p| p.1);
             self.source.bad(offset..offset, e.message())
         })

@@ -21,11 +21,15 @@ pub struct PlanesStep {
     pub simple: bool,
 }
 
-/// Reads half-spaces and makes the solid that they bound. Of `params` only [`HullParams::simple`] matters.
+/// Reads half-spaces and makes the solid that they bound. Of `params` only [`HullParams::simple`]
+/// matters.
 ///
 /// # Errors
 /// [`StepFailure::Planes`] with file and line, [`StepFailure::Op`].
-pub fn solid_of_planes(file: &Path, params: &HullParams) -> Result<(Mesh, HullReport), StepFailure> {
+pub fn solid_of_planes(
+    file: &Path,
+    params: &HullParams,
+) -> Result<(Mesh, HullReport), StepFailure> {
     let planes = read_planes(file)?;
     halfspaces(&planes.half_spaces, params).map_err(|error| match error {
         OpError::HalfSpaces { reason, .. } => planes.no_solid(file, reason).into(),

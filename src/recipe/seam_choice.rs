@@ -11,7 +11,8 @@ use crate::io::read_seams;
 use crate::mesh::{EdgeId, SplitVertex};
 use crate::select::{Context, ParseError, Selection};
 
-/// See the module documentation. A text that names an existing file, or ends in `.obj` or `.txt`, is a file.
+/// See the module documentation. A text that names an existing file, or ends in `.obj` or `.txt`,
+/// is a file.
 #[derive(Debug, Clone)]
 pub enum SeamChoice {
     /// In the selection language.
@@ -25,7 +26,11 @@ impl SeamChoice {
     ///
     /// # Errors
     /// What selecting or reading the file can refuse.
-    pub fn edges(&self, context: &Context<'_>, splits: &[SplitVertex]) -> Result<Vec<EdgeId>, StepFailure> {
+    pub fn edges(
+        &self,
+        context: &Context<'_>,
+        splits: &[SplitVertex],
+    ) -> Result<Vec<EdgeId>, StepFailure> {
         Ok(match self {
             Self::Selection(selection) => selection.edges(context)?,
             Self::File(path) => read_seams(path, context.mesh, splits)?,
@@ -45,8 +50,9 @@ impl FromStr for SeamChoice {
 
     fn from_str(text: &str) -> Result<Self, ParseError> {
         let path = Path::new(text);
-        let ends_like_a_file =
-            path.extension().is_some_and(|end| end.eq_ignore_ascii_case("obj") || end.eq_ignore_ascii_case("txt"));
+        let ends_like_a_file = path
+            .extension()
+            .is_some_and(|end| end.eq_ignore_ascii_case("obj") || end.eq_ignore_ascii_case("txt"));
         if ends_like_a_file || path.is_file() {
             Ok(Self::File(path.to_owned()))
         } else {
@@ -68,7 +74,11 @@ impl<'de> Deserialize<'de> for SeamChoice {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         /// A text is a selection or a file; ids are a selection.
         #[derive(Deserialize)]
-        #[serde(untagged, expecting = "a selection like \"fold>60\", the name of a seam file, an id, or a list of ids")]
+        #[serde(
+            untagged,
+            expecting = "a selection like \"fold>60\", the name of a seam file, an id, or a list \
+            of ids"
+        )]
         enum Written {
             Text(String),
             Ids(Selection),

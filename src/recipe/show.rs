@@ -1,4 +1,5 @@
-//! How a fabrication is shown: pieces that fold themselves up, and the steps of assembly as pictures.
+//! How a fabrication is shown: pieces that fold themselves up, and the steps of assembly as
+//! pictures.
 
 use std::collections::{BTreeSet, HashMap};
 use std::fmt;
@@ -34,11 +35,13 @@ const LOOSE: f64 = 0.4;
 /// What is made to be looked at.
 #[derive(Debug, Clone, PartialEq, Default, clap::Args, Deserialize)]
 pub struct ShowParams {
-    /// The pieces folding themselves up from flat to closed: an animation (.glb) or a strip of pictures (.png)
+    /// The pieces folding themselves up from flat to closed: an animation (.glb) or a strip of
+    /// pictures (.png)
     #[arg(long, value_name = "FILE")]
     #[serde(default)]
     pub animate: Option<AnimationFile>,
-    /// How the order of assembly is told: as a list, or as pictures too (assembly-01.png, …, twelve steps each)
+    /// How the order of assembly is told: as a list, or as pictures too (assembly-01.png, …, twelve
+    /// steps each)
     #[arg(long, value_enum, default_value = "list")]
     #[serde(default)]
     pub assembly: AssemblyForm,
@@ -70,7 +73,10 @@ enum AnimationForm {
 
 /// A name that does not say which kind of animation is meant.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("`{text}` names no animation; name the file something.glb, or something.png for a strip of pictures")]
+#[error(
+    "`{text}` names no animation; name the file something.glb, or something.png for a strip of \
+    pictures"
+)]
 pub struct AnimationFileError {
     /// What was typed.
     pub text: String,
@@ -82,7 +88,8 @@ impl FromStr for AnimationFile {
     type Err = AnimationFileError;
     fn from_str(text: &str) -> Result<Self, AnimationFileError> {
         let path = PathBuf::from(text);
-        let is = |extension: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension));
+        let is =
+            |extension: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension));
         let form = match (is("glb"), is("png")) {
             (true, _) => AnimationForm::Glb,
             (_, true) => AnimationForm::Png,
@@ -105,7 +112,8 @@ impl<'de> Deserialize<'de> for AnimationFile {
 }
 
 impl ShowParams {
-    /// The same with the file of the animation named from the working folder instead of the folder of the results.
+    /// The same with the file of the animation named from the working folder instead of the folder
+    /// of the results.
     pub fn from_here(&self) -> Self {
         let absolute = |file: &AnimationFile| {
             let path = std::path::absolute(&file.path).unwrap_or_else(|_| file.path.clone());
@@ -115,7 +123,8 @@ impl ShowParams {
     }
 }
 
-/// The files that were asked for. `mesh` is the one that was unfolded, in mm; `render` says how pictures look.
+/// The files that were asked for. `mesh` is the one that was unfolded, in mm; `render` says how
+/// pictures look.
 ///
 /// # Errors
 /// [`StepFailure`] when a picture cannot be drawn, or a number does not fit into the file.
@@ -172,15 +181,26 @@ fn strip_of(bloom: &Bloom<'_>, render: &RenderParams) -> Result<Vec<u8>, StepFai
     let names: Vec<String> = bloom.tree().net().pieces.iter().map(|p| p.id.to_string()).collect();
     let mut cells = Vec::new();
     for (i, seconds) in (1..).zip(MOMENTS) {
-        let mesh = state_mesh(bloom.tree(), &bloom.at(seconds), |_| false, &names, |leaf| Some(leaf.piece))
-            .map_err(StepFailure::State)?;
+        let mesh = state_mesh(
+            bloom.tree(),
+            &bloom.at(seconds),
+            |_| false,
+            &names,
+            |leaf| Some(leaf.piece),
+        )
+        .map_err(StepFailure::State)?;
         cells.push(Cell { mesh, label: i.to_string() });
     }
     Ok(render_strip(&cells, COLUMNS as u32, render)?.to_png())
 }
 
-/// Pages of pictures: what is assembled by then, what the step joins in another colour, open edges marked.
-fn assembly_pictures(net: &Net, mesh: &Mesh, render: &RenderParams) -> Result<Vec<Output>, StepFailure> {
+/// Pages of pictures: what is assembled by then, what the step joins in another colour, open edges
+/// marked.
+fn assembly_pictures(
+    net: &Net,
+    mesh: &Mesh,
+    render: &RenderParams,
+) -> Result<Vec<Output>, StepFailure> {
     let assembly = assembly_of(net);
     let mut bench = Bench::new(net, mesh, &assembly);
     let mut view = Turntable::new(mesh, render)?;
@@ -188,19 +208,26 @@ fn assembly_pictures(net: &Net, mesh: &Mesh, render: &RenderParams) -> Result<Ve
     for (page, steps) in (1..).zip(assembly.steps.chunks(PAGE)) {
         let mut cells = Vec::new();
         for (step, number) in steps.iter().zip((page - 1) * PAGE + 1..) {
-            let label = step.attaches.map_or_else(|| number.to_string(), |piece| format!("{number} {piece}"));
+            let label = step
+                .attaches
+                .map_or_else(|| number.to_string(), |piece| format!("{number} {piece}"));
             let mut mesh = bench.close(step)?;
             view.turn(&mut mesh);
             cells.push(Cell { mesh, label });
         }
         let columns = COLUMNS.min(cells.len()) as u32;
-        let render = RenderParams { width: render.width / COLUMNS as u32 * columns, ..render.clone() };
-        outputs.push((format!("assembly-{page:02}.png"), render_strip(&cells, columns, &render)?.to_png()));
+        let render =
+            RenderParams { width: render.width / COLUMNS as u32 * columns, ..render.clone() };
+        outputs.push((
+            format!("assembly-{page:02}.png"),
+            render_strip(&cells, columns, &render)?.to_png(),
+        ));
     }
     Ok(outputs)
 }
 
-/// Turns the work on the bench so that what is joined can be seen: by eighths of a turn, as it is or upside down.
+/// Turns the work on the bench so that what is joined can be seen: by eighths of a turn, as it is
+/// or upside down.
 struct Turntable {
     eye: DVec3,
     middle: DVec3,
@@ -216,16 +243,21 @@ impl Turntable {
         let up = if render.up == UpAxis::Z { DVec3::Z } else { DVec3::Y };
         let eighth = |i: usize| DQuat::from_axis_angle(up, i as f64 * std::f64::consts::FRAC_PI_4);
         let over = DQuat::from_rotation_x(std::f64::consts::PI);
-        let turns = [DQuat::IDENTITY, over].into_iter().flat_map(|q| (0..8).map(move |i| eighth(i) * q)).collect();
+        let turns = [DQuat::IDENTITY, over]
+            .into_iter()
+            .flat_map(|q| (0..8).map(move |i| eighth(i) * q))
+            .collect();
         let (low, high) = mesh.bounds().unwrap_or_default();
         Ok(Self { eye: render.eye()?, middle: low.midpoint(high), turns, now: 0 })
     }
 
     fn turn(&mut self, mesh: &mut Mesh) {
         let new = mesh.faces().filter(|&f| mesh.group(f) == Some(NAMES[1]));
-        let normals: Vec<DVec3> =
-            new.filter_map(|f| mesh.plane(f).map(|plane| plane.normal() * face_area(mesh, f))).collect();
-        let seen = |turn: &DQuat| normals.iter().map(|&n| (*turn * n).dot(self.eye).max(0.0)).sum::<f64>();
+        let normals: Vec<DVec3> = new
+            .filter_map(|f| mesh.plane(f).map(|plane| plane.normal() * face_area(mesh, f)))
+            .collect();
+        let seen =
+            |turn: &DQuat| normals.iter().map(|&n| (*turn * n).dot(self.eye).max(0.0)).sum::<f64>();
         let shares: Vec<f64> = self.turns.iter().map(seen).collect();
         let best = shares.iter().copied().fold(0.0, f64::max);
         if shares[self.now] < WELL_SEEN * best {
@@ -273,13 +305,16 @@ impl<'a> Bench<'a> {
     fn close(&mut self, step: &Step) -> Result<Mesh, StepFailure> {
         let net = self.tree.net();
         let stretch = &self.assembly.stretches[step.number - 1];
-        let places: HashMap<_, usize> = net.pieces.iter().enumerate().map(|(i, p)| (p.id, i)).collect();
+        let places: HashMap<_, usize> =
+            net.pieces.iter().enumerate().map(|(i, p)| (p.id, i)).collect();
         self.used.extend(stretch.pieces.iter().filter_map(|id| places.get(id)));
         let mut touched = BTreeSet::new();
         for &(s, _) in &stretch.seams {
             let seam = &net.seams[s];
             self.closed.insert(seam.id);
-            let [Some(a), Some(b)] = [0, 1].map(|k| self.tree.place_of(seam.sides[k].face)) else { continue };
+            let [Some(a), Some(b)] = [0, 1].map(|k| self.tree.place_of(seam.sides[k].face)) else {
+                continue;
+            };
             touched.extend([a, b]);
             for leaf in self.tree.way(a, b).into_iter().flatten() {
                 self.is_held[leaf] = true;
@@ -289,25 +324,35 @@ impl<'a> Bench<'a> {
         self.look(&touched, attached)
     }
 
-    fn look(&self, touched: &BTreeSet<usize>, attached: Option<usize>) -> Result<Mesh, StepFailure> {
+    fn look(
+        &self,
+        touched: &BTreeSet<usize>,
+        attached: Option<usize>,
+    ) -> Result<Mesh, StepFailure> {
         let corners = corners(self.mesh);
         let root = |leaf: &Leaf| {
             let face = self.tree.flat(leaf);
-            corners(face.face).and_then(|points| Pose::laying(&face.polygon, &points)).unwrap_or(Pose::IDENTITY)
+            corners(face.face)
+                .and_then(|points| Pose::laying(&face.polygon, &points))
+                .unwrap_or(Pose::IDENTITY)
         };
         let poses = self.tree.poses(root, |leaf, _| if self.is_held[leaf] { 1.0 } else { LOOSE });
         let leaves = self.tree.leaves();
         let body = touched.first().map(|&leaf| leaves[leaf].root);
         let is_new = |leaf: &Leaf| match attached {
             Some(piece) => leaf.piece == piece,
-            None => self.tree.place_of(self.tree.flat(leaf).face).is_some_and(|place| touched.contains(&place)),
+            None => self
+                .tree
+                .place_of(self.tree.flat(leaf).face)
+                .is_some_and(|place| touched.contains(&place)),
         };
         let group = |leaf: &Leaf| {
             let is_shown = Some(leaf.root) == body && self.used.contains(&leaf.piece);
             is_shown.then(|| usize::from(is_new(leaf)))
         };
         let names = NAMES.map(str::to_owned);
-        state_mesh(&self.tree, &poses, |edge| self.closed.contains(&edge), &names, group).map_err(StepFailure::State)
+        state_mesh(&self.tree, &poses, |edge| self.closed.contains(&edge), &names, group)
+            .map_err(StepFailure::State)
     }
 }
 
@@ -320,20 +365,34 @@ mod tests {
         assert_eq!("a/b.GLB".parse::<AnimationFile>().map(|f| f.form), Ok(AnimationForm::Glb));
         assert_eq!("b.png".parse::<AnimationFile>().map(|f| f.form), Ok(AnimationForm::Png));
         for bad in ["", "glb", "b.gltf", "b"] {
-            assert!(bad.parse::<AnimationFile>().expect_err(bad).to_string().contains("something.glb"));
+            assert!(
+                bad.parse::<AnimationFile>().expect_err(bad).to_string().contains("something.glb")
+            );
         }
     }
 
     #[test]
     fn the_last_picture_of_assembly_is_the_model_and_each_step_closes_more() {
-        let params = crate::shape::SolidParams { name: "snub-cube".parse().expect("a solid"), edge: None, size: None };
+        let params = crate::shape::SolidParams {
+            name: "snub-cube".parse().expect("a solid"),
+            edge: None,
+            size: None,
+        };
         let mesh = crate::shape::solid(&params).expect("a solid");
         let source = crate::unfold::Source { scale: 1.0, split_vertices: &[] };
         for pieces in ["1", "3"] {
-            let unfold =
-                crate::unfold::UnfoldParams { pieces: pieces.parse().expect("a number"), ..Default::default() };
+            let unfold = crate::unfold::UnfoldParams {
+                pieces: pieces.parse().expect("a number"),
+                ..Default::default()
+            };
             let silent = crate::progress::Silent;
-            let net = crate::unfold::unfold(&mesh, &crate::unfold::Seams::Free, &unfold, &source, &silent);
+            let net = crate::unfold::unfold(
+                &mesh,
+                &crate::unfold::Seams::Free,
+                &unfold,
+                &source,
+                &silent,
+            );
             let net = net.expect("a net");
             let assembly = assembly_of(&net);
             let mut bench = Bench::new(&net, &mesh, &assembly);
@@ -344,7 +403,8 @@ mod tests {
                 crate::mesh::assert_sound(&state);
                 assert!(state.faces().any(|f| state.group(f) == Some("new")));
                 let rims = state.edges().filter(|&e| state.is_rim(e)).count();
-                // Attaching brings new rims. Closing takes some, unless both ends were closed before: then the sides met already.
+                // Attaching brings new rims. Closing takes some, unless both ends were closed
+                // before: then the sides met already.
                 assert!(step.attaches.is_some() || rims <= open, "{rims} of {open}");
                 open = rims;
                 last = Some(state);
@@ -352,7 +412,10 @@ mod tests {
             let mut last = last.expect("steps");
             let volume = crate::measure::volume(&last);
             Turntable::new(&mesh, &RenderParams::default()).expect("a view").turn(&mut last);
-            assert!((volume - crate::measure::volume(&last)).abs() < 1e-9 * volume, "turning keeps the model");
+            assert!(
+                (volume - crate::measure::volume(&last)).abs() < 1e-9 * volume,
+                "turning keeps the model"
+            );
             assert!(last.is_closed());
             assert_eq!(last.face_count(), mesh.face_count());
             let volume = crate::measure::volume(&last);

@@ -49,7 +49,10 @@ width = 400
     )
     .expect("a recipe");
     let verbs: Vec<&str> = recipe.steps.iter().map(Step::verb).collect();
-    assert_eq!(verbs, ["solid", "cut plane", "cut vertex", "cut face", "check", "unfold", "render"]);
+    assert_eq!(
+        verbs,
+        ["solid", "cut plane", "cut vertex", "cut face", "check", "unfold", "render"]
+    );
     assert_eq!(recipe.name.as_deref(), Some("All kinds of steps"));
     let Step::Unfold { sheet, .. } = &recipe.steps[5] else { panic!("an unfold step") };
     assert_eq!(sheet.kerf.mm(), 0.2);
@@ -63,15 +66,22 @@ fn mistakes_are_named_with_line_column_and_the_nearest_name() {
             "line 3, column 1: `szie` is not known in a step with `solid`; did you mean `size`?",
         ),
         ("nmae = \"x\"", "line 1, column 1: `nmae` is not known in a recipe; did you mean `name`?"),
-        ("[[step]]\nsolidd = \"cube\"", "line 2, column 1: `solidd` is not known as a step; did you mean `solid`?"),
-        ("[[step]]\ncut = \"egde\"", "line 2, column 7: `egde` is not known as something to cut; did you mean `edge`?"),
+        (
+            "[[step]]\nsolidd = \"cube\"",
+            "line 2, column 1: `solidd` is not known as a step; did you mean `solid`?",
+        ),
+        (
+            "[[step]]\ncut = \"egde\"",
+            "line 2, column 7: `egde` is not known as something to cut; did you mean `edge`?",
+        ),
         (
             "[[step]]\nsolid = \"cube\"\ncut = \"edge\"",
             "line 3, column 1: this step says both `solid` and `cut`; make two steps of it",
         ),
         (
             "name = \"nothing\"",
-            "the recipe has no [[step]]; the first one names a solid or reads a file, e.g. solid = \"dodecahedron\"",
+            "the recipe has no [[step]]; the first one names a solid or reads a file, e.g. solid = \
+            \"dodecahedron\"",
         ),
         ("[[step]]\nsolid = \"kube\"", "line 2, column 9: "),
         (
@@ -82,7 +92,10 @@ fn mistakes_are_named_with_line_column_and_the_nearest_name() {
             "[[step]]\nsolid = \"cube\"\n[[step]]\nunfold = \"auto\"\nkerf = \"3 apples\"",
             "line 5, column 8: `3 apples` is not a length",
         ),
-        ("[[step]]\nsolid = \"cube\"\n[[step]]\ncut = \"edge\"\nselect = \"valense=3\"", "line 5, column 10: "),
+        (
+            "[[step]]\nsolid = \"cube\"\n[[step]]\ncut = \"edge\"\nselect = \"valense=3\"",
+            "line 5, column 10: ",
+        ),
         ("[[step]\nsolid = 1", "line 1, column "),
         ("step = 3", "line 1, column 8: steps are written [[step]], with two brackets"),
     ] {
@@ -99,7 +112,8 @@ fn a_step_that_fails_is_named_by_its_number() {
         Err(error) => error.to_string(),
     };
     assert!(
-        failure("[[step]]\ncut = \"edge\"\nselect = \"all\"").starts_with("step 1 (cut edge): there is no mesh yet")
+        failure("[[step]]\ncut = \"edge\"\nselect = \"all\"")
+            .starts_with("step 1 (cut edge): there is no mesh yet")
     );
     let twice = "[[step]]\nsolid = \"cube\"\n[[step]]\nsolid = \"cube\"";
     assert!(failure(twice).starts_with("step 2 (solid): there is a mesh already"));
@@ -110,9 +124,10 @@ fn a_step_that_fails_is_named_by_its_number() {
 
 #[test]
 fn made_and_strip_mean_what_the_last_step_made() {
-    let job = run("[[step]]\nsolid = \"cube\"\n[[step]]\ncut = \"edge\"\nselect = \"0\"\noffset = 0.2\n\
+    let job =
+        run("[[step]]\nsolid = \"cube\"\n[[step]]\ncut = \"edge\"\nselect = \"0\"\noffset = 0.2\n\
                    [[step]]\ncut = \"edge\"\nselect = \"strip\"\noffset = 0.2")
-    .expect("two rounds");
+        .expect("two rounds");
     let mesh = job.mesh().expect("a mesh");
     assert_sound(mesh);
     assert_eq!((mesh.vertex_count(), mesh.face_count()), (8 + 2 + 4, 6 + 1 + 2));
@@ -121,8 +136,10 @@ fn made_and_strip_mean_what_the_last_step_made() {
 #[test]
 fn a_hull_is_convex_or_dual() {
     let faces = |kind: &str| {
-        let text =
-            format!("[[step]]\nsolid = \"octahedron\"\n[[step]]\nhull = \"{kind}\"\nno_box = {}", kind == "dual");
+        let text = format!(
+            "[[step]]\nsolid = \"octahedron\"\n[[step]]\nhull = \"{kind}\"\nno_box = {}",
+            kind == "dual"
+        );
         run(&text).expect("a hull").mesh().expect("a mesh").face_count()
     };
     assert_eq!((faces("convex"), faces("dual")), (8, 6));
@@ -135,16 +152,23 @@ fn half_spaces_and_steps_of_a_hull_in_a_recipe() {
     let job = run(planes).expect("an octahedron");
     assert_eq!(job.mesh().expect("a mesh").face_count(), 8);
     let job =
-        run(&format!("{planes}simple = true\n[[step]]\nhull = \"dual\"\nsteps = [0, 2, \"all\"]")).expect("a dual");
-    let names: Vec<String> = job_outputs(&job, "test").expect("files").into_iter().map(|output| output.0).collect();
-    assert!(names.contains(&"model-after-0.png".to_owned()) && names.contains(&"model-after-2.png".to_owned()));
+        run(&format!("{planes}simple = true\n[[step]]\nhull = \"dual\"\nsteps = [0, 2, \"all\"]"))
+            .expect("a dual");
+    let names: Vec<String> =
+        job_outputs(&job, "test").expect("files").into_iter().map(|output| output.0).collect();
+    assert!(
+        names.contains(&"model-after-0.png".to_owned())
+            && names.contains(&"model-after-2.png".to_owned())
+    );
     let error = run("[[step]]\nplanes = \"nowhere.csv\"").err().expect("no file").to_string();
     assert!(error.contains("nowhere.csv"), "{error}");
 }
 
 #[test]
 fn an_unfold_step_has_lists_of_edges_to_keep_and_to_cut() {
-    let job = run("[[step]]\nsolid = \"cube\"\n[[step]]\nunfold = \"one\"\nkeep = \"0\"\ncut = \"3\"").expect("a net");
+    let job =
+        run("[[step]]\nsolid = \"cube\"\n[[step]]\nunfold = \"one\"\nkeep = \"0\"\ncut = \"3\"")
+            .expect("a net");
     let (fabrication, _) = job.fabrication.as_ref().expect("pieces");
     assert!(fabrication.net.folds.iter().any(|f| f.id.0 == 0));
     assert!(fabrication.net.seams.iter().any(|s| s.id.0 == 3));
@@ -153,7 +177,10 @@ fn an_unfold_step_has_lists_of_edges_to_keep_and_to_cut() {
 #[test]
 fn a_piece_too_large_for_the_sheet_is_divided_until_it_fits() {
     let recipe = |sheet: &str| {
-        format!("[[step]]\nsolid = \"cube\"\nsize = 100\n[[step]]\nunfold = \"one\"\nsheet = \"{sheet}\"")
+        format!(
+            "[[step]]\nsolid = \"cube\"\nsize = 100\n[[step]]\nunfold = \"one\"\nsheet = \
+            \"{sheet}\""
+        )
     };
     let whole = run(&recipe("600x400")).expect("room for all");
     let (whole, _) = whole.fabrication.as_ref().expect("pieces");
@@ -162,7 +189,8 @@ fn a_piece_too_large_for_the_sheet_is_divided_until_it_fits() {
     let (divided, _) = divided.fabrication.as_ref().expect("pieces");
     assert!(divided.net.pieces.len() > 1 && divided.divided > 0);
     assert_eq!(divided.net.proof.overlaps, 0);
-    let error = run(&recipe("100x100")).map(|_| ()).expect_err("a single face is too large").to_string();
+    let error =
+        run(&recipe("100x100")).map(|_| ()).expect_err("a single face is too large").to_string();
     assert!(error.contains("single face") && error.contains("100 × 100"), "{error}");
 }
 
@@ -171,7 +199,8 @@ fn a_piece_whose_flaps_do_not_fit_on_the_sheet_is_divided() {
     // A cross of six squares needs 160 x 120 mm, with flaps 16 mm more.
     let unfold = |rest: &str| {
         let text = format!(
-            "[[step]]\nsolid = \"cube\"\nedge = \"40mm\"\n[[step]]\nunfold = \"auto\"\nsheet = \"165x125mm\"\nmargin = 1\n{rest}"
+            "[[step]]\nsolid = \"cube\"\nedge = \"40mm\"\n[[step]]\nunfold = \"auto\"\nsheet = \
+            \"165x125mm\"\nmargin = 1\n{rest}"
         );
         let job = run(&text).expect("two steps");
         job.fabrication.expect("pieces").0
@@ -185,7 +214,8 @@ fn a_piece_whose_flaps_do_not_fit_on_the_sheet_is_divided() {
 
 #[test]
 fn what_an_operator_did_not_reach_counts_until_it_is_mended() {
-    let rough = "[[step]]\nsolid = \"cube\"\n[[step]]\nsubdivide = \"honeycomb\"\nrounds = 2\n[[step]]\nplanarize = \"exact\"\nrounds = 1\n";
+    let rough = "[[step]]\nsolid = \"cube\"\n[[step]]\nsubdivide = \"honeycomb\"\nrounds = \
+    2\n[[step]]\nplanarize = \"exact\"\nrounds = 1\n";
     let unclean = |more: &str| run(&(rough.to_owned() + more)).expect("a job").unclean;
     assert_eq!(unclean(""), [UncleanStep { step: 3, verb: "planarize" }]);
     assert_eq!(unclean("")[0].to_string(), "step 3 (planarize) has findings, see its notes");

@@ -10,14 +10,15 @@ use crate::measure::edge_length;
 use crate::mesh::{EdgeId, Mesh};
 use crate::progress::Progress;
 
-/// How many matchings [`matching`] lists at most before it gives up. Numbers grow fast: 9 for a cube, 36 for a
-/// dodecahedron, 12 500 for a soccer ball.
+/// How many matchings [`matching`] lists at most before it gives up. Numbers grow fast: 9 for a
+/// cube, 36 for a dodecahedron, 12 500 for a soccer ball.
 pub const MATCHING_LIMIT: usize = 200_000;
 /// Matchings listed between two questions whether to go on.
 const LISTED_AT_ONCE: usize = 256;
 
-/// All perfect matchings of a closed 3-valent mesh, one after the other, symmetric ones too. The order is always the same
-/// but means nothing. Each step is quick in small meshes; the number of matchings grows exponentially with the size.
+/// All perfect matchings of a closed 3-valent mesh, one after the other, symmetric ones too. The
+/// order is always the same but means nothing. Each step is quick in small meshes; the number of
+/// matchings grows exponentially with the size.
 #[derive(Debug, Clone)]
 pub struct Matchings {
     graph: Graph,
@@ -68,11 +69,13 @@ impl Matchings {
         None
     }
 
-    /// The first vertex without a fold that has the fewest edges left, so that what is forced comes first; `None` when all
-    /// vertices have their folds.
+    /// The first vertex without a fold that has the fewest edges left, so that what is forced comes
+    /// first; `None` when all vertices have their folds.
     fn choice(&self) -> Option<Choice> {
         let open = |v: u32| {
-            let is_open = |&e: &u32| self.graph.other(e, v) != v && !self.met[self.graph.other(e, v) as usize];
+            let is_open = |&e: &u32| {
+                self.graph.other(e, v) != v && !self.met[self.graph.other(e, v) as usize]
+            };
             self.graph.incident(v).iter().copied().filter(is_open).collect::<Vec<u32>>()
         };
         let unmet = (0..self.graph.vertex_count()).filter(|&v| !self.met[v as usize]);
@@ -108,14 +111,20 @@ pub struct MatchingRow {
     pub orbit_size: usize,
 }
 
-/// All choices of folds that meet every vertex of a closed 3-valent mesh once, up to the symmetry of the mesh (turns and
-/// mirrors that keep lengths and fold angles). The order: fewest pieces first, then least fold sum, then the
-/// lexicographically least folds. `orbit_size` sums up to the number of all perfect matchings.
+/// All choices of folds that meet every vertex of a closed 3-valent mesh once, up to the symmetry
+/// of the mesh (turns and mirrors that keep lengths and fold angles). The order: fewest pieces
+/// first, then least fold sum, then the lexicographically least folds. `orbit_size` sums up to the
+/// number of all perfect matchings.
 ///
 /// # Errors
 /// [`SeamError::Empty`], [`SeamError::Open`], [`SeamError::Valence`], [`SeamError::NoMatching`],
-/// [`SeamError::Cancelled`], and [`SeamError::TooMany`] when there are more than `limit` matchings (symmetric ones counted).
-pub fn table(mesh: &Mesh, limit: usize, progress: &dyn Progress) -> Result<Vec<MatchingRow>, SeamError> {
+/// [`SeamError::Cancelled`], and [`SeamError::TooMany`] when there are more than `limit` matchings
+/// (symmetric ones counted).
+pub fn table(
+    mesh: &Mesh,
+    limit: usize,
+    progress: &dyn Progress,
+) -> Result<Vec<MatchingRow>, SeamError> {
     let mut matchings = Matchings::new(mesh)?;
     let mut all = Vec::new();
     while let Some(mut folds) = matchings.advance() {
@@ -142,7 +151,10 @@ pub fn table(mesh: &Mesh, limit: usize, progress: &dyn Progress) -> Result<Vec<M
     let mut rows: Vec<(i64, MatchingRow)> = orbits(&all, &symmetries(mesh, graph, &classes))
         .into_iter()
         .map(|(folds, orbit_size)| {
-            (folds.iter().map(|&e| weights[e as usize]).sum(), row(mesh, graph.ids(folds.iter().copied()), orbit_size))
+            (
+                folds.iter().map(|&e| weights[e as usize]).sum(),
+                row(mesh, graph.ids(folds.iter().copied()), orbit_size),
+            )
         })
         .collect();
     rows.sort_by(|(a, r), (b, s)| (r.pieces, a, &r.folds).cmp(&(s.pieces, b, &s.folds)));
@@ -153,7 +165,11 @@ pub fn table(mesh: &Mesh, limit: usize, progress: &dyn Progress) -> Result<Vec<M
 ///
 /// # Errors
 /// As [`table`] with [`MATCHING_LIMIT`], and [`SeamError::NoSuchMatching`].
-pub fn matching(mesh: &Mesh, index: usize, progress: &dyn Progress) -> Result<Vec<EdgeId>, SeamError> {
+pub fn matching(
+    mesh: &Mesh,
+    index: usize,
+    progress: &dyn Progress,
+) -> Result<Vec<EdgeId>, SeamError> {
     let mut rows = table(mesh, MATCHING_LIMIT, progress)?;
     if index >= rows.len() {
         return Err(SeamError::NoSuchMatching { index, count: rows.len() });
@@ -165,11 +181,19 @@ fn row(mesh: &Mesh, folds: Vec<EdgeId>, orbit_size: usize) -> MatchingRow {
     let cycles = seam_cycles(mesh, &folds);
     let seam_length = cycles.iter().flatten().map(|h| edge_length(mesh, h.edge())).sum();
     let (pieces, fold_sum) = (piece_count(mesh, &folds), fold_sum(mesh, &folds));
-    MatchingRow { index: 0, folds, pieces, seam_cycles: cycles.len(), seam_length, fold_sum, orbit_size }
+    MatchingRow {
+        index: 0,
+        folds,
+        pieces,
+        seam_cycles: cycles.len(),
+        seam_length,
+        fold_sum,
+        orbit_size,
+    }
 }
 
-/// The first of each set of symmetric matchings, and the size of the set. The matchings come sorted, so the first is the
-/// lexicographically least.
+/// The first of each set of symmetric matchings, and the size of the set. The matchings come
+/// sorted, so the first is the lexicographically least.
 fn orbits<'a>(all: &'a [Vec<u32>], symmetries: &[Vec<u32>]) -> Vec<(&'a [u32], usize)> {
     let mut seen: HashSet<Vec<u32>> = HashSet::with_capacity(all.len());
     let mut orbits = Vec::new();
@@ -220,7 +244,10 @@ mod tests {
         assert_eq!(pieces(&fixtures::tetrahedron()), [(2, 3)]);
         assert_eq!(pieces(&fixtures::cube()), [(2, 6), (3, 3)]);
         assert_eq!(pieces(&fixtures::dodecahedron()), [(2, 30), (4, 6)]);
-        assert_eq!(pieces(&fixtures::truncated(&fixtures::tetrahedron(), 1.0 / 3.0)), [(2, 3), (3, 4), (5, 1)]);
+        assert_eq!(
+            pieces(&fixtures::truncated(&fixtures::tetrahedron(), 1.0 / 3.0)),
+            [(2, 3), (3, 4), (5, 1)]
+        );
         let truncated_cube = fixtures::truncated(&fixtures::cube(), 1.0 / (2.0 + 2f64.sqrt()));
         assert_eq!(pieces(&truncated_cube), [(2, 6), (3, 3), (4, 16), (6, 6), (9, 1)]);
         assert_eq!(pieces(&fixtures::prism(6, 1.0)), [(2, 8), (3, 10), (4, 2)]);
@@ -230,7 +257,11 @@ mod tests {
     #[test]
     fn symmetric_matchings_are_one_row() {
         let sizes = |mesh: &Mesh| {
-            table(mesh, 1000, &Silent).expect("matchings").iter().map(|r| (r.pieces, r.orbit_size)).collect::<Vec<_>>()
+            table(mesh, 1000, &Silent)
+                .expect("matchings")
+                .iter()
+                .map(|r| (r.pieces, r.orbit_size))
+                .collect::<Vec<_>>()
         };
         assert_eq!(sizes(&fixtures::tetrahedron()), [(2, 3)]);
         assert_eq!(sizes(&fixtures::cube()), [(2, 6), (3, 3)]);
@@ -248,10 +279,19 @@ mod tests {
         let mut turned = brick.clone();
         let turn = glam::DMat3::from_axis_angle(glam::DVec3::new(1.0, 2.0, 2.0) / 3.0, 0.7);
         for v in brick.vertices() {
-            turned.set_position(v, turn * brick.position(v) * 1000.0 + glam::DVec3::splat(77.0), true);
+            turned.set_position(
+                v,
+                turn * brick.position(v) * 1000.0 + glam::DVec3::splat(77.0),
+                true,
+            );
         }
-        let folds =
-            |mesh: &Mesh| table(mesh, 1000, &Silent).expect("rows").into_iter().map(|r| r.folds).collect::<Vec<_>>();
+        let folds = |mesh: &Mesh| {
+            table(mesh, 1000, &Silent)
+                .expect("rows")
+                .into_iter()
+                .map(|r| r.folds)
+                .collect::<Vec<_>>()
+        };
         assert_eq!(folds(&brick), folds(&turned));
         let first = &table(&brick, 1000, &Silent).expect("rows")[0];
         assert_eq!(matching(&brick, 0, &Silent).expect("a row"), first.folds);
@@ -259,7 +299,12 @@ mod tests {
 
     #[test]
     fn the_least_of_all_is_what_the_solver_finds() {
-        for mesh in [fixtures::cube(), fixtures::random_convex(14, 3), fixtures::prism(7, 3.0), fixtures::tutte()] {
+        for mesh in [
+            fixtures::cube(),
+            fixtures::random_convex(14, 3),
+            fixtures::prism(7, 3.0),
+            fixtures::tutte(),
+        ] {
             let rows = table(&mesh, MATCHING_LIMIT, &Silent).expect("rows");
             let least = rows.iter().map(|r| r.fold_sum).fold(f64::INFINITY, f64::min);
             let found = fold_sum(&mesh, &least_matching(&mesh, &Silent).expect("a matching"));
@@ -271,7 +316,10 @@ mod tests {
     fn a_torus_counts_pieces_by_faces() {
         let torus = fixtures::hexagon_torus(3, 2);
         let rows = table(&torus, MATCHING_LIMIT, &Silent).expect("rows");
-        assert!(rows.iter().any(|r| r.pieces == 1), "a seam that does not separate leaves one piece");
+        assert!(
+            rows.iter().any(|r| r.pieces == 1),
+            "a seam that does not separate leaves one piece"
+        );
         assert!(rows.iter().any(|r| r.pieces != r.seam_cycles + 1));
     }
 
@@ -280,6 +328,9 @@ mod tests {
         let cube = fixtures::cube();
         assert_eq!(table(&cube, 8, &Silent), Err(SeamError::TooMany { limit: 8 }));
         assert_eq!(table(&cube, 9, &Silent).expect("nine").len(), 2);
-        assert_eq!(matching(&cube, 2, &Silent), Err(SeamError::NoSuchMatching { index: 2, count: 2 }));
+        assert_eq!(
+            matching(&cube, 2, &Silent),
+            Err(SeamError::NoSuchMatching { index: 2, count: 2 })
+        );
     }
 }

@@ -13,7 +13,8 @@ pub enum SeamError {
     Empty,
     /// The mesh is open.
     #[error(
-        "the mesh is open: it has {holes} rim(s), one of them at edge {edge}; folds that meet every vertex once need a \
+        "the mesh is open: it has {holes} rim(s), one of them at edge {edge}; folds that meet \
+        every vertex once need a \
          closed mesh, close it first"
     )]
     Open {
@@ -24,7 +25,8 @@ pub enum SeamError {
     },
     /// A vertex has another valence than 3.
     #[error(
-        "vertex {vertex} has valence {valence}, and so {count} vertices in all have another valence than 3; cut them \
+        "vertex {vertex} has valence {valence}, and so {count} vertices in all have another \
+        valence than 3; cut them \
          (`cut vertex --select '!valence=3'`) to make the mesh 3-valent"
     )]
     Valence {
@@ -37,19 +39,22 @@ pub enum SeamError {
     },
     /// No choice of folds meets every vertex exactly once.
     #[error(
-        "no folds meet every vertex exactly once: without the {} vertices {} the mesh falls into {odd_parts} parts with \
+        "no folds meet every vertex exactly once: without the {} vertices {} the mesh falls into \
+        {odd_parts} parts with \
          an odd number of vertices; change the mesh there (in a 3-valent mesh: remove the bridges)",
         barrier.len(), Listed(barrier)
     )]
     NoMatching {
-        /// Vertices whose removal leaves more odd parts than vertices were removed (Tutte's condition), ascending.
+        /// Vertices whose removal leaves more odd parts than vertices were removed (Tutte's
+        /// condition), ascending.
         barrier: Vec<VertexId>,
         /// How many odd parts are left.
         odd_parts: usize,
     },
     /// More choices of folds than the caller wants to list.
     #[error(
-        "the mesh has more than {limit} choices of folds, too many to list; take `matching` (the least) or `hamiltonian`, \
+        "the mesh has more than {limit} choices of folds, too many to list; take `matching` (the \
+        least) or `hamiltonian`, \
          or choose on a coarser mesh"
     )]
     TooMany {
@@ -66,7 +71,8 @@ pub enum SeamError {
     },
     /// The mesh has several components.
     #[error(
-        "the mesh has {count} components (the second begins at vertex {vertex}), and no single seam runs through all; take \
+        "the mesh has {count} components (the second begins at vertex {vertex}), and no single \
+        seam runs through all; take \
          them one by one"
     )]
     SeveralComponents {
@@ -77,7 +83,8 @@ pub enum SeamError {
     },
     /// No closed seam runs through every vertex once.
     #[error(
-        "no two-piece seam exists: no closed seam runs through every vertex once ({proof}); take `matching` for more \
+        "no two-piece seam exists: no closed seam runs through every vertex once ({proof}); take \
+        `matching` for more \
          pieces"
     )]
     NoHamiltonian {
@@ -86,12 +93,16 @@ pub enum SeamError {
     },
     /// One piece was asked for on a surface on which every closed seam separates.
     #[error(
-        "no one-piece D-form exists of a mesh without handles: every closed seam separates it into two pieces at least \
+        "no one-piece D-form exists of a mesh without handles: every closed seam separates it into \
+        two pieces at least \
          (Jordan); take `hamiltonian`, or a mesh of genus 1 or more"
     )]
     NoHandle,
     /// All choices of folds that were looked at leave several pieces.
-    #[error("none of the {tried} choices of folds that were looked at leaves one piece; take `hamiltonian` or `least`")]
+    #[error(
+        "none of the {tried} choices of folds that were looked at leaves one piece; take \
+        `hamiltonian` or `least`"
+    )]
     NoOnePiece {
         /// How many were looked at.
         tried: usize,
@@ -101,7 +112,8 @@ pub enum SeamError {
     Cancelled,
     /// The search for a two-piece seam used up its work.
     #[error(
-        "no two-piece seam was found with {conflicts} conflicts, nor was it shown that there is none; take `matching`, or \
+        "no two-piece seam was found with {conflicts} conflicts, nor was it shown that there is \
+        none; take `matching`, or \
          choose the seam on a coarser mesh and cut its edges"
     )]
     SearchStopped {

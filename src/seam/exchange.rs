@@ -1,4 +1,5 @@
-//! Closed paths that alternate between folds and seams: exchanging the two along one makes another choice of folds.
+//! Closed paths that alternate between folds and seams: exchanging the two along one makes another
+//! choice of folds.
 
 use super::graph::Graph;
 
@@ -16,7 +17,8 @@ pub(super) struct Factor<'a> {
     walks: u32,
 }
 
-/// A closed path fold, seam, fold, …, seam; its cost is what exchanging adds to the sum of the folds.
+/// A closed path fold, seam, fold, …, seam; its cost is what exchanging adds to the sum of the
+/// folds.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Exchange {
     pub cost: i64,
@@ -110,13 +112,20 @@ impl<'a> Factor<'a> {
         path.iter().enumerate().all(|(i, &e)| self.is_fold[e as usize] == (i % 2 == 0))
     }
 
-    /// Gives `accept` all closed alternating paths of at most `folds` folds that begin with the fold `e`. With `saving`
-    /// only those that save, and whose beginnings all save; each path that saves has such a beginning.
+    /// Gives `accept` all closed alternating paths of at most `folds` folds that begin with the
+    /// fold `e`. With `saving` only those that save, and whose beginnings all save; each path that
+    /// saves has such a beginning.
     pub fn paths(&self, e: u32, folds: usize, saving: bool, accept: &mut dyn FnMut(Exchange)) {
         let [a, b] = self.graph.ends[e as usize];
         for (start, end) in [(a, b), (b, a)].into_iter().take(if saving { 2 } else { 1 }) {
-            let mut search =
-                Search { folds, saving, start, vertices: vec![start, end], path: vec![e], accept: &mut *accept };
+            let mut search = Search {
+                folds,
+                saving,
+                start,
+                vertices: vec![start, end],
+                path: vec![e],
+                accept: &mut *accept,
+            };
             self.extend(&mut search, end, -self.weights[e as usize]);
         }
     }

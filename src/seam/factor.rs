@@ -2,29 +2,32 @@
 
 use crate::mesh::{EdgeId, EdgeMap, FaceId, FaceMap, HalfEdgeId, Mesh, VertexId, VertexMap};
 
-/// Whether the folds meet every vertex exactly once. An edge that is named twice, does not exist or is a loop makes it
-/// false.
+/// Whether the folds meet every vertex exactly once. An edge that is named twice, does not exist or
+/// is a loop makes it false.
 pub fn is_perfect_matching(mesh: &Mesh, folds: &[EdgeId]) -> bool {
     let mut met = VertexMap::filled(mesh.vertex_slots(), false);
     let meets_once = |&e: &EdgeId| {
-        mesh.has_edge(e) && mesh.edge_vertices(e).into_iter().all(|v| !std::mem::replace(&mut met[v], true))
+        mesh.has_edge(e)
+            && mesh.edge_vertices(e).into_iter().all(|v| !std::mem::replace(&mut met[v], true))
     };
     // Every fold meets two new vertices, so the right number of them meets all.
     folds.iter().all(meets_once) && 2 * folds.len() == mesh.vertex_count()
 }
 
-/// The closed seams that are left when the folds are kept: for each, its half-edges in order. A seam starts at its lowest
-/// vertex, runs along the lower of the two half-edges there, and seams come in the order of these vertices.
+/// The closed seams that are left when the folds are kept: for each, its half-edges in order. A
+/// seam starts at its lowest vertex, runs along the lower of the two half-edges there, and seams
+/// come in the order of these vertices.
 ///
-/// When the folds are a perfect matching of a 3-valent mesh, every seam is closed. Otherwise only the seams are listed
-/// whose vertices all have exactly two seam edges.
+/// When the folds are a perfect matching of a 3-valent mesh, every seam is closed. Otherwise only
+/// the seams are listed whose vertices all have exactly two seam edges.
 pub fn seam_cycles(mesh: &Mesh, folds: &[EdgeId]) -> Vec<Vec<HalfEdgeId>> {
     let is_fold = marked(mesh, folds);
     let mut visited = VertexMap::filled(mesh.vertex_slots(), false);
     mesh.vertices().filter_map(|v| seam_cycle(mesh, &is_fold, &mut visited, v)).collect()
 }
 
-/// The number of connected pieces that the faces make when exactly the folds are kept; holes are no pieces.
+/// The number of connected pieces that the faces make when exactly the folds are kept; holes are no
+/// pieces.
 pub fn piece_count(mesh: &Mesh, folds: &[EdgeId]) -> usize {
     let is_fold = marked(mesh, folds);
     let mut seen = FaceMap::filled(mesh.face_slots(), false);
@@ -124,7 +127,8 @@ mod tests {
         assert!(!is_perfect_matching(&prism, &doubled));
         let missing: Vec<EdgeId> = folds[1..].iter().copied().chain([EdgeId::new(500)]).collect();
         assert!(!is_perfect_matching(&prism, &missing));
-        // With one fold less its two ends have three seams, and both seams run through them: none is listed.
+        // With one fold less its two ends have three seams, and both seams run through them: none
+        // is listed.
         assert!(seam_cycles(&prism, &folds[1..]).is_empty());
     }
 }

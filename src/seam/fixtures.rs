@@ -14,8 +14,10 @@ pub(super) fn tetrahedron() -> Mesh {
 }
 
 pub(super) fn cube() -> Mesh {
-    let points = (0..8).map(|i: usize| DVec3::new((i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2) as f64));
-    let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let points =
+        (0..8).map(|i: usize| DVec3::new((i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2) as f64));
+    let faces =
+        [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
     Mesh::from_faces(points, faces).expect("a cube")
 }
 
@@ -42,7 +44,8 @@ pub(super) fn dodecahedron() -> Mesh {
     polar(&points)
 }
 
-/// The intersection of the half-spaces that touch the unit sphere at random points: convex, 3-valent.
+/// The intersection of the half-spaces that touch the unit sphere at random points: convex,
+/// 3-valent.
 pub(super) fn random_convex(faces: usize, seed: u64) -> Mesh {
     let mut random = Random(seed);
     let mut unit = || random.below(1 << 40) as f64 / (1u64 << 39) as f64 - 1.0;
@@ -56,12 +59,15 @@ pub(super) fn random_convex(faces: usize, seed: u64) -> Mesh {
     polar(&points)
 }
 
-/// The mesh with one face for each point, in the plane n·x = 1 of the point n (scaled to the unit sphere).
+/// The mesh with one face for each point, in the plane n·x = 1 of the point n (scaled to the unit
+/// sphere).
 fn polar(points: &[DVec3]) -> Mesh {
     let triangles = hull(points);
     let mut of_edge = HashMap::new();
     for (t, triangle) in triangles.iter().enumerate() {
-        of_edge.extend((0..3).map(|i| ((triangle[i], triangle[(i + 1) % 3]), (t, triangle[(i + 2) % 3]))));
+        of_edge.extend(
+            (0..3).map(|i| ((triangle[i], triangle[(i + 1) % 3]), (t, triangle[(i + 2) % 3]))),
+        );
     }
     let vertices = triangles.iter().map(|&[a, b, c]| {
         let n = (points[b] - points[a]).cross(points[c] - points[a]);
@@ -98,7 +104,12 @@ fn hull(points: &[DVec3]) -> Vec<[usize; 3]> {
         let (seen, mut kept): (Vec<_>, Vec<_>) = triangles.into_iter().partition(|t| sees(t, p));
         let sides = |t: &[usize; 3]| [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])];
         let all: std::collections::HashSet<_> = seen.iter().flat_map(sides).collect();
-        kept.extend(seen.iter().flat_map(sides).filter(|&(a, b)| !all.contains(&(b, a))).map(|(a, b)| [a, b, p]));
+        kept.extend(
+            seen.iter()
+                .flat_map(sides)
+                .filter(|&(a, b)| !all.contains(&(b, a)))
+                .map(|(a, b)| [a, b, p]),
+        );
         triangles = kept;
     }
     triangles
@@ -106,11 +117,14 @@ fn hull(points: &[DVec3]) -> Vec<[usize; 3]> {
 
 /// Cuts all vertices off at the fraction `t` of their edges.
 pub(super) fn truncated(mesh: &Mesh, t: f64) -> Mesh {
-    let place = |h: HalfEdgeId| mesh.position(mesh.origin(h)).lerp(mesh.position(mesh.target(h)), t);
+    let place =
+        |h: HalfEdgeId| mesh.position(mesh.origin(h)).lerp(mesh.position(mesh.target(h)), t);
     // One new vertex near the origin of every half-edge.
-    let points: Vec<DVec3> = (0..mesh.half_edge_slots()).map(|i| place(HalfEdgeId::new(i))).collect();
-    let sides =
-        mesh.faces().map(|f| mesh.face_half_edges(f).flat_map(|h| [h.index(), h.twin().index()]).collect::<Vec<_>>());
+    let points: Vec<DVec3> =
+        (0..mesh.half_edge_slots()).map(|i| place(HalfEdgeId::new(i))).collect();
+    let sides = mesh.faces().map(|f| {
+        mesh.face_half_edges(f).flat_map(|h| [h.index(), h.twin().index()]).collect::<Vec<_>>()
+    });
     let caps = mesh.vertices().map(|v| {
         let mut cap: Vec<usize> = mesh.outgoing(v).map(HalfEdgeId::index).collect();
         // outgoing() runs clockwise.
@@ -120,8 +134,8 @@ pub(super) fn truncated(mesh: &Mesh, t: f64) -> Mesh {
     Mesh::from_faces(points, sides.chain(caps)).expect("a truncation")
 }
 
-/// Tutte's graph (1946), planar, cubic and 3-connected, without a Hamiltonian cycle; the places of the vertices mean
-/// nothing.
+/// Tutte's graph (1946), planar, cubic and 3-connected, without a Hamiltonian cycle; the places of
+/// the vertices mean nothing.
 pub(super) fn tutte() -> Mesh {
     let faces: [&[usize]; 25] = [
         &[0, 1, 26, 25, 24, 23, 21, 20, 19, 3],
@@ -159,13 +173,17 @@ pub(super) fn hexagon_torus(w: usize, h: usize) -> Mesh {
     let at = |x: usize, y: usize| (y % h) * 2 * w + x % (2 * w);
     let point = |i: usize| {
         let (x, y) = (i % (2 * w), i / (2 * w));
-        let (a, b) = (std::f64::consts::PI * x as f64 / w as f64, std::f64::consts::TAU * y as f64 / h as f64);
+        let (a, b) = (
+            std::f64::consts::PI * x as f64 / w as f64,
+            std::f64::consts::TAU * y as f64 / h as f64,
+        );
         let r = 3.0 + b.cos();
         DVec3::new(r * a.cos(), r * a.sin(), b.sin())
     };
     // A cell lies between the rows y and y + 1, from one upright edge to the next.
-    let cell =
-        |x: usize, y: usize| [at(x, y), at(x + 1, y), at(x + 2, y), at(x + 2, y + 1), at(x + 1, y + 1), at(x, y + 1)];
+    let cell = |x: usize, y: usize| {
+        [at(x, y), at(x + 1, y), at(x + 2, y), at(x + 2, y + 1), at(x + 1, y + 1), at(x, y + 1)]
+    };
     let cells = (0..h).flat_map(|y| (0..w).map(move |x| (2 * x + y % 2, y)));
     Mesh::from_faces((0..2 * w * h).map(point), cells.map(|(x, y)| cell(x, y))).expect("a torus")
 }

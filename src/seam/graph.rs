@@ -1,4 +1,5 @@
-//! The mesh as a plain graph: vertices and edges numbered without gaps, with the way back to their ids.
+//! The mesh as a plain graph: vertices and edges numbered without gaps, with the way back to their
+//! ids.
 
 use super::SeamError;
 use crate::mesh::{EdgeId, Mesh, VertexId, VertexMap};
@@ -27,7 +28,8 @@ impl Graph {
         for (i, &v) in (0u32..).zip(&vertex_ids) {
             number[v] = i;
         }
-        let ends: Vec<[u32; 2]> = edge_ids.iter().map(|&e| mesh.edge_vertices(e).map(|v| number[v])).collect();
+        let ends: Vec<[u32; 2]> =
+            edge_ids.iter().map(|&e| mesh.edge_vertices(e).map(|v| number[v])).collect();
         let (starts, incident) = incidence(vertex_ids.len(), &ends);
         Self { ends, incident, starts, vertex_ids, edge_ids }
     }

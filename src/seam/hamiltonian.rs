@@ -9,7 +9,8 @@ use super::weight::{fold_weight, quantised};
 use crate::mesh::{EdgeId, EdgeMap, Mesh};
 use crate::progress::Progress;
 
-/// Up to this many vertices all matchings are listed, if they are not more than [`LISTED_MATCHINGS`].
+/// Up to this many vertices all matchings are listed, if they are not more than
+/// [`LISTED_MATCHINGS`].
 const LISTED_VERTICES: usize = 64;
 /// See [`LISTED_VERTICES`].
 const LISTED_MATCHINGS: usize = 20_000;
@@ -18,18 +19,20 @@ const LISTED_AT_ONCE: usize = 256;
 /// Conflicts that the search for a first seam may meet.
 const CONFLICTS: u64 = 1_000_000;
 
-/// The folds of a two-piece seam of a closed 3-valent mesh, ascending: one closed seam that runs through every vertex once
-/// (a Hamiltonian cycle). On a sphere the pieces are two; on other surfaces one or two.
+/// The folds of a two-piece seam of a closed 3-valent mesh, ascending: one closed seam that runs
+/// through every vertex once (a Hamiltonian cycle). On a sphere the pieces are two; on other
+/// surfaces one or two.
 ///
-/// Among these seams, one with a small sum of |fold angle| × length over the folds: the least of all when the mesh has at
-/// most 64 vertices and 20 000 matchings (the lexicographically least of several); else the first that
-/// [`TwoPieceSearch`] meets, improved by exchanges of up to 6 folds (and up to 4 more where that splits the seam) for as
-/// long as that helps, within a fixed amount of work. No clock takes part: the same mesh gives the same folds.
+/// Among these seams, one with a small sum of |fold angle| × length over the folds: the least of
+/// all when the mesh has at most 64 vertices and 20 000 matchings (the lexicographically least of
+/// several); else the first that [`TwoPieceSearch`] meets, improved by exchanges of up to 6 folds
+/// (and up to 4 more where that splits the seam) for as long as that helps, within a fixed amount
+/// of work. No clock takes part: the same mesh gives the same folds.
 ///
 /// # Errors
-/// As [`super::least_matching`]; [`SeamError::SeveralComponents`]; [`SeamError::NoHamiltonian`] with a proof;
-/// [`SeamError::SearchStopped`] when a million conflicts were not enough to tell; [`SeamError::Cancelled`] before a seam was
-/// found. Cancelled later, it returns the best so far.
+/// As [`super::least_matching`]; [`SeamError::SeveralComponents`]; [`SeamError::NoHamiltonian`]
+/// with a proof; [`SeamError::SearchStopped`] when a million conflicts were not enough to tell;
+/// [`SeamError::Cancelled`] before a seam was found. Cancelled later, it returns the best so far.
 pub fn hamiltonian_folds(mesh: &Mesh, progress: &dyn Progress) -> Result<Vec<EdgeId>, SeamError> {
     let graph = connected(mesh)?;
     let weights: Vec<f64> = graph.edge_ids.iter().map(|&e| fold_weight(mesh, e)).collect();
@@ -82,13 +85,17 @@ fn listed(
     Some(match best {
         Some((_, folds)) => Ok(folds),
         None if matchings == 0 => super::least_matching(mesh, progress),
-        None => Err(SeamError::NoHamiltonian { proof: NoHamiltonian::Listed { matchings, fewest_cycles } }),
+        None => Err(SeamError::NoHamiltonian {
+            proof: NoHamiltonian::Listed { matchings, fewest_cycles },
+        }),
     })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::{MATCHING_LIMIT, fixtures, fold_sum, is_perfect_matching, least_matching, seam_cycles, table};
+    use super::super::{
+        MATCHING_LIMIT, fixtures, fold_sum, is_perfect_matching, least_matching, seam_cycles, table,
+    };
     use super::*;
     use crate::progress::{Progress, Silent};
 
@@ -104,7 +111,8 @@ mod tests {
             let folds = hamiltonian_folds(&mesh, &Silent).expect("two pieces");
             assert_two_pieces(&mesh, &folds);
             let rows = table(&mesh, MATCHING_LIMIT, &Silent).expect("rows");
-            let least = rows.iter().find(|r| r.pieces == 2).expect("two pieces come first").fold_sum;
+            let least =
+                rows.iter().find(|r| r.pieces == 2).expect("two pieces come first").fold_sum;
             assert!((fold_sum(&mesh, &folds) - least).abs() < 1e-9 * least);
         }
     }
@@ -162,7 +170,10 @@ mod tests {
             search.forbid_folds_together(rules.last().expect("just pushed"));
         }
         search.forbid_folds_together(&[EdgeId::new(100_000)]);
-        assert!(search.next_candidate(&Silent).is_some(), "an edge that does not exist forbids nothing");
+        assert!(
+            search.next_candidate(&Silent).is_some(),
+            "an edge that does not exist forbids nothing"
+        );
         search.forbid_folds_together(&[]);
         assert!(search.next_candidate(&Silent).is_none() && search.is_exhausted());
     }
@@ -200,7 +211,8 @@ mod tests {
         assert!(matches!(TwoPieceSearch::new(&large, &Cancelled), Err(SeamError::Cancelled)));
     }
 
-    /// As an unfolder does: hundreds of short fold paths forbidden, five times. The bench tells how fast.
+    /// As an unfolder does: hundreds of short fold paths forbidden, five times. The bench tells how
+    /// fast.
     #[test]
     fn many_forbidden_paths_leave_two_pieces() {
         for seed in 0..2 {

@@ -8,26 +8,27 @@ use crate::measure::fold_angle;
 use crate::mesh::{EdgeId, Mesh};
 use crate::progress::Progress;
 
-/// The folds with the least sum of |fold angle| × length among all that meet every vertex of a closed 3-valent mesh
-/// exactly once, ascending: dull edges become folds, sharp ones seams.
+/// The folds with the least sum of |fold angle| × length among all that meet every vertex of a
+/// closed 3-valent mesh exactly once, ascending: dull edges become folds, sharp ones seams.
 ///
-/// Exact up to the rounding of the weights to integers: the sum is at most vertices × 10⁻¹² × the largest weight above the
-/// true least sum. Of several least choices always the same one is given. The method is Edmonds' (1965); 100 000 edges
-/// take well under a second.
+/// Exact up to the rounding of the weights to integers: the sum is at most vertices × 10⁻¹² × the
+/// largest weight above the true least sum. Of several least choices always the same one is given.
+/// The method is Edmonds' (1965); 100 000 edges take well under a second.
 ///
 /// # Errors
-/// [`SeamError::Empty`], [`SeamError::Open`], [`SeamError::Valence`], [`SeamError::Cancelled`], and [`SeamError::NoMatching`]
-/// with a proof.
+/// [`SeamError::Empty`], [`SeamError::Open`], [`SeamError::Valence`], [`SeamError::Cancelled`], and
+/// [`SeamError::NoMatching`] with a proof.
 pub fn least_matching(mesh: &Mesh, progress: &dyn Progress) -> Result<Vec<EdgeId>, SeamError> {
     let graph = Graph::cubic(mesh)?;
     least(&graph, |e| fold_weight(mesh, e), progress)
 }
 
-/// The folds with the least sum of |fold angle| alone, whatever their lengths, among all that meet every vertex of a closed
-/// 3-valent mesh exactly once, ascending.
+/// The folds with the least sum of |fold angle| alone, whatever their lengths, among all that meet
+/// every vertex of a closed 3-valent mesh exactly once, ascending.
 ///
-/// The one to take on a mesh that was carved already. There the long edges are the dull ones: with the length as a factor,
-/// a sharp edge of 60° and 1 mm would be lighter than the fold of 4° and 85 mm beside it that a maker folds.
+/// The one to take on a mesh that was carved already. There the long edges are the dull ones: with
+/// the length as a factor, a sharp edge of 60° and 1 mm would be lighter than the fold of 4° and 85
+/// mm beside it that a maker folds.
 ///
 /// # Errors
 /// As [`least_matching`].
@@ -36,8 +37,9 @@ pub fn dullest_matching(mesh: &Mesh, progress: &dyn Progress) -> Result<Vec<Edge
     least(&graph, |e| fold_angle(mesh, e).map_or(0.0, f64::abs), progress)
 }
 
-/// The perfect matching with the least sum of given weights, ascending, for any mesh: open or closed, any valence.
-/// Weights may be negative; one that is not finite counts as zero. Exact as [`least_matching`].
+/// The perfect matching with the least sum of given weights, ascending, for any mesh: open or
+/// closed, any valence. Weights may be negative; one that is not finite counts as zero. Exact as
+/// [`least_matching`].
 ///
 /// # Errors
 /// [`SeamError::Empty`], [`SeamError::Cancelled`], and [`SeamError::NoMatching`] with a proof.
@@ -52,14 +54,22 @@ pub fn least_matching_by(
     least(&Graph::new(mesh), weight, progress)
 }
 
-fn least(graph: &Graph, weight: impl Fn(EdgeId) -> f64, progress: &dyn Progress) -> Result<Vec<EdgeId>, SeamError> {
+fn least(
+    graph: &Graph,
+    weight: impl Fn(EdgeId) -> f64,
+    progress: &dyn Progress,
+) -> Result<Vec<EdgeId>, SeamError> {
     let weights: Vec<f64> = graph.edge_ids.iter().map(|&e| weight(e)).collect();
     let weights = quantised(&weights, graph.vertex_ids.len());
     least_folds(graph, &weights, progress).map(|folds| graph.ids(folds))
 }
 
 /// The folds of the least perfect matching as edge numbers.
-pub(super) fn least_folds(graph: &Graph, weights: &[i64], progress: &dyn Progress) -> Result<Vec<u32>, SeamError> {
+pub(super) fn least_folds(
+    graph: &Graph,
+    weights: &[i64],
+    progress: &dyn Progress,
+) -> Result<Vec<u32>, SeamError> {
     least_perfect_matching(graph, weights, progress).map_err(|unmatched| match unmatched {
         Unmatched::Cancelled => SeamError::Cancelled,
         Unmatched::Barrier(barrier) => SeamError::NoMatching {
@@ -109,9 +119,19 @@ mod tests {
     fn given_weights_and_other_valences() {
         // An octahedron: valence 4, six vertices.
         let points = [DVec3::X, DVec3::Y, DVec3::Z, -DVec3::X, -DVec3::Y, -DVec3::Z];
-        let faces = [[0, 1, 2], [1, 3, 2], [3, 4, 2], [4, 0, 2], [1, 0, 5], [3, 1, 5], [4, 3, 5], [0, 4, 5]];
+        let faces = [
+            [0, 1, 2],
+            [1, 3, 2],
+            [3, 4, 2],
+            [4, 0, 2],
+            [1, 0, 5],
+            [3, 1, 5],
+            [4, 3, 5],
+            [0, 4, 5],
+        ];
         let mesh = Mesh::from_faces(points, faces).expect("an octahedron");
-        let error = SeamError::Valence { vertex: crate::mesh::VertexId::new(0), valence: 4, count: 6 };
+        let error =
+            SeamError::Valence { vertex: crate::mesh::VertexId::new(0), valence: 4, count: 6 };
         assert_eq!(least_matching(&mesh, &Silent), Err(error));
         let folds = least_matching_by(&mesh, |e| e.index() as f64, &Silent).expect("folds");
         assert!(is_perfect_matching(&mesh, &folds));
@@ -131,7 +151,14 @@ mod tests {
         let mut ends = Vec::new();
         for part in 0..3u32 {
             let at = |i: u32| 1 + 5 * part + i;
-            ends.extend([[0, at(0)], [at(0), at(1)], [at(0), at(2)], [at(1), at(3)], [at(2), at(4)], [at(1), at(4)]]);
+            ends.extend([
+                [0, at(0)],
+                [at(0), at(1)],
+                [at(0), at(2)],
+                [at(1), at(3)],
+                [at(2), at(4)],
+                [at(1), at(4)],
+            ]);
             ends.extend([[at(2), at(3)], [at(3), at(4)]]);
         }
         let graph = Graph::of_ends(16, ends);

@@ -1,15 +1,18 @@
 //! Seam sets of a mesh as graphs: matchings, 2-factors, Hamiltonian cycles.
 //!
-//! In a closed 3-valent mesh the folds of a D-form meet every vertex exactly once: they are a *perfect matching*, and the
-//! seams, two at every vertex, are disjoint closed cycles (a *2-factor*; Petersen 1891: a cubic graph without a bridge has
-//! one). On a sphere the pieces number cycles + 1, and two pieces mean one Hamiltonian cycle of seams.
+//! In a closed 3-valent mesh the folds of a D-form meet every vertex exactly once: they are a
+//! *perfect matching*, and the seams, two at every vertex, are disjoint closed cycles (a
+//! *2-factor*; Petersen 1891: a cubic graph without a bridge has one). On a sphere the pieces
+//! number cycles + 1, and two pieces mean one Hamiltonian cycle of seams.
 //!
-//! - [`least_matching`] finds the folds that bend least, exactly and for large meshes; [`dullest_matching`] weighs by angle
-//!   alone.
+//! - [`least_matching`] finds the folds that bend least, exactly and for large meshes;
+//!   [`dullest_matching`] weighs by angle alone.
 //! - [`Matchings`], [`table`] and [`matching`] list all of them for small meshes, up to symmetry.
-//! - [`TwoPieceSearch`] and [`hamiltonian_folds`] look for the seam of two pieces, or prove that there is none.
+//! - [`TwoPieceSearch`] and [`hamiltonian_folds`] look for the seam of two pieces, or prove that
+//!   there is none.
 //! - [`one_piece_folds`] finds, on surfaces with handles, the seams that leave one piece.
-//! - [`seam_cycles`], [`piece_count`] and [`is_perfect_matching`] tell what a choice of folds means.
+//! - [`seam_cycles`], [`piece_count`] and [`is_perfect_matching`] tell what a choice of folds
+//!   means.
 
 mod blossom;
 mod enumerate;

@@ -1,4 +1,5 @@
-//! Folds that leave one piece: a closed seam that does not separate, which only a surface with handles can have.
+//! Folds that leave one piece: a closed seam that does not separate, which only a surface with
+//! handles can have.
 
 use super::enumerate::{MATCHING_LIMIT, table};
 use super::two_piece::{TwoPieceSearch, connected};
@@ -12,20 +13,25 @@ const SEAMS: usize = 500;
 /// Up to this many vertices all matchings are listed.
 const LISTED_VERTICES: usize = 64;
 
-/// The choices of folds of a closed connected 3-valent mesh that leave one piece, least fold sum first, up to the symmetry of
-/// the mesh.
+/// The choices of folds of a closed connected 3-valent mesh that leave one piece, least fold sum
+/// first, up to the symmetry of the mesh.
 ///
-/// On a sphere there are none: every closed curve separates it (Jordan), so with at least one closed seam there are at least
-/// two pieces. With g handles a piece that is all of the surface has Euler number 2 − 2g. For one handle it is therefore a
-/// ring, and its two rims are the two sides of the one seam, which runs through every vertex. To lie flat, a ring opens at
-/// one more fold, so the paper is one strip whose ends meet.
+/// On a sphere there are none: every closed curve separates it (Jordan), so with at least one
+/// closed seam there are at least two pieces. With g handles a piece that is all of the surface has
+/// Euler number 2 − 2g. For one handle it is therefore a ring, and its two rims are the two sides
+/// of the one seam, which runs through every vertex. To lie flat, a ring opens at one more fold, so
+/// the paper is one strip whose ends meet.
 ///
-/// Meshes of up to 64 vertices and [`MATCHING_LIMIT`] matchings are searched in full. Of larger ones the first 500 seams
-/// through all vertices are looked at that [`TwoPieceSearch`] meets.
+/// Meshes of up to 64 vertices and [`MATCHING_LIMIT`] matchings are searched in full. Of larger
+/// ones the first 500 seams through all vertices are looked at that [`TwoPieceSearch`] meets.
 ///
 /// # Errors
-/// As [`super::hamiltonian_folds`]; [`SeamError::NoHandle`] for a sphere, [`SeamError::NoOnePiece`] where all choices leave more.
-pub fn one_piece_folds(mesh: &Mesh, progress: &dyn Progress) -> Result<Vec<Vec<EdgeId>>, SeamError> {
+/// As [`super::hamiltonian_folds`]; [`SeamError::NoHandle`] for a sphere, [`SeamError::NoOnePiece`]
+/// where all choices leave more.
+pub fn one_piece_folds(
+    mesh: &Mesh,
+    progress: &dyn Progress,
+) -> Result<Vec<Vec<EdgeId>>, SeamError> {
     connected(mesh)?;
     if genus(mesh) == 0 {
         return Err(SeamError::NoHandle);
@@ -34,8 +40,13 @@ pub fn one_piece_folds(mesh: &Mesh, progress: &dyn Progress) -> Result<Vec<Vec<E
         match table(mesh, MATCHING_LIMIT, progress) {
             Ok(rows) => {
                 let tried = rows.len();
-                let found: Vec<_> = rows.into_iter().filter(|r| r.pieces == 1).map(|r| r.folds).collect();
-                return if found.is_empty() { Err(SeamError::NoOnePiece { tried }) } else { Ok(found) };
+                let found: Vec<_> =
+                    rows.into_iter().filter(|r| r.pieces == 1).map(|r| r.folds).collect();
+                return if found.is_empty() {
+                    Err(SeamError::NoOnePiece { tried })
+                } else {
+                    Ok(found)
+                };
             }
             Err(SeamError::TooMany { .. }) => {}
             Err(error) => return Err(error),

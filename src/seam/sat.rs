@@ -2,7 +2,8 @@
 
 use batsat::{Callbacks, ClauseKind, Lit, Solver, SolverInterface, SolverOpts, Var, lbool};
 
-/// A satisfiability problem that grows: clauses can be added between calls, what was learnt is kept.
+/// A satisfiability problem that grows: clauses can be added between calls, what was learnt is
+/// kept.
 pub(super) struct Sat {
     solver: Solver<Budget>,
     vars: Vec<Var>,
@@ -48,13 +49,15 @@ impl Sat {
 
     /// Demands that at least one of the variables has the value it comes with.
     pub fn add_clause(&mut self, clause: impl IntoIterator<Item = (u32, bool)>) {
-        let mut literals: Vec<Lit> = clause.into_iter().map(|(v, value)| self.literal(v, value)).collect();
-        // `false` means that nothing can satisfy the clauses any more; the next call of solve() says so too.
+        let mut literals: Vec<Lit> =
+            clause.into_iter().map(|(v, value)| self.literal(v, value)).collect();
+        // `false` means that nothing can satisfy the clauses any more; the next call of solve()
+        // says so too.
         self.solver.add_clause_reuse(&mut literals);
     }
 
-    /// Looks for values that satisfy all clauses and give `true` to the assumed variables, with at most about that many
-    /// conflicts. The values last tried are what the next call tries first.
+    /// Looks for values that satisfy all clauses and give `true` to the assumed variables, with at
+    /// most about that many conflicts. The values last tried are what the next call tries first.
     pub fn solve(&mut self, assumed: &[u32], conflicts: u64) -> Answer {
         let budget = self.solver.cb_mut();
         budget.limit = budget.conflicts.saturating_add(conflicts);

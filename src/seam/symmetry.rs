@@ -4,8 +4,8 @@ use super::graph::Graph;
 use crate::measure::{edge_length, fold_angle};
 use crate::mesh::{EdgeId, EdgeMap, HalfEdgeId, HalfEdgeMap, Mesh};
 
-/// Lengths that differ by less than this part of the longest edge, and fold angles by less than this in radians, count as
-/// equal: far above rounding, far below what can be cut.
+/// Lengths that differ by less than this part of the longest edge, and fold angles by less than
+/// this in radians, count as equal: far above rounding, far below what can be cut.
 const EQUAL: f64 = 1e-9;
 
 /// Edges that look alike: by length and signed fold angle.
@@ -21,12 +21,14 @@ impl EdgeClasses {
     pub fn new(mesh: &Mesh, graph: &Graph) -> Self {
         let lengths: Vec<f64> = graph.edge_ids.iter().map(|&e| edge_length(mesh, e)).collect();
         // An unknown angle is told apart from all real ones.
-        let angles: Vec<f64> = graph.edge_ids.iter().map(|&e| fold_angle(mesh, e).unwrap_or(10.0)).collect();
+        let angles: Vec<f64> =
+            graph.edge_ids.iter().map(|&e| fold_angle(mesh, e).unwrap_or(10.0)).collect();
         let longest = lengths.iter().copied().fold(0.0, f64::max);
         let (lengths, angles) = (snapped(&lengths, EQUAL * longest), snapped(&angles, EQUAL));
         let angle_weight = |a: f64| if a > std::f64::consts::PI { 0.0 } else { a.abs() };
         let weights = lengths.iter().zip(&angles).map(|(l, &a)| l * angle_weight(a)).collect();
-        let mut kinds: Vec<(u64, u64)> = lengths.iter().zip(&angles).map(|(l, a)| (l.to_bits(), a.to_bits())).collect();
+        let mut kinds: Vec<(u64, u64)> =
+            lengths.iter().zip(&angles).map(|(l, a)| (l.to_bits(), a.to_bits())).collect();
         let keys = kinds.clone();
         kinds.sort_unstable();
         kinds.dedup();
@@ -48,9 +50,9 @@ fn snapped(values: &[f64], bound: f64) -> Vec<f64> {
     snapped
 }
 
-/// Symmetries that generate all others: permutations of the edges (by their numbers in the graph) that keep what is next
-/// to what and the class of every edge; turns and mirrors, of each component and between equal components. For a connected
-/// mesh these are all symmetries but the identity.
+/// Symmetries that generate all others: permutations of the edges (by their numbers in the graph)
+/// that keep what is next to what and the class of every edge; turns and mirrors, of each component
+/// and between equal components. For a connected mesh these are all symmetries but the identity.
 pub(super) fn symmetries(mesh: &Mesh, graph: &Graph, classes: &EdgeClasses) -> Vec<Vec<u32>> {
     let mut number = EdgeMap::filled(mesh.edge_slots(), 0);
     (0u32..).zip(&graph.edge_ids).for_each(|(i, &e)| number[e] = i);
@@ -59,13 +61,19 @@ pub(super) fn symmetries(mesh: &Mesh, graph: &Graph, classes: &EdgeClasses) -> V
     let sizes: Vec<usize> = components.iter().map(Vec::len).collect();
     let mut symmetries = Vec::new();
     for (i, from) in components.iter().enumerate() {
-        for (j, to) in components.iter().enumerate().skip(i).filter(|&(j, _)| sizes[i] == sizes[j]) {
+        for (j, to) in components.iter().enumerate().skip(i).filter(|&(j, _)| sizes[i] == sizes[j])
+        {
             for target in to.iter().flat_map(|e| e.half_edges()) {
                 for mirrored in [false, true] {
-                    let Some(image) = image_of(mesh, from[0].half_edge(), target, mirrored, &class) else { continue };
+                    let Some(image) = image_of(mesh, from[0].half_edge(), target, mirrored, &class)
+                    else {
+                        continue;
+                    };
                     let mut permutation: Vec<u32> = (0..graph.edge_ids.len() as u32).collect();
                     for &e in from {
-                        let f = image[e.half_edge()].expect("all half-edges of the component have images").edge();
+                        let f = image[e.half_edge()]
+                            .expect("all half-edges of the component have images")
+                            .edge();
                         permutation[number[e] as usize] = number[f];
                         if i != j {
                             permutation[number[f] as usize] = number[e];
@@ -84,7 +92,8 @@ pub(super) fn symmetries(mesh: &Mesh, graph: &Graph, classes: &EdgeClasses) -> V
 /// The edges of each component, ascending.
 fn component_of_edges(mesh: &Mesh) -> Vec<Vec<EdgeId>> {
     let of_vertices = mesh.components().into_iter().filter(|c| c.edges > 0).map(|c| {
-        let mut edges: Vec<EdgeId> = c.vertices.iter().flat_map(|&v| mesh.outgoing(v)).map(HalfEdgeId::edge).collect();
+        let mut edges: Vec<EdgeId> =
+            c.vertices.iter().flat_map(|&v| mesh.outgoing(v)).map(HalfEdgeId::edge).collect();
         edges.sort_unstable();
         edges.dedup();
         edges
@@ -92,8 +101,9 @@ fn component_of_edges(mesh: &Mesh) -> Vec<Vec<EdgeId>> {
     of_vertices.collect()
 }
 
-/// The map of half-edges that sends `from` to `to` and keeps (or mirrors) all walks; `None` when there is none, or when it
-/// sends an edge to one of another class. A mirrored half-edge keeps its origin and has its face on the right.
+/// The map of half-edges that sends `from` to `to` and keeps (or mirrors) all walks; `None` when
+/// there is none, or when it sends an edge to one of another class. A mirrored half-edge keeps its
+/// origin and has its face on the right.
 fn image_of(
     mesh: &Mesh,
     from: HalfEdgeId,

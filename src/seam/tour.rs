@@ -3,9 +3,11 @@
 use super::exchange::{Exchange, Factor};
 use crate::progress::Progress;
 
-/// Folds exchanged at once, at most, to join closed seams: short paths first, long ones for the few seams left over.
+/// Folds exchanged at once, at most, to join closed seams: short paths first, long ones for the few
+/// seams left over.
 const JOINED: [usize; 5] = [6, 9, 12, 15, 18];
-/// Longer paths than the first are tried when there can be at most this many (two ways on from every fold).
+/// Longer paths than the first are tried when there can be at most this many (two ways on from
+/// every fold).
 const PATHS: usize = 1 << 23;
 /// Folds exchanged at once, at most, to save.
 const SAVED: usize = 6;
@@ -15,8 +17,8 @@ const REJOINED: usize = 4;
 const STEPS_PER_VERTEX: usize = 10_000;
 
 impl Factor<'_> {
-    /// Joins closed seams by exchanges, the cheapest first, as long as that is possible and the user does not cancel. Says
-    /// whether one is left.
+    /// Joins closed seams by exchanges, the cheapest first, as long as that is possible and the
+    /// user does not cancel. Says whether one is left.
     pub fn join(&mut self, progress: &dyn Progress) -> bool {
         JOINED.into_iter().any(|folds| self.join_by(folds, progress))
     }
@@ -37,8 +39,11 @@ impl Factor<'_> {
             let mut sets = Sets((0..count as u32).collect());
             let mut joined = false;
             for exchange in self.joining(&labels, folds) {
-                let mut touched: Vec<u32> =
-                    exchange.path.iter().map(|&e| labels[self.graph.ends[e as usize][0] as usize]).collect();
+                let mut touched: Vec<u32> = exchange
+                    .path
+                    .iter()
+                    .map(|&e| labels[self.graph.ends[e as usize][0] as usize])
+                    .collect();
                 touched.iter_mut().for_each(|label| *label = sets.root(*label));
                 if touched.iter().all(|&t| t == touched[0]) || !self.alternates(&exchange.path) {
                     continue;
@@ -58,8 +63,8 @@ impl Factor<'_> {
         }
     }
 
-    /// The exchanges that touch several closed seams, the cheapest first. A seam edge stays on its closed seam, so one of
-    /// the folds must lead from one to another.
+    /// The exchanges that touch several closed seams, the cheapest first. A seam edge stays on its
+    /// closed seam, so one of the folds must lead from one to another.
     fn joining(&self, labels: &[u32], folds: usize) -> Vec<Exchange> {
         let mut exchanges = Vec::new();
         for e in self.crossing(labels) {
@@ -76,7 +81,8 @@ impl Factor<'_> {
 
     /// The folds that lead from one closed seam to another.
     fn crossing(&self, labels: &[u32]) -> impl Iterator<Item = u32> {
-        (0..self.is_fold.len() as u32).filter(|&e| self.is_fold[e as usize] && self.crosses(labels, e))
+        (0..self.is_fold.len() as u32)
+            .filter(|&e| self.is_fold[e as usize] && self.crosses(labels, e))
     }
 
     fn crosses(&self, labels: &[u32], e: u32) -> bool {
@@ -84,9 +90,9 @@ impl Factor<'_> {
         labels[a as usize] != labels[b as usize]
     }
 
-    /// Makes the folds of one closed seam cheaper, as long as exchanges do that and leave one closed seam; when an exchange
-    /// splits it, the cheapest way to join the parts is tried, if both together still save. Stops where it is when the user
-    /// cancels.
+    /// Makes the folds of one closed seam cheaper, as long as exchanges do that and leave one
+    /// closed seam; when an exchange splits it, the cheapest way to join the parts is tried, if
+    /// both together still save. Stops where it is when the user cancels.
     pub fn save(&mut self, progress: &dyn Progress) {
         let end = self.steps + STEPS_PER_VERTEX * self.graph.vertex_ids.len();
         let mut improved = true;

@@ -22,15 +22,15 @@ const JOINS: usize = 20;
 /// How many choices are tried before the neighbourhood grows.
 const TRIES: usize = 100;
 
-/// A search for folds whose seam is one cycle through all vertices of a closed 3-valent mesh. On a sphere such a seam
-/// leaves two pieces; on other surfaces one or two.
+/// A search for folds whose seam is one cycle through all vertices of a closed 3-valent mesh. On a
+/// sphere such a seam leaves two pieces; on other surfaces one or two.
 ///
-/// One variable for each edge (fold or seam), exactly one fold for each vertex, at least one fold for each face. A seam
-/// that closes too early is forbidden when it comes up: of the edges that leave its vertices, at least one must be seam.
-/// What the caller learns about a candidate (overlaps) is added with [`Self::forbid_folds_together`]. The search starts
-/// at the least matching, its seams joined as cheaply as exchanges of up to 6 folds can, and stays near what it tried last,
-/// so dull edges tend to be folds. The same calls always give the
-/// same answers.
+/// One variable for each edge (fold or seam), exactly one fold for each vertex, at least one fold
+/// for each face. A seam that closes too early is forbidden when it comes up: of the edges that
+/// leave its vertices, at least one must be seam. What the caller learns about a candidate
+/// (overlaps) is added with [`Self::forbid_folds_together`]. The search starts at the least
+/// matching, its seams joined as cheaply as exchanges of up to 6 folds can, and stays near what it
+/// tried last, so dull edges tend to be folds. The same calls always give the same answers.
 ///
 /// ```no_run
 /// # use kerfold::{progress::Silent, seam::TwoPieceSearch};
@@ -68,8 +68,8 @@ pub enum NoHamiltonian {
         /// The fewest closed seams that any of them leaves.
         fewest_cycles: usize,
     },
-    /// The clauses contradict each other: one fold a vertex, one fold a face, no seam closed too early, and what the
-    /// caller forbade.
+    /// The clauses contradict each other: one fold a vertex, one fold a face, no seam closed too
+    /// early, and what the caller forbade.
     Contradiction {
         /// How many closed seams had to be forbidden one by one.
         cycles: usize,
@@ -84,10 +84,17 @@ impl std::fmt::Display for NoHamiltonian {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Listed { matchings, fewest_cycles } => {
-                write!(f, "each of the {matchings} choices of folds leaves at least {fewest_cycles} closed seams")
+                write!(
+                    f,
+                    "each of the {matchings} choices of folds leaves at least {fewest_cycles} \
+                    closed seams"
+                )
             }
             Self::Contradiction { cycles, conflicts, .. } => {
-                write!(f, "after forbidding {cycles} closed seams nothing is left ({conflicts} conflicts)")
+                write!(
+                    f,
+                    "after forbidding {cycles} closed seams nothing is left ({conflicts} conflicts)"
+                )
             }
         }
     }
@@ -117,15 +124,16 @@ impl TwoPieceSearch {
             }
         }
         let proof = NoHamiltonian::Contradiction { cycles: 0, forbidden: 0, conflicts: 0 };
-        let mut search = Self { graph, weights, number, sat, last: None, is_exhausted: false, proof };
+        let mut search =
+            Self { graph, weights, number, sat, last: None, is_exhausted: false, proof };
         search.approach(start, progress);
         search.forbid_seams_around_faces(mesh);
         Ok(search)
     }
 
-    /// Sets the solver on its way: what it tries first is a choice of folds near the given one with as few closed seams as
-    /// can be had cheaply. Seam after seam is joined with others by choosing folds anew around it, in a growing
-    /// neighbourhood, while all other folds stay.
+    /// Sets the solver on its way: what it tries first is a choice of folds near the given one with
+    /// as few closed seams as can be had cheaply. Seam after seam is joined with others by choosing
+    /// folds anew around it, in a growing neighbourhood, while all other folds stay.
     fn approach(&mut self, mut is_fold: Vec<bool>, progress: &dyn Progress) {
         let mut radius = NEAR;
         while radius <= FAR {
@@ -135,8 +143,10 @@ impl TwoPieceSearch {
                 break;
             }
             let near = self.neighbourhood(&component, count, radius);
-            let stays =
-                |&e: &u32| is_fold[e as usize] && self.graph.ends[e as usize].iter().all(|&v| !near[v as usize]);
+            let stays = |&e: &u32| {
+                is_fold[e as usize]
+                    && self.graph.ends[e as usize].iter().all(|&v| !near[v as usize])
+            };
             let assumed: Vec<u32> = (0..is_fold.len() as u32).filter(stays).collect();
             match self.fewer_seams(&assumed, count) {
                 Some(joined) => (is_fold, radius) = (joined, NEAR),
@@ -169,7 +179,8 @@ impl TwoPieceSearch {
         component.iter().for_each(|&c| sizes[c as usize] += 1);
         let shortest = (0..count).min_by_key(|&c| sizes[c]).map_or(0, |c| c as u32);
         let mut near: Vec<bool> = component.iter().map(|&c| c == shortest).collect();
-        let mut front: Vec<u32> = (0..self.graph.vertex_count()).filter(|&v| near[v as usize]).collect();
+        let mut front: Vec<u32> =
+            (0..self.graph.vertex_count()).filter(|&v| near[v as usize]).collect();
         for _ in 0..radius {
             for v in std::mem::take(&mut front) {
                 for &e in self.graph.incident(v) {
@@ -188,7 +199,8 @@ impl TwoPieceSearch {
         (0..self.graph.edge_ids.len() as u32).map(|e| self.sat.value(e)).collect()
     }
 
-    /// A seam around a face that visits each of its vertices once is closed too early, unless these are all.
+    /// A seam around a face that visits each of its vertices once is closed too early, unless these
+    /// are all.
     fn forbid_seams_around_faces(&mut self, mesh: &Mesh) {
         for f in mesh.faces() {
             let mut vertices: Vec<_> = mesh.face_vertices(f).collect();
@@ -197,13 +209,16 @@ impl TwoPieceSearch {
             vertices.dedup();
             if vertices.len() == sides && sides < mesh.vertex_count() {
                 let number = &self.number;
-                self.sat.add_clause(mesh.face_half_edges(f).filter_map(|h| number[h.edge()]).map(|e| (e, true)));
+                self.sat.add_clause(
+                    mesh.face_half_edges(f).filter_map(|h| number[h.edge()]).map(|e| (e, true)),
+                );
             }
         }
     }
 
-    /// The next folds, ascending, whose seam is one cycle and that break none of the learnt rules; never the same twice.
-    /// `None` when there are no more ([`Self::is_exhausted`]) or when the user cancelled.
+    /// The next folds, ascending, whose seam is one cycle and that break none of the learnt rules;
+    /// never the same twice. `None` when there are no more ([`Self::is_exhausted`]) or when the
+    /// user cancelled.
     pub fn next_candidate(&mut self, progress: &dyn Progress) -> Option<Vec<EdgeId>> {
         while !self.is_exhausted && !progress.is_cancelled() {
             progress.report(SEARCH, self.sat.conflicts() as usize, 0);
@@ -215,7 +230,11 @@ impl TwoPieceSearch {
     }
 
     /// As [`Self::next_candidate`], but gives up after about that many more conflicts.
-    pub(super) fn next_within(&mut self, conflicts: u64, progress: &dyn Progress) -> Option<Vec<EdgeId>> {
+    pub(super) fn next_within(
+        &mut self,
+        conflicts: u64,
+        progress: &dyn Progress,
+    ) -> Option<Vec<EdgeId>> {
         if let Some(last) = self.last.take() {
             self.sat.add_clause(last.into_iter().map(|e| (e, false)));
         }
@@ -244,11 +263,12 @@ impl TwoPieceSearch {
         None
     }
 
-    /// Joins the closed seams of an answer by exchanges. The rules of the caller are not known there, so the solver has to
-    /// agree; it also begins there the next time.
+    /// Joins the closed seams of an answer by exchanges. The rules of the caller are not known
+    /// there, so the solver has to agree; it also begins there the next time.
     fn joined(&mut self, is_fold: &[bool], progress: &dyn Progress) -> Option<Vec<bool>> {
         let edges = 0..is_fold.len() as u32;
-        let mut factor = Factor::new(&self.graph, &self.weights, edges.filter(|&e| is_fold[e as usize]));
+        let mut factor =
+            Factor::new(&self.graph, &self.weights, edges.filter(|&e| is_fold[e as usize]));
         if !factor.join(progress) {
             return None;
         }
@@ -307,10 +327,13 @@ impl TwoPieceSearch {
         leaving.into_iter().for_each(|clause| self.sat.add_clause(clause));
     }
 
-    /// Learns that these edges cannot all be folds. An edge that the mesh does not have can never be a fold, so naming one
-    /// forbids nothing; an empty list forbids everything.
+    /// Learns that these edges cannot all be folds. An edge that the mesh does not have can never
+    /// be a fold, so naming one forbids nothing; an empty list forbids everything.
     pub fn forbid_folds_together(&mut self, folds: &[EdgeId]) {
-        let Some(clause) = folds.iter().map(|&e| self.number.get(e).copied().flatten()).collect::<Option<Vec<u32>>>()
+        let Some(clause) = folds
+            .iter()
+            .map(|&e| self.number.get(e).copied().flatten())
+            .collect::<Option<Vec<u32>>>()
         else {
             return;
         };
@@ -318,7 +341,8 @@ impl TwoPieceSearch {
             *forbidden += 1;
         }
         // A candidate that this forbids need not be forbidden as a whole.
-        self.last = self.last.take().filter(|last| !clause.iter().all(|e| last.binary_search(e).is_ok()));
+        self.last =
+            self.last.take().filter(|last| !clause.iter().all(|e| last.binary_search(e).is_ok()));
         self.sat.add_clause(clause.into_iter().map(|e| (e, false)));
     }
 
@@ -348,7 +372,10 @@ pub(super) fn connected(mesh: &Mesh) -> Result<Graph, SeamError> {
     let graph = Graph::cubic(mesh)?;
     let components = mesh.components();
     match components.as_slice() {
-        [_, second, ..] => Err(SeamError::SeveralComponents { count: components.len(), vertex: second.vertices[0] }),
+        [_, second, ..] => Err(SeamError::SeveralComponents {
+            count: components.len(),
+            vertex: second.vertices[0],
+        }),
         _ => Ok(graph),
     }
 }

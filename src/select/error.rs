@@ -125,6 +125,8 @@ fn groups(nearest: Option<&str>, known: &[String]) -> String {
         (Some(name), _) => format!("did you mean `{name}`?"),
         (None, []) => "the mesh has no groups".to_owned(),
         (None, known) if known.len() <= 12 => format!("the groups are {}", known.join(", ")),
-        (None, known) => format!("the mesh has {} groups, among them {}", known.len(), known[..12].join(", ")),
+        (None, known) => {
+            format!("the mesh has {} groups, among them {}", known.len(), known[..12].join(", "))
+        }
     }
 }

@@ -1,4 +1,5 @@
-//! From an expression to the elements that fit: one table of marks per condition, so the work grows with the mesh alone.
+//! From an expression to the elements that fit: one table of marks per condition, so the work grows
+//! with the mesh alone.
 
 use std::cmp::Ordering;
 
@@ -16,16 +17,21 @@ use crate::mesh::{EdgeId, FaceId, Mesh, VertexId};
 use crate::progress::Progress;
 use crate::units::nearest_word;
 
-/// Measured angles carry rounding: two that differ by less, in degrees, count as equal. A hundred times what a model a
-/// thousand sizes away from the origin shows.
+/// Measured angles carry rounding: two that differ by less, in degrees, count as equal. A hundred
+/// times what a model a thousand sizes away from the origin shows.
 const ANGLE_ROUNDING: f64 = 1e-6;
 
 /// One mark per slot of the element's table; free slots and holes are never marked.
 type Marks = Vec<bool>;
 
 /// The numbers of the elements that fit, ascending; never empty.
-pub(super) fn evaluate(expr: &Expr, context: &Context<'_>, kind: ElementKind) -> Result<Vec<usize>, SelectError> {
-    let evaluation = Evaluation { mesh: context.mesh, made: context.made, progress: context.progress, kind };
+pub(super) fn evaluate(
+    expr: &Expr,
+    context: &Context<'_>,
+    kind: ElementKind,
+) -> Result<Vec<usize>, SelectError> {
+    let evaluation =
+        Evaluation { mesh: context.mesh, made: context.made, progress: context.progress, kind };
     let marks = evaluation.expr(expr)?;
     let chosen: Vec<usize> = (0..marks.len()).filter(|&i| marks[i]).collect();
     if chosen.is_empty() {
@@ -81,18 +87,26 @@ impl Evaluation<'_> {
         let mesh = self.mesh;
         let serves = serves(atom);
         if !serves.contains(&self.kind) {
-            return Err(SelectError::WrongKind { atom: atom.to_string(), wanted: self.kind, serves });
+            return Err(SelectError::WrongKind {
+                atom: atom.to_string(),
+                wanted: self.kind,
+                serves,
+            });
         }
         Ok(match *atom {
             Atom::All => self.all(),
             Atom::Ids(ref runs) => self.ids(runs)?,
-            Atom::Valence(compare, n) => {
-                self.by_vertices(&vertices(mesh, |v| compare.holds(mesh.valence(v).cmp(&(n as usize)))))
+            Atom::Valence(compare, n) => self.by_vertices(&vertices(mesh, |v| {
+                compare.holds(mesh.valence(v).cmp(&(n as usize)))
+            })),
+            Atom::Sides(compare, n) => {
+                faces(mesh, |f| compare.holds(mesh.sides(f).cmp(&(n as usize))))
             }
-            Atom::Sides(compare, n) => faces(mesh, |f| compare.holds(mesh.sides(f).cmp(&(n as usize)))),
             Atom::Fold(compare, angle) => {
                 let fold = |e| fold_angle(mesh, e).map(|fold| fold.abs().to_degrees());
-                edges(mesh, |e| fold(e).is_some_and(|fold| compare_angles(compare, fold, angle.degrees())))
+                edges(mesh, |e| {
+                    fold(e).is_some_and(|fold| compare_angles(compare, fold, angle.degrees()))
+                })
             }
             Atom::Along(direction, tolerance) => {
                 let direction = direction.unit();
@@ -100,19 +114,30 @@ impl Evaluation<'_> {
                     let [a, b] = mesh.edge_positions(e);
                     let angle = angle_between(b - a, direction);
                     angle.is_some_and(|angle| {
-                        compare_angles(Compare::LessOrEqual, angle.min(180.0 - angle), tolerance.degrees())
+                        compare_angles(
+                            Compare::LessOrEqual,
+                            angle.min(180.0 - angle),
+                            tolerance.degrees(),
+                        )
                     })
                 })
             }
-            Atom::Above(direction, height) => self.by_vertices(&self.beyond(direction, height.mm())),
-            Atom::Below(direction, height) => self.by_vertices(&self.beyond(direction.reversed(), -height.mm())),
+            Atom::Above(direction, height) => {
+                self.by_vertices(&self.beyond(direction, height.mm()))
+            }
+            Atom::Below(direction, height) => {
+                self.by_vertices(&self.beyond(direction.reversed(), -height.mm()))
+            }
             Atom::Normal(direction, tolerance) => self.by_normals(|normal| {
                 let angle = angle_between(normal, direction.unit());
-                angle.is_some_and(|angle| compare_angles(Compare::LessOrEqual, angle, tolerance.degrees()))
+                angle.is_some_and(|angle| {
+                    compare_angles(Compare::LessOrEqual, angle, tolerance.degrees())
+                })
             }),
             Atom::Group(ref name) => self.group(name)?,
             Atom::Made => {
-                let made = self.made.ok_or_else(|| SelectError::NothingMade { atom: atom.to_string() })?;
+                let made =
+                    self.made.ok_or_else(|| SelectError::NothingMade { atom: atom.to_string() })?;
                 match self.kind {
                     Vertex => self.listed(made.vertices.iter().map(|v| v.index())),
                     Edge => self.listed(made.edges.iter().map(|e| e.index())),
@@ -120,12 +145,14 @@ impl Evaluation<'_> {
                 }
             }
             Atom::Strip => {
-                let made = self.made.ok_or_else(|| SelectError::NothingMade { atom: atom.to_string() })?;
+                let made =
+                    self.made.ok_or_else(|| SelectError::NothingMade { atom: atom.to_string() })?;
                 self.listed(made.strip.iter().map(|e| e.index()))
             }
             Atom::Folds(which) => {
                 let folds = seams::folds(mesh, which, self.progress);
-                let folds = folds.map_err(|source| SelectError::Seams { atom: atom.to_string(), source })?;
+                let folds = folds
+                    .map_err(|source| SelectError::Seams { atom: atom.to_string(), source })?;
                 self.listed(folds.iter().map(|e| e.index()))
             }
         })
@@ -174,11 +201,13 @@ impl Evaluation<'_> {
         }
     }
 
-    /// The vertices that lie farther along a direction than `height`. Signs of given positions are exact; a computed one must
-    /// exceed its rounding, so that a face that should lie at the height does not count as above it.
+    /// The vertices that lie farther along a direction than `height`. Signs of given positions are
+    /// exact; a computed one must exceed its rounding, so that a face that should lie at the height
+    /// does not count as above it.
     fn beyond(&self, direction: Direction, height: f64) -> Marks {
         let unit = direction.unit();
-        let rounding = self.mesh.bounds().map_or(0.0, |(low, high)| RoundingBound::of_box(low, high).length());
+        let rounding =
+            self.mesh.bounds().map_or(0.0, |(low, high)| RoundingBound::of_box(low, high).length());
         vertices(self.mesh, |v| {
             let position = self.mesh.position(v);
             if self.mesh.is_given(v) {
@@ -208,7 +237,8 @@ impl Evaluation<'_> {
         let mesh = self.mesh;
         let of_group = faces(mesh, |f| mesh.group(f) == Some(name));
         if !of_group.contains(&true) {
-            let nearest = nearest_word(name, mesh.groups().iter().map(String::as_str)).filter(|near| *near != name);
+            let nearest = nearest_word(name, mesh.groups().iter().map(String::as_str))
+                .filter(|near| *near != name);
             let (nearest, known) = (nearest.map(str::to_owned), mesh.groups().to_vec());
             return Err(SelectError::NoSuchGroup { name: name.to_owned(), nearest, known });
         }

@@ -58,7 +58,8 @@ impl Compare {
         (">", Self::Greater),
     ];
 
-    /// Whether the comparison holds, when the measured number stands to the given one as `ordering` says.
+    /// Whether the comparison holds, when the measured number stands to the given one as `ordering`
+    /// says.
     pub(super) fn holds(self, ordering: Ordering) -> bool {
         match self {
             Self::Equal => ordering.is_eq(),
@@ -146,7 +147,8 @@ fn write_runs(f: &mut fmt::Formatter<'_>, runs: &[(u32, u32)]) -> fmt::Result {
 
 /// Quotes a name that would end early or lose its blanks.
 fn write_group(f: &mut fmt::Formatter<'_>, name: &str) -> fmt::Result {
-    let is_plain = name.trim() == name && !name.is_empty() && !name.contains(['&', '|', '(', ')', '"', '\'']);
+    let is_plain =
+        name.trim() == name && !name.is_empty() && !name.contains(['&', '|', '(', ')', '"', '\'']);
     match name.contains('"') {
         _ if is_plain => write!(f, "group={name}"),
         true => write!(f, "group='{name}'"),
@@ -158,14 +160,23 @@ impl fmt::Display for Expr {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Atom(atom) => atom.fmt(f),
-            Self::Not(inner) => write!(f, "!{}", Bracketed(inner, matches!(**inner, Self::And(_) | Self::Or(_)))),
-            Self::And(parts) => write_chain(f, parts, " & ", |part| matches!(part, Self::And(_) | Self::Or(_))),
+            Self::Not(inner) => {
+                write!(f, "!{}", Bracketed(inner, matches!(**inner, Self::And(_) | Self::Or(_))))
+            }
+            Self::And(parts) => {
+                write_chain(f, parts, " & ", |part| matches!(part, Self::And(_) | Self::Or(_)))
+            }
             Self::Or(parts) => write_chain(f, parts, " | ", |part| matches!(part, Self::Or(_))),
         }
     }
 }
 
-fn write_chain(f: &mut fmt::Formatter<'_>, parts: &[Expr], sign: &str, bracketed: fn(&Expr) -> bool) -> fmt::Result {
+fn write_chain(
+    f: &mut fmt::Formatter<'_>,
+    parts: &[Expr],
+    sign: &str,
+    bracketed: fn(&Expr) -> bool,
+) -> fmt::Result {
     for (i, part) in parts.iter().enumerate() {
         write!(f, "{}{}", if i == 0 { "" } else { sign }, Bracketed(part, bracketed(part)))?;
     }

@@ -1,12 +1,14 @@
 //! The selection language: which vertices, edges, faces.
 //!
-//! Conditions are joined by `!` (not), `&` (and), `|` (or), binding in this order, and brackets. What each condition means
-//! for each kind of element says the table [`CONDITIONS`], which `docs/reference.md` shows.
+//! Conditions are joined by `!` (not), `&` (and), `|` (or), binding in this order, and brackets.
+//! What each condition means for each kind of element says the table [`CONDITIONS`], which
+//! `docs/reference.md` shows.
 //!
-//! Where it says –, the condition is an error. `valence`, `sides` and `fold` take `=`, `!=`, `<`, `<=`, `>`, `>=`. Directions
-//! are `x`, `-z`, … or three numbers (`along=1,1,0:5deg`); the tolerance of `along` and `normal` is 1deg when left out.
-//! Angles that differ by no more than a millionth of a degree are equal. A group name with `&`, `|`, brackets or blanks at
-//! its ends goes in quotes: `group="top (left)"`.
+//! Where it says –, the condition is an error. `valence`, `sides` and `fold` take `=`, `!=`, `<`,
+//! `<=`, `>`, `>=`. Directions are `x`, `-z`, … or three numbers (`along=1,1,0:5deg`); the
+//! tolerance of `along` and `normal` is 1deg when left out. Angles that differ by no more than a
+//! millionth of a degree are equal. A group name with `&`, `|`, brackets or blanks at its ends goes
+//! in quotes: `group="top (left)"`.
 
 mod conditions;
 mod error;
@@ -29,7 +31,8 @@ use crate::mesh::{EdgeId, FaceId, Mesh, VertexId};
 use crate::progress::{Progress, Silent};
 use expr::{Atom, Expr};
 
-/// A parsed selection: read by [`str::parse`], written by [`fmt::Display`]; in a recipe a text, an id, or a list of ids.
+/// A parsed selection: read by [`str::parse`], written by [`fmt::Display`]; in a recipe a text, an
+/// id, or a list of ids.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Selection(Expr);
 
@@ -145,12 +148,14 @@ impl<'de> de::Visitor<'de> for Reader {
     }
 
     fn visit_u64<E: de::Error>(self, id: u64) -> Result<Selection, E> {
-        let id = u32::try_from(id).map_err(|_| E::invalid_value(de::Unexpected::Unsigned(id), &self))?;
+        let id =
+            u32::try_from(id).map_err(|_| E::invalid_value(de::Unexpected::Unsigned(id), &self))?;
         Ok(Selection(Expr::Atom(Atom::Ids(vec![(id, id)]))))
     }
 
     fn visit_i64<E: de::Error>(self, id: i64) -> Result<Selection, E> {
-        let whole = u64::try_from(id).map_err(|_| E::invalid_value(de::Unexpected::Signed(id), &self))?;
+        let whole =
+            u64::try_from(id).map_err(|_| E::invalid_value(de::Unexpected::Signed(id), &self))?;
         self.visit_u64(whole)
     }
 

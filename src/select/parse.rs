@@ -58,7 +58,10 @@ pub enum ParseError {
         example: &'static str,
     },
     /// Too many brackets or `!` within each other.
-    #[error("more than {limit} brackets or `!` within each other at column {column}; write the selection flatter")]
+    #[error(
+        "more than {limit} brackets or `!` within each other at column {column}; write the \
+        selection flatter"
+    )]
     TooDeep {
         /// How many may be.
         limit: usize,
@@ -162,8 +165,12 @@ impl<'a> Parser<'a> {
         let (start, text) = self.take_while(|c| !"&|()!".contains(c));
         let run = |part: &str| {
             let (first, last) = part.split_once('-').unwrap_or((part, part));
-            let number =
-                |t: &str| Some(t.trim()).filter(|t| t.bytes().all(|b| b.is_ascii_digit()))?.parse::<u32>().ok();
+            let number = |t: &str| {
+                Some(t.trim())
+                    .filter(|t| t.bytes().all(|b| b.is_ascii_digit()))?
+                    .parse::<u32>()
+                    .ok()
+            };
             Some((number(first)?, number(last)?)).filter(|(first, last)| first <= last)
         };
         let runs: Option<Vec<_>> = text.split(',').map(run).collect();
@@ -181,7 +188,10 @@ impl<'a> Parser<'a> {
             "matching" => Atom::Folds(self.matching()?),
             "valence" => {
                 let compare = self.compare()?;
-                Atom::Valence(compare, self.value("a whole number", "valence=4", |t| t.parse().ok())?)
+                Atom::Valence(
+                    compare,
+                    self.value("a whole number", "valence=4", |t| t.parse().ok())?,
+                )
             }
             "sides" => {
                 let compare = self.compare()?;
@@ -191,19 +201,37 @@ impl<'a> Parser<'a> {
                 let compare = self.compare()?;
                 Atom::Fold(compare, self.value("an angle", "fold>30deg", |t| t.parse().ok())?)
             }
-            "along" => self.directed("a direction and an angle", "along=z:5deg or along=1,1,0:5deg", Atom::Along)?,
-            "normal" => {
-                self.directed("a direction and an angle", "normal=z:20deg or normal=1,1,0:20deg", Atom::Normal)?
-            }
-            "above" => self.beyond("a direction and a length", "above=z:10mm or above=1,1,0:10mm", Atom::Above)?,
-            "below" => self.beyond("a direction and a length", "below=z:10mm or below=1,1,0:10mm", Atom::Below)?,
+            "along" => self.directed(
+                "a direction and an angle",
+                "along=z:5deg or along=1,1,0:5deg",
+                Atom::Along,
+            )?,
+            "normal" => self.directed(
+                "a direction and an angle",
+                "normal=z:20deg or normal=1,1,0:20deg",
+                Atom::Normal,
+            )?,
+            "above" => self.beyond(
+                "a direction and a length",
+                "above=z:10mm or above=1,1,0:10mm",
+                Atom::Above,
+            )?,
+            "below" => self.beyond(
+                "a direction and a length",
+                "below=z:10mm or below=1,1,0:10mm",
+                Atom::Below,
+            )?,
             "group" => {
                 self.equals()?;
                 Atom::Group(self.value("a name", "group=roof", |t| unquoted(t).map(str::to_owned))?)
             }
             _ => {
                 let nearest = nearest_word(word, words()).map(str::to_owned);
-                return Err(ParseError::UnknownWord { word: word.to_owned(), column: self.column(start), nearest });
+                return Err(ParseError::UnknownWord {
+                    word: word.to_owned(),
+                    column: self.column(start),
+                    nearest,
+                });
             }
         })
     }
@@ -248,7 +276,8 @@ impl<'a> Parser<'a> {
         self.skip_blanks();
         let rest = &self.text[self.at..];
         let sign = Compare::SIGNS.iter().find(|(sign, _)| rest.starts_with(sign));
-        let &(sign, compare) = sign.ok_or_else(|| self.unexpected("`=`, `!=`, `<`, `<=`, `>` or `>=`"))?;
+        let &(sign, compare) =
+            sign.ok_or_else(|| self.unexpected("`=`, `!=`, `<`, `<=`, `>` or `>=`"))?;
         self.at += sign.len();
         Ok(compare)
     }
@@ -311,11 +340,18 @@ impl<'a> Parser<'a> {
     }
 
     fn unexpected(&mut self, wanted: &'static str) -> ParseError {
-        let found = self.peek().map_or("the selection ends".to_owned(), |c| format!("`{c}` stands"));
+        let found =
+            self.peek().map_or("the selection ends".to_owned(), |c| format!("`{c}` stands"));
         ParseError::Unexpected { found, column: self.column(self.at), wanted }
     }
 
-    fn bad(&self, start: usize, text: &str, wanted: &'static str, example: &'static str) -> ParseError {
+    fn bad(
+        &self,
+        start: usize,
+        text: &str,
+        wanted: &'static str,
+        example: &'static str,
+    ) -> ParseError {
         ParseError::Value { text: text.to_owned(), column: self.column(start), wanted, example }
     }
 }
@@ -327,7 +363,8 @@ fn direction(text: &str) -> Option<Direction> {
     if let Some((_, axis)) = Direction::AXES.iter().find(|(axis, _)| *axis == name) {
         return Some(Direction(*axis));
     }
-    let parts: Vec<f64> = text.split(',').map(|part| parse_number(part).ok()).collect::<Option<_>>()?;
+    let parts: Vec<f64> =
+        text.split(',').map(|part| parse_number(part).ok()).collect::<Option<_>>()?;
     let vector = DVec3::from_array(parts.try_into().ok()?);
     (vector != DVec3::ZERO).then_some(Direction(vector))
 }

@@ -18,7 +18,11 @@ pub(super) enum Folds {
 }
 
 /// The folds on the mesh as it is now.
-pub(super) fn folds(mesh: &Mesh, which: Folds, progress: &dyn Progress) -> Result<Vec<EdgeId>, SeamError> {
+pub(super) fn folds(
+    mesh: &Mesh,
+    which: Folds,
+    progress: &dyn Progress,
+) -> Result<Vec<EdgeId>, SeamError> {
     match which {
         Folds::Least => seam::least_matching(mesh, progress),
         Folds::Dullest => seam::dullest_matching(mesh, progress),

@@ -12,8 +12,8 @@ fn message(text: &str) -> String {
     text.parse::<Selection>().expect_err(text).to_string()
 }
 
-/// The box has its vertex i at the high end of x, y, z where bit 0, 1, 2 of i is set; faces: below, above, front, back, left,
-/// right; extents 60, 40, 20.
+/// The box has its vertex i at the high end of x, y, z where bit 0, 1, 2 of i is set; faces: below,
+/// above, front, back, left, right; extents 60, 40, 20.
 fn boxed() -> Mesh {
     shape::cuboid(DVec3::new(60.0, 40.0, 20.0))
 }
@@ -83,7 +83,10 @@ fn ids_come_ascending_and_every_one_must_exist() {
     assert_eq!(chosen, [0, 1, 3, 7].map(VertexId::new));
     let error = |text: &str| select(text).faces(&context).expect_err(text).to_string();
     assert_eq!(error("2,6"), "there is no face 6; the mesh has 6 faces, numbered from 0 to 5");
-    assert_eq!(error("0-4294967295"), "there is no face 6; the mesh has 6 faces, numbered from 0 to 5");
+    assert_eq!(
+        error("0-4294967295"),
+        "there is no face 6; the mesh has 6 faces, numbered from 0 to 5"
+    );
     assert_eq!(
         select("all").edges(&Context::of(&Mesh::new())).expect_err("nothing").to_string(),
         "`all` selects no edge"
@@ -109,7 +112,10 @@ fn faces_are_told_apart_by_sides_and_groups() {
     mesh.set_group(FaceId::new(31), "white");
     assert_eq!(counts(&mesh, "group=\"black & (dull)\""), [60, 60, 12]);
     let error = |text: &str| select(text).faces(&Context::of(&mesh)).expect_err(text).to_string();
-    assert_eq!(error("group=whyte"), "no face belongs to a group called `whyte`; did you mean `white`?");
+    assert_eq!(
+        error("group=whyte"),
+        "no face belongs to a group called `whyte`; did you mean `white`?"
+    );
     assert!(error("group=roof").ends_with("the groups are black & (dull), white"));
     assert_eq!(
         select("group=a").edges(&Context::of(&boxed())).expect_err("no groups").to_string(),
@@ -121,7 +127,8 @@ fn faces_are_told_apart_by_sides_and_groups() {
 fn rims_have_no_fold_and_holes_are_no_faces() {
     let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
     let mesh =
-        Mesh::from_faces([at(0., 0.), at(1., 0.), at(1., 1.), at(0., 1.)], [[0, 1, 2], [0, 2, 3]]).expect("a sheet");
+        Mesh::from_faces([at(0., 0.), at(1., 0.), at(1., 1.), at(0., 1.)], [[0, 1, 2], [0, 2, 3]])
+            .expect("a sheet");
     assert_eq!(counts(&mesh, "all"), [4, 5, 2]);
     assert_eq!(counts(&mesh, "fold>=0"), [99, 1, 99]);
     assert_eq!(counts(&mesh, "!fold>=0"), [99, 4, 99]);
@@ -174,10 +181,14 @@ fn an_empty_result_tells_what_there_is() {
     let mesh = boxed();
     let error = |text: &str| select(text).edges(&Context::of(&mesh)).expect_err(text).to_string();
     assert_eq!(error("valence=5"), "`valence=5` selects no edge; the valences are 3 (×8)");
-    assert_eq!(error("fold>100"), "`fold>100deg` selects no edge; the folds go from 90.0000° to 90.0000°");
+    assert_eq!(
+        error("fold>100"),
+        "`fold>100deg` selects no edge; the folds go from 90.0000° to 90.0000°"
+    );
     assert_eq!(
         error("along=z & above=z:1in"),
-        "`along=z:1deg & above=z:25.4mm` selects no edge; the model goes from -10.0000 to 10.0000 mm along z"
+        "`along=z:1deg & above=z:25.4mm` selects no edge; the model goes from -10.0000 to 10.0000 \
+        mm along z"
     );
     assert_eq!(error("sides=4"), "`sides=4` selects faces, but edges are wanted here");
     let error = select("normal=z").edges(&Context::of(&mesh)).expect_err("no normals").to_string();
@@ -193,13 +204,19 @@ fn parse_errors_name_the_column_and_the_nearest_word() {
         ("  ", "the selection is empty; write for example all, valence=4 or 3,7,10-14"),
         ("! valense=3", "`valense` at column 3 is not known; did you mean `valence`?"),
         ("all & colour=3", "`colour` at column 7 is not known; the words are all, valence, sides,"),
-        ("valence", "the selection ends at column 8, but `=`, `!=`, `<`, `<=`, `>` or `>=` was expected"),
+        (
+            "valence",
+            "the selection ends at column 8, but `=`, `!=`, `<`, `<=`, `>` or `>=` was expected",
+        ),
         ("along>z", "`>` stands at column 6, but `=` was expected"),
         ("valence=four", "`four` at column 9 is not a whole number; write it like valence=4"),
         ("valence=-1", "`-1` at column 9 is not a whole number"),
         ("valence=", "`` at column 9 is not a whole number"),
         ("fold>3mm", "`3mm` at column 6 is not an angle; write it like fold>30deg"),
-        ("along=q:5deg", "`q:5deg` at column 7 is not a direction and an angle; write it like along=z:5deg"),
+        (
+            "along=q:5deg",
+            "`q:5deg` at column 7 is not a direction and an angle; write it like along=z:5deg",
+        ),
         ("along=0,0,0:5deg", "`0,0,0:5deg` at column 7 is not a direction"),
         ("along=z:-5deg", "`z:-5deg` at column 7 is not a direction"),
         ("above=z", "`z` at column 7 is not a direction and a length; write it like above=z:10mm"),
@@ -235,14 +252,19 @@ fn recipes_hold_texts_ids_and_lists() {
     struct Step {
         select: Selection,
     }
-    let read = |value: &str| toml::from_str::<Step>(&format!("select = {value}")).map(|step| step.select);
-    for (value, expected) in [("\"valence=4\"", "valence=4"), ("7", "7"), ("[3, 7, 10, 11, 12]", "3,7,10-12")] {
+    let read =
+        |value: &str| toml::from_str::<Step>(&format!("select = {value}")).map(|step| step.select);
+    for (value, expected) in
+        [("\"valence=4\"", "valence=4"), ("7", "7"), ("[3, 7, 10, 11, 12]", "3,7,10-12")]
+    {
         assert_eq!(read(value).expect(value), select(expected));
     }
     for bad in ["-1", "[]", "[-3]", "1.5", "true", "5000000000", "\"valense\""] {
         assert!(read(bad).is_err(), "{bad}");
     }
-    assert!(read("\"valense=3\"").expect_err("a slip").to_string().contains("did you mean `valence`?"));
+    assert!(
+        read("\"valense=3\"").expect_err("a slip").to_string().contains("did you mean `valence`?")
+    );
 }
 
 fn atoms() -> impl Strategy<Value = String> {
@@ -268,7 +290,8 @@ fn atoms() -> impl Strategy<Value = String> {
         (sign, 0.0..180.0).prop_map(|(s, a)| format!("fold {s} {a} deg")),
         (prop::sample::select(vec!["along", "normal"]), axis.clone(), 0.0..90.0)
             .prop_map(|(w, d, a)| format!("{w}={d}:{a}")),
-        (prop::sample::select(vec!["above", "below"]), axis, -9.0..9.0).prop_map(|(w, d, l)| format!("{w}={d}:{l}mm")),
+        (prop::sample::select(vec!["above", "below"]), axis, -9.0..9.0)
+            .prop_map(|(w, d, l)| format!("{w}={d}:{l}mm")),
     ]
 }
 
@@ -305,12 +328,29 @@ proptest! {
 fn the_table_of_conditions_is_what_the_language_does() {
     let mesh = boxed();
     for row in CONDITIONS {
-        let selection: Selection = row.example.parse().unwrap_or_else(|error| panic!("{}: {error}", row.example));
+        let selection: Selection =
+            row.example.parse().unwrap_or_else(|error| panic!("{}: {error}", row.example));
         let context = Context::of(&mesh);
-        let means = |error: Option<SelectError>| !matches!(error, Some(SelectError::WrongKind { .. }));
-        assert_eq!(means(selection.vertices(&context).err()), row.vertices != NOTHING, "{} of vertices", row.example);
-        assert_eq!(means(selection.edges(&context).err()), row.edges != NOTHING, "{} of edges", row.example);
-        assert_eq!(means(selection.faces(&context).err()), row.faces != NOTHING, "{} of faces", row.example);
+        let means =
+            |error: Option<SelectError>| !matches!(error, Some(SelectError::WrongKind { .. }));
+        assert_eq!(
+            means(selection.vertices(&context).err()),
+            row.vertices != NOTHING,
+            "{} of vertices",
+            row.example
+        );
+        assert_eq!(
+            means(selection.edges(&context).err()),
+            row.edges != NOTHING,
+            "{} of edges",
+            row.example
+        );
+        assert_eq!(
+            means(selection.faces(&context).err()),
+            row.faces != NOTHING,
+            "{} of faces",
+            row.example
+        );
         assert!(row.word.is_empty() || row.example.starts_with(row.word), "{}", row.example);
     }
 }

@@ -1,17 +1,19 @@
 //! A façade of planar hexagons with three edges at every inner vertex, for tests and benchmarks.
 //!
-//! Each panel lies in the plane that touches the surface z = −(x²/a + y²/b)/2 at a point of a triangular lattice. Where the
-//! planes of three neighbouring points meet is a vertex; for such a surface that is a linear problem, the same up to a shift
-//! for all triangles of one kind, so panels are planar up to rounding (the dual of a lattice on a paraboloid: Wang, Liu, Yan,
-//! Chan, Ling and Sun 2008, "Hexagonal meshes with planar faces"). Radii of opposite signs make a saddle, whose hexagons are
-//! concave.
+//! Each panel lies in the plane that touches the surface z = −(x²/a + y²/b)/2 at a point of a
+//! triangular lattice. Where the planes of three neighbouring points meet is a vertex; for such a
+//! surface that is a linear problem, the same up to a shift for all triangles of one kind, so
+//! panels are planar up to rounding (the dual of a lattice on a paraboloid: Wang, Liu, Yan, Chan,
+//! Ling and Sun 2008, "Hexagonal meshes with planar faces"). Radii of opposite signs make a saddle,
+//! whose hexagons are concave.
 
 use glam::{DMat2, DVec2, DVec3};
 
 use crate::mesh::Mesh;
 
-/// A façade of `columns` × `rows` hexagons whose lattice points are `pitch` mm apart; `radii` are those of the surface at its
-/// top along x and y, in mm, not zero. Looks up (+z); panels are numbered row by row.
+/// A façade of `columns` × `rows` hexagons whose lattice points are `pitch` mm apart; `radii` are
+/// those of the surface at its top along x and y, in mm, not zero. Looks up (+z); panels are
+/// numbered row by row.
 ///
 /// # Panics
 /// When there is no panel, or a radius is so short that planes do not meet.
@@ -39,13 +41,20 @@ pub fn hexagonal_facade(columns: usize, rows: usize, pitch: f64, radii: [f64; 2]
         for i in 1..=columns {
             // Neighbours counter-clockwise from the right.
             let s = usize::from(!j.is_multiple_of(2));
-            let around =
-                [(i + 1, j), (i + s, j + 1), (i + s - 1, j + 1), (i - 1, j), (i + s - 1, j - 1), (i + s, j - 1)];
+            let around = [
+                (i + 1, j),
+                (i + s, j + 1),
+                (i + s - 1, j + 1),
+                (i - 1, j),
+                (i + s - 1, j - 1),
+                (i + s, j - 1),
+            ];
             let face: Vec<usize> = (0..6)
                 .map(|k| {
                     let mut sites = [(i, j), around[k], around[(k + 1) % 6]];
                     sites.sort_by_key(|&(i, j)| (j, i));
-                    // Two triangles belong to every lattice point: those of which it is the first in this order.
+                    // Two triangles belong to every lattice point: those of which it is the first
+                    // in this order.
                     let (first, is_upright) = (sites[0], sites[0].1 != sites[1].1);
                     corner(2 * (first.1 * width + first.0) + usize::from(is_upright), sites)
                 })
@@ -59,7 +68,8 @@ pub fn hexagonal_facade(columns: usize, rows: usize, pitch: f64, radii: [f64; 2]
 /// Distance of two rows of a triangular lattice, in pitches.
 const ROW: f64 = 0.866_025_403_784_438_6;
 
-/// Where the planes that touch the surface above three points meet. Above s the plane is z = (s·Bs)/2 − s·Bx with B = diag(bend).
+/// Where the planes that touch the surface above three points meet. Above s the plane is z =
+/// (s·Bs)/2 − s·Bx with B = diag(bend).
 fn meet([r, s, t]: [DVec2; 3], bend: DVec2) -> DVec3 {
     let (u, v) = ((s - r) * bend, (t - r) * bend);
     let rows = DMat2::from_cols(u, v).transpose();
@@ -81,8 +91,14 @@ mod tests {
             let mesh = hexagonal_facade(12, 9, 1000.0, radii);
             assert_sound(&mesh);
             assert_eq!((mesh.face_count(), mesh.hole_count()), (108, 1));
-            assert!(mesh.faces().all(|f| mesh.sides(f) == 6 && planarity(&mesh, f).permille < 1e-9));
-            assert!(mesh.vertices().all(|v| mesh.valence(v) == 3 || (mesh.is_rim_vertex(v) && mesh.valence(v) == 2)));
+            assert!(
+                mesh.faces().all(|f| mesh.sides(f) == 6 && planarity(&mesh, f).permille < 1e-9)
+            );
+            assert!(
+                mesh.vertices().all(
+                    |v| mesh.valence(v) == 3 || (mesh.is_rim_vertex(v) && mesh.valence(v) == 2)
+                )
+            );
             let looks_up = |f| mesh.plane(f).expect("an area").normal().z > 0.5;
             assert!(mesh.faces().all(looks_up), "{radii:?}");
             assert!(size(&mesh).x > 11_000.0);

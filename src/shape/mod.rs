@@ -1,9 +1,10 @@
 //! Ready-made starting meshes.
 //!
-//! All are closed, look outwards (positive volume) and are centred at the origin; lengths in millimetres. Vertices and faces
-//! come in a fixed order: solids from orbits of points ([`platonic`], [`archimedean`]) have their faces in lexicographic
-//! order, each beginning at its lowest vertex; the other families say theirs. The vertices of all but boxes count as
-//! computed, not given ([`Mesh::is_given`]), because their coordinates are rounded from irrational numbers.
+//! All are closed, look outwards (positive volume) and are centred at the origin; lengths in
+//! millimetres. Vertices and faces come in a fixed order: solids from orbits of points
+//! ([`platonic`], [`archimedean`]) have their faces in lexicographic order, each beginning at its
+//! lowest vertex; the other families say theirs. The vertices of all but boxes count as computed,
+//! not given ([`Mesh::is_given`]), because their coordinates are rounded from irrational numbers.
 
 mod facade;
 mod name;
@@ -36,15 +37,16 @@ const FINEST_GEODESIC: u32 = 500;
 /// Which ready-made solid, and how large.
 #[derive(Debug, Clone, PartialEq, clap::Args, serde::Deserialize)]
 pub struct SolidParams {
-    /// Name of the solid: a Platonic or Archimedean solid (`cube`, `truncated-icosahedron` = `soccer-ball`, …), `prism-N`,
-    /// `antiprism-N`, `geodesic-N` or `box-AxBxC` (extents in mm)
+    /// Name of the solid: a Platonic or Archimedean solid (`cube`, `truncated-icosahedron` =
+    /// `soccer-ball`, …), `prism-N`, `antiprism-N`, `geodesic-N` or `box-AxBxC` (extents in mm)
     #[serde(alias = "solid")]
     pub name: SolidName,
     /// Length of an edge, above 0; of the longest edge for `geodesic-N`. Not for boxes
     #[arg(long, value_name = "LENGTH", conflicts_with = "size")]
     #[serde(default)]
     pub edge: Option<Length>,
-    /// Largest extent along x, y or z, above 0; 100mm when neither edge nor size is given. Not for boxes
+    /// Largest extent along x, y or z, above 0; 100mm when neither edge nor size is given. Not for
+    /// boxes
     #[arg(long, value_name = "LENGTH")]
     #[serde(default)]
     pub size: Option<Length>,
@@ -63,7 +65,9 @@ pub enum ShapeError {
         nearest: Option<String>,
     },
     /// The number after the name is missing, no number, or out of range.
-    #[error("`{name}`: the number after `{family}-` goes from {least} to {greatest}, as in {example}")]
+    #[error(
+        "`{name}`: the number after `{family}-` goes from {least} to {greatest}, as in {example}"
+    )]
     Number {
         /// What was typed.
         name: String,
@@ -99,7 +103,10 @@ pub enum ShapeError {
         what: &'static str,
     },
     /// A length that is not positive, or absurd.
-    #[error("the {what} is {length}; give a length above zero, like 40mm (1e-60 to 1e60 mm can be built)")]
+    #[error(
+        "the {what} is {length}; give a length above zero, like 40mm (1e-60 to 1e60 mm can be \
+        built)"
+    )]
     Length {
         /// `edge` or `size`.
         what: &'static str,
@@ -136,11 +143,12 @@ impl Default for SolidParams {
     }
 }
 
-/// Makes the solid that `params` name: with the given edge length, or the given largest extent, or 100 mm large.
+/// Makes the solid that `params` name: with the given edge length, or the given largest extent, or
+/// 100 mm large.
 ///
 /// # Errors
-/// [`ShapeError`] when edge and size are both given, a length is not above zero, a box gets a second size, or a number in the
-/// name is out of range.
+/// [`ShapeError`] when edge and size are both given, a length is not above zero, a box gets a
+/// second size, or a number in the name is out of range.
 pub fn solid(params: &SolidParams) -> Result<Mesh, ShapeError> {
     // The reader of names knows all ranges; a name set by hand goes through it too.
     params.name.to_string().parse::<SolidName>()?;
@@ -219,12 +227,14 @@ pub fn icosahedron(edge: f64) -> Mesh {
     platonic(Platonic::Icosahedron, edge)
 }
 
-/// A soccer ball, the truncated icosahedron, with the given edge length, in mm. Panics as [`platonic`].
+/// A soccer ball, the truncated icosahedron, with the given edge length, in mm. Panics as
+/// [`platonic`].
 pub fn soccer_ball(edge: f64) -> Mesh {
     archimedean(Archimedean::TruncatedIcosahedron, edge)
 }
 
-/// A prism over a regular n-gon with square sides; its axis is z, one side lies towards −y. Lengths in mm.
+/// A prism over a regular n-gon with square sides; its axis is z, one side lies towards −y. Lengths
+/// in mm.
 ///
 /// Vertices: the lower ring, then the upper one. Faces: the lower n-gon, the upper one, the sides.
 ///
@@ -237,7 +247,8 @@ pub fn prism(n: u32, edge: f64) -> Mesh {
 
 /// An antiprism over a regular n-gon with equilateral triangles; its axis is z. Lengths in mm.
 ///
-/// Vertices: the lower ring, then the upper one. Faces: the lower n-gon, the upper one, then the triangles in turn.
+/// Vertices: the lower ring, then the upper one. Faces: the lower n-gon, the upper one, then the
+/// triangles in turn.
 ///
 /// # Panics
 /// As [`prism`].
@@ -246,8 +257,9 @@ pub fn antiprism(n: u32, edge: f64) -> Mesh {
     with_edge(SolidName::Antiprism(n), edge)
 }
 
-/// A class I geodesic sphere: an icosahedron whose edges are divided into `frequency` parts, its points moved to the sphere
-/// of the given radius in mm. 20 · frequency² triangles in 20 blocks, one for each face of the icosahedron.
+/// A class I geodesic sphere: an icosahedron whose edges are divided into `frequency` parts, its
+/// points moved to the sphere of the given radius in mm. 20 · frequency² triangles in 20 blocks,
+/// one for each face of the icosahedron.
 ///
 /// # Panics
 /// When the frequency is not from 1 to 500, or the radius not from 1e-60 to 1e60 mm.
@@ -257,16 +269,21 @@ pub fn geodesic(frequency: u32, radius: f64) -> Mesh {
         "a frequency goes from 1 to {FINEST_GEODESIC}, not {frequency}"
     );
     assert!(LENGTHS.contains(&radius), "a radius is a length above zero, not {radius} mm");
-    raw(SolidName::Geodesic(frequency)).build(radius, false).expect("geodesic spheres are sound at every radius")
+    raw(SolidName::Geodesic(frequency))
+        .build(radius, false)
+        .expect("geodesic spheres are sound at every radius")
 }
 
-/// A box with its extents along x, y and z, in mm. Vertex i has its high end on x, y, z where bit 0, 1, 2 of i is set.
-/// Faces: below, above, front (−y), back, left (−x), right.
+/// A box with its extents along x, y and z, in mm. Vertex i has its high end on x, y, z where bit
+/// 0, 1, 2 of i is set. Faces: below, above, front (−y), back, left (−x), right.
 ///
 /// # Panics
 /// When an extent is not a length above zero (1e-60 to 1e60 mm).
 pub fn cuboid(extents: DVec3) -> Mesh {
-    assert!(extents.to_array().iter().all(|l| LENGTHS.contains(l)), "extents are lengths above zero, not {extents} mm");
+    assert!(
+        extents.to_array().iter().all(|l| LENGTHS.contains(l)),
+        "extents are lengths above zero, not {extents} mm"
+    );
     round::cuboid(extents).build(1.0, true).expect("boxes are sound at every size")
 }
 
@@ -283,13 +300,21 @@ struct Raw {
 
 impl Raw {
     fn longest_edge(&self) -> f64 {
-        let edges = self.faces.iter().flat_map(|face| (0..face.len()).map(|i| (face[i], face[(i + 1) % face.len()])));
-        edges.map(|(a, b)| self.points[a].distance_squared(self.points[b])).fold(0.0, f64::max).sqrt()
+        let edges = self
+            .faces
+            .iter()
+            .flat_map(|face| (0..face.len()).map(|i| (face[i], face[(i + 1) % face.len()])));
+        edges
+            .map(|(a, b)| self.points[a].distance_squared(self.points[b]))
+            .fold(0.0, f64::max)
+            .sqrt()
     }
 
     fn largest_extent(&self) -> f64 {
-        let (low, high) =
-            self.points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), &p| (l.min(p), h.max(p)));
+        let (low, high) = self
+            .points
+            .iter()
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), &p| (l.min(p), h.max(p)));
         (high - low).max_element()
     }
 

@@ -19,7 +19,8 @@ pub enum SolidName {
     Prism(u32),
     /// `antiprism-N`: two N-gons and 2N triangles, N from 3 to 100000.
     Antiprism(u32),
-    /// `geodesic-N`: an icosahedron whose edges are divided into N, blown up to a sphere; N from 1 to 500.
+    /// `geodesic-N`: an icosahedron whose edges are divided into N, blown up to a sphere; N from 1
+    /// to 500.
     Geodesic(u32),
     /// `box-AxBxC`: a box with its extents along x, y and z.
     Box([Length; 3]),
@@ -90,8 +91,8 @@ const FAMILIES: [(&str, u32, u32, &str); 3] = [
 
 const BOX_EXAMPLE: &str = "box-60x40x20";
 
-/// All fixed names, the aliases after the solids themselves, and one example of each family (`prism-7`, …): for help texts,
-/// completions and suggestions.
+/// All fixed names, the aliases after the solids themselves, and one example of each family
+/// (`prism-7`, …): for help texts, completions and suggestions.
 pub fn solid_names() -> impl Iterator<Item = &'static str> {
     let platonic = Platonic::ALL.into_iter().map(Platonic::name);
     let archimedean = Archimedean::ALL.into_iter().map(Archimedean::name);
@@ -104,7 +105,8 @@ impl FromStr for SolidName {
 
     fn from_str(text: &str) -> Result<Self, ShapeError> {
         let name = text.trim().to_lowercase().replace(['_', ' '], "-");
-        let name = ALIASES.iter().find(|alias| alias.0 == name).map_or(name.as_str(), |alias| alias.1);
+        let name =
+            ALIASES.iter().find(|alias| alias.0 == name).map_or(name.as_str(), |alias| alias.1);
         if let Some(solid) = fixed(name) {
             return Ok(solid);
         }
@@ -115,8 +117,13 @@ impl FromStr for SolidName {
         match FAMILIES.iter().find(|family| family.0 == word) {
             Some(&(family, least, greatest, example)) => {
                 let n = number.parse().ok().filter(|n| (least..=greatest).contains(n));
-                let n =
-                    n.ok_or_else(|| ShapeError::Number { name: text.to_owned(), family, least, greatest, example })?;
+                let n = n.ok_or_else(|| ShapeError::Number {
+                    name: text.to_owned(),
+                    family,
+                    least,
+                    greatest,
+                    example,
+                })?;
                 Ok(match family {
                     "prism" => Self::Prism(n),
                     "antiprism" => Self::Antiprism(n),
@@ -129,8 +136,11 @@ impl FromStr for SolidName {
 }
 
 fn fixed(name: &str) -> Option<SolidName> {
-    let platonic = Platonic::ALL.into_iter().find(|solid| solid.name() == name).map(SolidName::Platonic);
-    let archimedean = || Archimedean::ALL.into_iter().find(|solid| solid.name() == name).map(SolidName::Archimedean);
+    let platonic =
+        Platonic::ALL.into_iter().find(|solid| solid.name() == name).map(SolidName::Platonic);
+    let archimedean = || {
+        Archimedean::ALL.into_iter().find(|solid| solid.name() == name).map(SolidName::Archimedean)
+    };
     platonic.or_else(archimedean)
 }
 
@@ -138,15 +148,21 @@ fn box_name(text: &str, extents: &str) -> Result<SolidName, ShapeError> {
     let fault = || ShapeError::BoxExtents { name: text.to_owned() };
     let lengths: Result<Vec<Length>, _> = extents.split('x').map(str::parse).collect();
     let lengths: [Length; 3] = lengths.map_err(|_| fault())?.try_into().map_err(|_| fault())?;
-    if lengths.iter().all(|l| super::LENGTHS.contains(&l.mm())) { Ok(SolidName::Box(lengths)) } else { Err(fault()) }
+    if lengths.iter().all(|l| super::LENGTHS.contains(&l.mm())) {
+        Ok(SolidName::Box(lengths))
+    } else {
+        Err(fault())
+    }
 }
 
 /// The nearest name; for a mistyped family (`prizm-6`) with the number kept.
 fn nearest(name: &str) -> Option<String> {
-    let whole = nearest_word(name, solid_names().filter(|known| *known != BOX_EXAMPLE)).map(str::to_owned);
+    let whole =
+        nearest_word(name, solid_names().filter(|known| *known != BOX_EXAMPLE)).map(str::to_owned);
     let family = || {
         let (word, number) = name.rsplit_once('-').filter(|(_, n)| n.parse::<u32>().is_ok())?;
-        nearest_word(word, FAMILIES.iter().map(|family| family.0)).map(|family| format!("{family}-{number}"))
+        nearest_word(word, FAMILIES.iter().map(|family| family.0))
+            .map(|family| format!("{family}-{number}"))
     };
     family().or(whole)
 }
@@ -184,7 +200,10 @@ mod tests {
             let solid: SolidName = name.parse().expect(name);
             assert_eq!(solid.to_string().parse::<SolidName>(), Ok(solid), "{name}");
         }
-        assert_eq!("Soccer Ball".parse(), Ok(SolidName::Archimedean(Archimedean::TruncatedIcosahedron)));
+        assert_eq!(
+            "Soccer Ball".parse(),
+            Ok(SolidName::Archimedean(Archimedean::TruncatedIcosahedron))
+        );
         assert_eq!("snub_cube".parse(), Ok(SolidName::Archimedean(Archimedean::SnubCube)));
         let boxed = SolidName::Box([60.0, 40.0, 25.4].map(Length::from_mm));
         assert_eq!("box-60x4cmx1in".parse(), Ok(boxed));
@@ -193,11 +212,24 @@ mod tests {
 
     #[test]
     fn mistyped_names_are_answered_with_the_nearest() {
-        assert_eq!(message("dodecahedrn"), "there is no solid called `dodecahedrn`; did you mean `dodecahedron`?");
-        assert_eq!(message("prizm-6"), "there is no solid called `prizm-6`; did you mean `prism-6`?");
-        assert!(message("teapot").starts_with("there is no solid called `teapot`; the solids are tetrahedron, cube, "));
+        assert_eq!(
+            message("dodecahedrn"),
+            "there is no solid called `dodecahedrn`; did you mean `dodecahedron`?"
+        );
+        assert_eq!(
+            message("prizm-6"),
+            "there is no solid called `prizm-6`; did you mean `prism-6`?"
+        );
+        assert!(
+            message("teapot").starts_with(
+                "there is no solid called `teapot`; the solids are tetrahedron, cube, "
+            )
+        );
         assert!(message("").contains("the solids are"));
-        assert_eq!(message("prism-2"), "`prism-2`: the number after `prism-` goes from 3 to 100000, as in prism-7");
+        assert_eq!(
+            message("prism-2"),
+            "`prism-2`: the number after `prism-` goes from 3 to 100000, as in prism-7"
+        );
         assert!(message("geodesic").contains("geodesic-4"));
         assert!(message("prism-99999999999999999999").contains("100000"));
         for bad in ["box", "box-1x2", "box-1x2x0", "box-1x2x-3", "box-1x2x3x4", "box-axbxc"] {

@@ -6,24 +6,29 @@ use crate::geom::Plane;
 use crate::geom::hull::{Form, HalfSpace, Intersect, Polytope, intersect};
 use crate::mesh::{FaceId, Mesh, VertexId};
 
-/// The intersection of `n` half-spaces whose planes touch the unit sphere at uniformly random points.
+/// The intersection of `n` half-spaces whose planes touch the unit sphere at uniformly random
+/// points.
 ///
-/// Closed and convex, all vertices of valence 3: n faces, 3n − 6 edges, 2n − 4 vertices. Face i touches the sphere at the
-/// i-th random point and carries its exact plane; the vertices are computed and lie on their planes up to rounding. Vertices
-/// are numbered in the order in which the faces first come to them. The same `n` and `seed` give the same mesh everywhere.
+/// Closed and convex, all vertices of valence 3: n faces, 3n − 6 edges, 2n − 4 vertices. Face i
+/// touches the sphere at the i-th random point and carries its exact plane; the vertices are
+/// computed and lie on their planes up to rounding. Vertices are numbered in the order in which the
+/// faces first come to them. The same `n` and `seed` give the same mesh everywhere.
 ///
 /// # Panics
 /// When n is below 4.
 pub fn random_tangent_polytope(n: usize, seed: u64) -> Mesh {
     assert!(n >= 4, "a solid has at least 4 faces, not {n}");
     let mut random = SplitMix(seed);
-    let options = Intersect { form: Form::Simple, interior: Some(DVec3::ZERO), ..Intersect::default() };
-    // The planes enclose the sphere when the hull of the touching points holds the centre: nearly always but for small n.
+    let options =
+        Intersect { form: Form::Simple, interior: Some(DVec3::ZERO), ..Intersect::default() };
+    // The planes enclose the sphere when the hull of the touching points holds the centre: nearly
+    // always but for small n.
     loop {
         let points: Vec<DVec3> = (0..n).map(|_| random.on_sphere()).collect();
         let tangent = |&p: &DVec3| HalfSpace { normal: p, offset: p.length_squared() };
         let half_spaces: Vec<HalfSpace> = points.iter().map(tangent).collect();
-        let polytope = intersect(&half_spaces, &options).ok().filter(|polytope| polytope.faces.len() == n);
+        let polytope =
+            intersect(&half_spaces, &options).ok().filter(|polytope| polytope.faces.len() == n);
         if let Some(mesh) = polytope.and_then(|polytope| tangent_mesh(&points, &polytope)) {
             return mesh;
         }
@@ -42,14 +47,18 @@ fn tangent_mesh(points: &[DVec3], polytope: &Polytope) -> Option<Mesh> {
         }
         *number
     };
-    let faces: Vec<Vec<usize>> = polytope.faces.iter().map(|run| run.iter().map(&mut renumbered).collect()).collect();
+    let faces: Vec<Vec<usize>> =
+        polytope.faces.iter().map(|run| run.iter().map(&mut renumbered).collect()).collect();
     let count = positions.len();
     let mut mesh = Mesh::from_faces(positions, faces).ok()?;
     for v in (0..count).map(VertexId::new) {
         mesh.set_position(v, mesh.position(v), false);
     }
     for (i, &p) in points.iter().enumerate() {
-        mesh.set_plane(FaceId::new(i), Plane::new(p, p).expect("points on the sphere are unit vectors"));
+        mesh.set_plane(
+            FaceId::new(i),
+            Plane::new(p, p).expect("points on the sphere are unit vectors"),
+        );
     }
     Some(mesh)
 }
@@ -71,7 +80,8 @@ impl SplitMix {
         (self.next() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 
-    /// Uniform on the unit sphere (Marsaglia 1972): nothing but a square root, so all machines agree.
+    /// Uniform on the unit sphere (Marsaglia 1972): nothing but a square root, so all machines
+    /// agree.
     fn on_sphere(&mut self) -> DVec3 {
         loop {
             let (u, v) = (self.signed(), self.signed());
@@ -94,7 +104,10 @@ mod tests {
         for (n, seed) in [(4, 1), (5, 2), (12, 3), (100, 4), (1000, 5)] {
             let mesh = random_tangent_polytope(n, seed);
             assert_sound(&mesh);
-            assert_eq!([mesh.vertex_count(), mesh.edge_count(), mesh.face_count()], [2 * n - 4, 3 * n - 6, n]);
+            assert_eq!(
+                [mesh.vertex_count(), mesh.edge_count(), mesh.face_count()],
+                [2 * n - 4, 3 * n - 6, n]
+            );
             assert!(mesh.is_closed() && mesh.vertices().all(|v| mesh.valence(v) == 3));
             let (low, high) = mesh.bounds().expect("vertices");
             let tolerance = 1e-15 * (high - low).length();
@@ -102,8 +115,13 @@ mod tests {
                 let plane = mesh.carried_plane(f).expect("a tangent plane");
                 assert!((plane.offset() - 1.0).abs() < 1e-15);
                 let corners = mesh.face_positions(f);
-                assert!(corners.iter().all(|&p| plane.signed_distance(p).abs() <= tolerance), "{n}: {f:?}");
-                assert!(plane.normal().dot(Plane::newell(&corners).expect("an area").normal()) > 0.9);
+                assert!(
+                    corners.iter().all(|&p| plane.signed_distance(p).abs() <= tolerance),
+                    "{n}: {f:?}"
+                );
+                assert!(
+                    plane.normal().dot(Plane::newell(&corners).expect("an area").normal()) > 0.9
+                );
                 let is_below = |v| plane.signed_distance(mesh.position(v)) <= tolerance;
                 assert!(n > 200 || mesh.vertices().all(is_below), "{n}: {f:?}");
             }

@@ -12,23 +12,28 @@ use super::{Platonic, Raw};
 /// Vertices: the lower ring, then the upper one. Faces: the lower n-gon, the upper one, the sides.
 pub(super) fn prism(n: usize) -> Raw {
     let half = on_circle(1, 2 * n as i64).y;
-    let ring = |z: f64| (0..n).map(move |k| on_circle(4 * k as i64 - n as i64 - 2, 4 * n as i64).extend(z));
+    let ring = |z: f64| {
+        (0..n).map(move |k| on_circle(4 * k as i64 - n as i64 - 2, 4 * n as i64).extend(z))
+    };
     let sides = (0..n).map(|k| vec![k, (k + 1) % n, n + (k + 1) % n, n + k]);
     Raw { points: ring(-half).chain(ring(half)).collect(), faces: lids(n).chain(sides).collect() }
 }
 
 /// Two regular n-gons, turned against each other, and 2n triangles; the axis is z.
 ///
-/// Vertices: the lower ring, then the upper one. Faces: the lower n-gon, the upper one, then the triangles in turn.
+/// Vertices: the lower ring, then the upper one. Faces: the lower n-gon, the upper one, then the
+/// triangles in turn.
 pub(super) fn antiprism(n: usize) -> Raw {
     let edge = 2.0 * on_circle(1, 2 * n as i64).y;
-    // The chord between a lower and an upper vertex is a side of the 2n-gon; with the height it must make an edge.
+    // The chord between a lower and an upper vertex is a side of the 2n-gon; with the height it
+    // must make an edge.
     let chord = 2.0 * on_circle(1, 4 * n as i64).y;
     let half = ((edge - chord) * (edge + chord)).sqrt() / 2.0;
     let point = |k: usize, shift: i64| on_circle(4 * k as i64 - n as i64 - shift, 4 * n as i64);
     let lower = (0..n).map(|k| point(k, 2).extend(-half));
     let upper = (0..n).map(|k| point(k, 0).extend(half));
-    let triangles = (0..n).flat_map(|k| [vec![k, (k + 1) % n, n + k], vec![n + k, (k + 1) % n, n + (k + 1) % n]]);
+    let triangles = (0..n)
+        .flat_map(|k| [vec![k, (k + 1) % n, n + k], vec![n + k, (k + 1) % n, n + (k + 1) % n]]);
     Raw { points: lower.chain(upper).collect(), faces: lids(n).chain(triangles).collect() }
 }
 
@@ -37,8 +42,8 @@ fn lids(n: usize) -> impl Iterator<Item = Vec<usize>> {
     [(0..n).rev().collect(), (n..2 * n).collect()].into_iter()
 }
 
-/// The point at `part / whole` of a turn on the unit circle, symmetric to the last bit: the angle is brought into the first
-/// eighth of a turn by whole numbers before any rounding.
+/// The point at `part / whole` of a turn on the unit circle, symmetric to the last bit: the angle
+/// is brought into the first eighth of a turn by whole numbers before any rounding.
 fn on_circle(part: i64, whole: i64) -> glam::DVec2 {
     let part = part.rem_euclid(whole);
     let (quarter, rest) = (4 * part / whole, 4 * part % whole);
@@ -60,21 +65,23 @@ fn on_circle(part: i64, whole: i64) -> glam::DVec2 {
     }
 }
 
-/// A box with the given extents, parallel to the axes. Vertex i has its high end on x, y, z where bit 0, 1, 2 of i is set.
+/// A box with the given extents, parallel to the axes. Vertex i has its high end on x, y, z where
+/// bit 0, 1, 2 of i is set.
 ///
 /// Faces: below, above, front (−y), back, left (−x), right.
 pub(super) fn cuboid(extents: DVec3) -> Raw {
     let half = extents / 2.0;
     let end = |i: usize, axis: usize| if i >> axis & 1 == 1 { half[axis] } else { -half[axis] };
     let points = (0..8).map(|i| DVec3::new(end(i, 0), end(i, 1), end(i, 2))).collect();
-    let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let faces =
+        [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
     Raw { points, faces: faces.map(Vec::from).to_vec() }
 }
 
 /// The icosahedron with each edge divided into `n` parts, blown up to the unit sphere (class I).
 ///
-/// Vertices: the twelve of the icosahedron, then those on its edges, then those inside its faces. Faces: 20 blocks of n²
-/// triangles in the order of the icosahedron's faces.
+/// Vertices: the twelve of the icosahedron, then those on its edges, then those inside its faces.
+/// Faces: 20 blocks of n² triangles in the order of the icosahedron's faces.
 pub(super) fn geodesic(n: usize) -> Raw {
     let solid = Platonic::Icosahedron.raw();
     let mut grid = Grid::new(&solid, n);
@@ -134,7 +141,8 @@ impl Grid {
         first
     }
 
-    /// The vertex `t` along row `s` of a face, counted from its first corner; `inside` is its first inner point.
+    /// The vertex `t` along row `s` of a face, counted from its first corner; `inside` is its first
+    /// inner point.
     fn vertex(&self, [a, b, c]: [usize; 3], inside: usize, s: usize, t: usize) -> usize {
         if t == 0 {
             self.on_edge(a, b, s)

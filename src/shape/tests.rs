@@ -40,7 +40,8 @@ fn assert_planar_and_centred(name: &str, mesh: &Mesh) {
         let off = corners.iter().map(|&p| plane.signed_distance(p).abs()).fold(0.0, f64::max);
         assert!(off <= 1e-15 * extent, "{name}: {f:?} is {off} off its plane");
     }
-    let mean = mesh.vertices().map(|v| mesh.position(v)).sum::<DVec3>() / mesh.vertex_count() as f64;
+    let mean =
+        mesh.vertices().map(|v| mesh.position(v)).sum::<DVec3>() / mesh.vertex_count() as f64;
     assert!(mean.length() <= 1e-15 * extent, "{name}: {mean}");
 }
 
@@ -77,8 +78,11 @@ const UNIFORM: [Row; 24] = [
 #[test]
 fn every_uniform_solid_is_what_its_name_says() {
     for (name, counts, sides, corner) in UNIFORM {
-        let params =
-            SolidParams { name: name.parse().expect(name), edge: Some(Length::from_mm(40.0)), ..Default::default() };
+        let params = SolidParams {
+            name: name.parse().expect(name),
+            edge: Some(Length::from_mm(40.0)),
+            ..Default::default()
+        };
         let mesh = solid(&params).expect(name);
         assert_planar_and_centred(name, &mesh);
         assert_eq!([mesh.vertex_count(), mesh.edge_count(), mesh.face_count()], counts, "{name}");
@@ -86,7 +90,11 @@ fn every_uniform_solid_is_what_its_name_says() {
         assert!(mesh.vertices().all(|v| configuration(&mesh, v) == corner), "{name}");
         assert!(mesh.vertices().all(|v| !mesh.is_given(v)));
         for e in mesh.edges() {
-            assert!((edge_length(&mesh, e) / 40.0 - 1.0).abs() < 1e-14, "{name}: {e:?} is {}", edge_length(&mesh, e));
+            assert!(
+                (edge_length(&mesh, e) / 40.0 - 1.0).abs() < 1e-14,
+                "{name}: {e:?} is {}",
+                edge_length(&mesh, e)
+            );
         }
     }
 }
@@ -110,14 +118,19 @@ fn volumes_agree_with_the_tables() {
 fn face_lists_begin_at_their_lowest_vertex_in_lexicographic_order() {
     for solid in Archimedean::ALL {
         let mesh = archimedean(solid, 1.0);
-        let faces: Vec<Vec<VertexId>> = mesh.faces().map(|f| mesh.face_vertices(f).collect()).collect();
-        assert!(faces.is_sorted() && faces.iter().all(|face| face.iter().min() == face.first()), "{solid:?}");
+        let faces: Vec<Vec<VertexId>> =
+            mesh.faces().map(|f| mesh.face_vertices(f).collect()).collect();
+        assert!(
+            faces.is_sorted() && faces.iter().all(|face| face.iter().min() == face.first()),
+            "{solid:?}"
+        );
     }
 }
 
 #[test]
 fn the_hands_of_the_snubs_stay_the_same() {
-    // The turn of the square (pentagon) side that each corner sees first, as a sign; a mirror image would flip it.
+    // The turn of the square (pentagon) side that each corner sees first, as a sign; a mirror image
+    // would flip it.
     for (solid, sides) in [(Archimedean::SnubCube, 4), (Archimedean::SnubDodecahedron, 5)] {
         let mesh = archimedean(solid, 1.0);
         let big: Vec<DVec3> = mesh
@@ -129,9 +142,13 @@ fn the_hands_of_the_snubs_stay_the_same() {
         let h = mesh.face_start(f).expect("edges");
         let [a, b] = [mesh.position(mesh.origin(h)), mesh.position(mesh.target(h))];
         let n = Plane::newell(&mesh.face_positions(f)).expect("an area").normal();
-        // The nearest big face across this side lies off the middle of the side, to the right or to the left.
+        // The nearest big face across this side lies off the middle of the side, to the right or to
+        // the left.
         let middle = a.midpoint(b);
-        let other = big.iter().filter(|m| m.dot(n) < 0.99).max_by(|p, q| p.dot(middle).total_cmp(&q.dot(middle)));
+        let other = big
+            .iter()
+            .filter(|m| m.dot(n) < 0.99)
+            .max_by(|p, q| p.dot(middle).total_cmp(&q.dot(middle)));
         let off = (*other.expect("six or twelve")).dot(b - a);
         assert!(off < -0.01, "{solid:?}: {off}");
     }
@@ -153,7 +170,8 @@ fn geodesic_spheres_are_round_and_closed() {
         assert!(mesh.vertices().all(|v| [5, 6].contains(&mesh.valence(v))));
     }
     let longest = |mesh: &Mesh| mesh.edges().map(|e| edge_length(mesh, e)).fold(0.0, f64::max);
-    let params = SolidParams { name: SolidName::Geodesic(3), edge: Some(Length::from_mm(7.0)), size: None };
+    let params =
+        SolidParams { name: SolidName::Geodesic(3), edge: Some(Length::from_mm(7.0)), size: None };
     assert!((longest(&solid(&params).expect("a sphere")) - 7.0).abs() < 1e-14);
 }
 
@@ -174,14 +192,29 @@ fn sizes_and_edges_are_met() {
 #[test]
 fn wrong_sizes_are_refused() {
     let mm = |mm| Some(Length::from_mm(mm));
-    let make = |name: &str, edge, size| solid(&SolidParams { name: name.parse().expect(name), edge, size });
+    let make = |name: &str, edge, size| {
+        solid(&SolidParams { name: name.parse().expect(name), edge, size })
+    };
     assert!(matches!(make("cube", mm(1.0), mm(2.0)), Err(ShapeError::EdgeAndSize { .. })));
-    assert!(matches!(make("box-1x2x3", None, mm(2.0)), Err(ShapeError::BoxIsSized { what: "size", .. })));
+    assert!(matches!(
+        make("box-1x2x3", None, mm(2.0)),
+        Err(ShapeError::BoxIsSized { what: "size", .. })
+    ));
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-300] {
-        assert!(matches!(make("cube", mm(bad), None), Err(ShapeError::Length { what: "edge", .. })), "{bad}");
-        assert!(matches!(make("cube", None, mm(bad)), Err(ShapeError::Length { what: "size", .. })), "{bad}");
+        assert!(
+            matches!(make("cube", mm(bad), None), Err(ShapeError::Length { what: "edge", .. })),
+            "{bad}"
+        );
+        assert!(
+            matches!(make("cube", None, mm(bad)), Err(ShapeError::Length { what: "size", .. })),
+            "{bad}"
+        );
     }
-    for name in [SolidName::Prism(2), SolidName::Geodesic(0), SolidName::Box([Length::from_mm(f64::NAN); 3])] {
+    for name in [
+        SolidName::Prism(2),
+        SolidName::Geodesic(0),
+        SolidName::Box([Length::from_mm(f64::NAN); 3]),
+    ] {
         assert!(solid(&SolidParams { name, ..Default::default() }).is_err(), "{name}");
     }
     let error = make("cube", mm(0.0), None).expect_err("no edge");
@@ -196,7 +229,8 @@ fn flags_and_recipes_agree() {
         let matches = command.clone().try_get_matches_from([&["solid"], words].concat());
         matches.map(|m| SolidParams::from_arg_matches(&m).expect("the arguments fit"))
     };
-    let recipe: SolidParams = toml::from_str("solid = \"prism-7\"\nedge = \"1/2in\"").expect("a recipe");
+    let recipe: SolidParams =
+        toml::from_str("solid = \"prism-7\"\nedge = \"1/2in\"").expect("a recipe");
     assert_eq!(flags(&["prism-7", "--edge", "12.7mm"]).expect("flags"), recipe);
     assert_eq!(
         toml::from_str::<SolidParams>("name = \"cube\"").expect("a recipe"),

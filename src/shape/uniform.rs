@@ -1,8 +1,9 @@
 //! The five Platonic and thirteen Archimedean solids, from closed-form coordinates.
 //!
-//! The vertices of each solid are orbits of a few seed points under permutations and signs of the coordinates (Coxeter 1973,
-//! "Regular Polytopes"; Cromwell 1997, "Polyhedra"), so each coordinate is right to an ulp or two. The faces follow from the
-//! vertices: neighbours are the points at the least distance, and each face is the walk that turns left at every vertex.
+//! The vertices of each solid are orbits of a few seed points under permutations and signs of the
+//! coordinates (Coxeter 1973, "Regular Polytopes"; Cromwell 1997, "Polyhedra"), so each coordinate
+//! is right to an ulp or two. The faces follow from the vertices: neighbours are the points at the
+//! least distance, and each face is the walk that turns left at every vertex.
 
 use glam::DVec3;
 
@@ -30,11 +31,12 @@ pub enum Platonic {
     Icosahedron,
 }
 
-/// A solid with regular faces of several kinds and one kind of vertex, prisms and antiprisms left out.
+/// A solid with regular faces of several kinds and one kind of vertex, prisms and antiprisms left
+/// out.
 ///
-/// The two snub solids differ from their mirror images. Both are made in the same hand: seen from outside and looking across a
-/// side of a square (pentagon) away from its middle, the nearest square (pentagon) beyond lies to the right. Their mirror
-/// images are not offered.
+/// The two snub solids differ from their mirror images. Both are made in the same hand: seen from
+/// outside and looking across a side of a square (pentagon) away from its middle, the nearest
+/// square (pentagon) beyond lies to the right. Their mirror images are not offered.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Archimedean {
     /// Vertices 3.6.6.
@@ -67,7 +69,8 @@ pub enum Archimedean {
 
 impl Platonic {
     /// All five, by number of faces.
-    pub const ALL: [Self; 5] = [Self::Tetrahedron, Self::Cube, Self::Octahedron, Self::Dodecahedron, Self::Icosahedron];
+    pub const ALL: [Self; 5] =
+        [Self::Tetrahedron, Self::Cube, Self::Octahedron, Self::Dodecahedron, Self::Icosahedron];
 
     pub(super) fn raw(self) -> Raw {
         let mut orbits = Orbits::default();
@@ -112,15 +115,22 @@ impl Archimedean {
             Self::TruncatedCube => orbits.add(&EVEN, Minus::Any, [root - 1.0, 1.0, 1.0]),
             Self::TruncatedOctahedron => orbits.add(&ALL, Minus::Any, [0.0, 1.0, 2.0]),
             Self::Rhombicuboctahedron => orbits.add(&EVEN, Minus::Any, [1.0, 1.0, 1.0 + root]),
-            Self::TruncatedCuboctahedron => orbits.add(&ALL, Minus::Any, [1.0, 1.0 + root, 1.0 + 2.0 * root]),
+            Self::TruncatedCuboctahedron => {
+                orbits.add(&ALL, Minus::Any, [1.0, 1.0 + root, 1.0 + 2.0 * root])
+            }
             Self::SnubCube => {
                 orbits.add(&EVEN, Minus::Odd, [1.0, 1.0 / TRIBONACCI, TRIBONACCI]);
                 orbits.add(&ODD, Minus::Even, [1.0, 1.0 / TRIBONACCI, TRIBONACCI]);
             }
-            _ => self.icosahedral_seeds().into_iter().for_each(|seed| orbits.add(&EVEN, Minus::Any, seed)),
+            _ => self
+                .icosahedral_seeds()
+                .into_iter()
+                .for_each(|seed| orbits.add(&EVEN, Minus::Any, seed)),
         }
         if self == Self::SnubDodecahedron {
-            snub_dodecahedron_seeds().into_iter().for_each(|seed| orbits.add(&EVEN, Minus::Even, seed));
+            snub_dodecahedron_seeds()
+                .into_iter()
+                .for_each(|seed| orbits.add(&EVEN, Minus::Even, seed));
         }
         orbits.raw()
     }
@@ -134,10 +144,18 @@ impl Archimedean {
                 vec![[0.0, PHI - 1.0, 2.0 + PHI], [PHI - 1.0, PHI, 2.0 * PHI], [PHI, 2.0, squared]]
             }
             Self::TruncatedIcosahedron => {
-                vec![[0.0, 1.0, 3.0 * PHI], [1.0, 2.0 + PHI, 2.0 * PHI], [PHI, 2.0, 2.0 * PHI + 1.0]]
+                vec![
+                    [0.0, 1.0, 3.0 * PHI],
+                    [1.0, 2.0 + PHI, 2.0 * PHI],
+                    [PHI, 2.0, 2.0 * PHI + 1.0],
+                ]
             }
             Self::Rhombicosidodecahedron => {
-                vec![[1.0, 1.0, 2.0 * PHI + 1.0], [squared, PHI, 2.0 * PHI], [2.0 + PHI, 0.0, squared]]
+                vec![
+                    [1.0, 1.0, 2.0 * PHI + 1.0],
+                    [squared, PHI, 2.0 * PHI],
+                    [2.0 + PHI, 0.0, squared],
+                ]
             }
             Self::TruncatedIcosidodecahedron => vec![
                 [PHI - 1.0, PHI - 1.0, 3.0 + PHI],
@@ -218,7 +236,8 @@ impl Orbits {
 /// Each face begins at its lowest vertex; the faces are in lexicographic order.
 fn faces(points: &[DVec3]) -> Vec<Vec<usize>> {
     let around = neighbours_in_turn(points);
-    let place = |v: usize, u: usize| around[v].iter().position(|&w| w == u).expect("neighbours are mutual");
+    let place =
+        |v: usize, u: usize| around[v].iter().position(|&w| w == u).expect("neighbours are mutual");
     let mut done: Vec<Vec<bool>> = around.iter().map(|ring| vec![false; ring.len()]).collect();
     let mut faces = Vec::new();
     for start in 0..points.len() {
@@ -229,7 +248,8 @@ fn faces(points: &[DVec3]) -> Vec<Vec<usize>> {
             let (mut from, mut to) = (start, first);
             while !std::mem::replace(&mut done[from][place(from, to)], true) {
                 face.push(from);
-                // The face lies on the left: at `to`, the edge before the one we came by, counter-clockwise.
+                // The face lies on the left: at `to`, the edge before the one we came by,
+                // counter-clockwise.
                 let ring = &around[to];
                 (from, to) = (to, ring[(place(to, from) + ring.len() - 1) % ring.len()]);
             }
@@ -243,12 +263,15 @@ fn faces(points: &[DVec3]) -> Vec<Vec<usize>> {
 
 /// For each point its nearest points, counter-clockwise seen from outside.
 fn neighbours_in_turn(points: &[DVec3]) -> Vec<Vec<usize>> {
-    let least = points[1..].iter().map(|p| p.distance_squared(points[0])).fold(f64::INFINITY, f64::min);
+    let least =
+        points[1..].iter().map(|p| p.distance_squared(points[0])).fold(f64::INFINITY, f64::min);
     let ring = |centre: DVec3| {
-        // The next larger distance, a diagonal of a square, is at least 1.4 edges: any factor between would do.
+        // The next larger distance, a diagonal of a square, is at least 1.4 edges: any factor
+        // between would do.
         let is_near = |p: DVec3| p != centre && p.distance_squared(centre) < 1.2 * least;
         let mut ring: Vec<usize> = (0..points.len()).filter(|&i| is_near(points[i])).collect();
-        // Two directions that span the tangent plane; the third of a right-handed frame is the way out.
+        // Two directions that span the tangent plane; the third of a right-handed frame is the way
+        // out.
         let y = centre.cross(points[ring[0]] - centre).normalize();
         let x = y.cross(centre).normalize();
         let angle = |i: usize| (points[i] - centre).dot(y).atan2((points[i] - centre).dot(x));

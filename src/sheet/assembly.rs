@@ -1,8 +1,10 @@
-//! In which order seams are closed, so that every piece is attached before what it belongs to is closed around it.
+//! In which order seams are closed, so that every piece is attached before what it belongs to is
+//! closed around it.
 //!
-//! The largest piece comes first; each further piece is attached where it shares the longest stretch with those before. Only
-//! then the rest is closed like a zip: always a stretch at one of whose ends nothing else is open, for as long as there is
-//! one. What closes the body at last is then one stretch, at which one can still reach inside.
+//! The largest piece comes first; each further piece is attached where it shares the longest
+//! stretch with those before. Only then the rest is closed like a zip: always a stretch at one of
+//! whose ends nothing else is open, for as long as there is one. What closes the body at last is
+//! then one stretch, at which one can still reach inside.
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
@@ -46,8 +48,8 @@ pub(crate) fn assembly(net: &Net, stretches: Vec<Stretch>) -> Assembly {
     Assembly { stretches, steps }
 }
 
-/// How soon a stretch is closed, the least first: nothing else open at an end is best, then an end where something is closed
-/// already, then the lowest number.
+/// How soon a stretch is closed, the least first: nothing else open at an end is best, then an end
+/// where something is closed already, then the lowest number.
 type Rank = (bool, bool, usize);
 
 /// The stretches that are still open, in the order in which they would be closed.
@@ -115,7 +117,8 @@ fn ends(net: &Net, stretch: &Stretch) -> [usize; 2] {
     }
 }
 
-/// A stretch that could attach a piece: the longest comes first, of equal ones that with the lowest number.
+/// A stretch that could attach a piece: the longest comes first, of equal ones that with the lowest
+/// number.
 #[derive(Debug, PartialEq)]
 struct Reach {
     length: f64,
@@ -146,7 +149,8 @@ fn attach_all(net: &Net, stretches: &[Stretch]) -> Vec<Step> {
         let own = of_piece.get(&piece).into_iter().flatten();
         own.map(|&i| Reach { length: stretches[i].length(net), number: stretches[i].number })
     };
-    let mut by_size: Vec<(f64, PieceId)> = net.pieces.iter().map(|p| (signed_area(&p.outline), p.id)).collect();
+    let mut by_size: Vec<(f64, PieceId)> =
+        net.pieces.iter().map(|p| (signed_area(&p.outline), p.id)).collect();
     by_size.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
     let mut placed: BTreeSet<PieceId> = BTreeSet::new();
     let mut steps = Vec::new();
@@ -178,8 +182,10 @@ mod tests {
     fn net_of(name: &str, pieces: &str) -> Net {
         let name = name.parse().expect("a known solid");
         let mesh = solid(&SolidParams { name, edge: None, size: None }).expect("a solid");
-        let params = UnfoldParams { pieces: pieces.parse().expect("a mode"), ..UnfoldParams::default() };
-        unfold(&mesh, &Seams::Free, &params, &Source { scale: 1.0, split_vertices: &[] }, &Silent).expect("a net")
+        let params =
+            UnfoldParams { pieces: pieces.parse().expect("a mode"), ..UnfoldParams::default() };
+        unfold(&mesh, &Seams::Free, &params, &Source { scale: 1.0, split_vertices: &[] }, &Silent)
+            .expect("a net")
     }
 
     /// What every order must keep, by plain counting.
@@ -187,7 +193,11 @@ mod tests {
         let assembly = assembly_of(net);
         let mut numbers: Vec<usize> = assembly.steps.iter().map(|s| s.number).collect();
         numbers.sort_unstable();
-        assert_eq!(numbers, (1..=assembly.stretches.len()).collect::<Vec<_>>(), "every stretch is closed once");
+        assert_eq!(
+            numbers,
+            (1..=assembly.stretches.len()).collect::<Vec<_>>(),
+            "every stretch is closed once"
+        );
         let attaching = assembly.steps.iter().take_while(|s| s.attaches.is_some()).count();
         assert!(
             assembly.steps[attaching..].iter().all(|s| s.attaches.is_none()),
@@ -204,9 +214,14 @@ mod tests {
             assert!(there.is_empty() || there.contains(&old), "{new} is attached to what is there");
             there.extend(sides);
         }
-        // Closing goes on like a zip: where nothing else is open at one end, as long as there is such a place.
+        // Closing goes on like a zip: where nothing else is open at one end, as long as there is
+        // such a place.
         let vertices = |number: usize| -> BTreeSet<usize> {
-            assembly.stretches[number - 1].seams.iter().flat_map(|&(s, _)| net.seams[s].edge).collect()
+            assembly.stretches[number - 1]
+                .seams
+                .iter()
+                .flat_map(|&(s, _)| net.seams[s].edge)
+                .collect()
         };
         let mut open: Vec<usize> = assembly.steps.iter().map(|s| s.number).collect();
         for (i, step) in assembly.steps.iter().enumerate() {
@@ -263,7 +278,9 @@ mod tests {
         for seam in &mut two.seams {
             seam.id.0 += one.seams.len();
             seam.edge = seam.edge.map(|v| v + vertices);
-            seam.sides.iter_mut().for_each(|s| (s.piece.0, s.face) = (s.piece.0 + pieces, s.face + faces));
+            seam.sides
+                .iter_mut()
+                .for_each(|s| (s.piece.0, s.face) = (s.piece.0 + pieces, s.face + faces));
         }
         let mut both = one;
         both.pieces.extend(two.pieces);
@@ -271,7 +288,13 @@ mod tests {
         let assembly = assembly_of(&both);
         assert_eq!(assembly.stretches.len(), 8);
         assert_eq!(assembly.steps.iter().filter(|s| s.attaches.is_some()).count(), 2);
-        assert_eq!(assembly_of(&net_of("cube", "1")).steps.iter().filter(|s| s.attaches.is_some()).count(), 0);
-        assert_eq!(assembly_of(&super::super::testing::net_of(vec![square(3.0)])), Assembly::default());
+        assert_eq!(
+            assembly_of(&net_of("cube", "1")).steps.iter().filter(|s| s.attaches.is_some()).count(),
+            0
+        );
+        assert_eq!(
+            assembly_of(&super::super::testing::net_of(vec![square(3.0)])),
+            Assembly::default()
+        );
     }
 }

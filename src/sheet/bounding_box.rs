@@ -1,20 +1,23 @@
 //! The smallest rectangle around a piece, and the turn that makes it fit on a sheet.
 //!
-//! Source: Freeman and Shapira 1975, "Determining the minimum-area encasing rectangle for an arbitrary closed curve": one
-//! side of the smallest rectangle lies along an edge of the convex hull.
+//! Source: Freeman and Shapira 1975, "Determining the minimum-area encasing rectangle for an
+//! arbitrary closed curve": one side of the smallest rectangle lies along an edge of the convex
+//! hull.
 
 use glam::DVec2;
 
 use super::layout::Turn;
 use crate::geom::polygon::{bounds, convex_hull};
 
-/// Two boxes whose areas differ by less than this part are equally good; then the smaller turn wins, whatever rounding says.
+/// Two boxes whose areas differ by less than this part are equally good; then the smaller turn
+/// wins, whatever rounding says.
 const TIE: f64 = 1e-9;
 
 /// A bounding rectangle after a turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MinBox {
-    /// Degrees by which the points must be turned counter-clockwise so that the box is upright; in [0, 180).
+    /// Degrees by which the points must be turned counter-clockwise so that the box is upright; in
+    /// [0, 180).
     pub angle: f64,
     /// Extent along x after the turn.
     pub width: f64,
@@ -22,27 +25,35 @@ pub struct MinBox {
     pub height: f64,
 }
 
-/// The bounding rectangle of least area, lying: `width` is at least `height`. All zero without points.
+/// The bounding rectangle of least area, lying: `width` is at least `height`. All zero without
+/// points.
 pub fn smallest_box(points: &[DVec2]) -> MinBox {
     let hull = convex_hull(points);
     let best = best_of(&hull, flush_angles(&hull).into_iter(), |_| true);
     best.map_or(MinBox { angle: 0.0, width: 0.0, height: 0.0 }, |b| {
-        if b.width < b.height { MinBox { angle: b.angle + 90.0, width: b.height, height: b.width } } else { b }
+        if b.width < b.height {
+            MinBox { angle: b.angle + 90.0, width: b.height, height: b.width }
+        } else {
+            b
+        }
     })
 }
 
-/// The turn of least box area at which the points fit into `room`, width by height; `None` when they fit at no angle.
+/// The turn of least box area at which the points fit into `room`, width by height; `None` when
+/// they fit at no angle.
 ///
-/// Exact over all angles: where the points fit at all, they fit at a turn with a hull edge along an axis, or at one where
-/// the box just touches the room; all of these are tried. `rounding` is how much larger a box may be that is called
-/// fitting; at least 1e-10 of the room, since turns have nine decimals.
+/// Exact over all angles: where the points fit at all, they fit at a turn with a hull edge along an
+/// axis, or at one where the box just touches the room; all of these are tried. `rounding` is how
+/// much larger a box may be that is called fitting; at least 1e-10 of the room, since turns have
+/// nine decimals.
 pub(crate) fn fitting_box(points: &[DVec2], room: DVec2, rounding: f64) -> Option<MinBox> {
     let hull = convex_hull(points);
     let fits = |b: &MinBox| b.width <= room.x + rounding && b.height <= room.y + rounding;
     let flush = flush_angles(&hull);
     let upright = flush.iter().copied();
     let both = upright.clone().chain(upright.map(|a| a + 90.0));
-    best_of(&hull, both, fits).or_else(|| best_of(&hull, touching_angles(&hull, &flush, room).into_iter(), fits))
+    best_of(&hull, both, fits)
+        .or_else(|| best_of(&hull, touching_angles(&hull, &flush, room).into_iter(), fits))
 }
 
 /// The box of the hull after a turn of `angle` degrees.
@@ -53,7 +64,11 @@ pub(crate) fn box_at(hull: &[DVec2], angle: f64) -> MinBox {
     MinBox { angle, width: high.x - low.x, height: high.y - low.y }
 }
 
-fn best_of(hull: &[DVec2], angles: impl Iterator<Item = f64>, allowed: impl Fn(&MinBox) -> bool) -> Option<MinBox> {
+fn best_of(
+    hull: &[DVec2],
+    angles: impl Iterator<Item = f64>,
+    allowed: impl Fn(&MinBox) -> bool,
+) -> Option<MinBox> {
     let area = |b: &MinBox| b.width * b.height;
     let boxes = angles.map(|a| box_at(hull, a)).filter(allowed);
     boxes.reduce(|best, b| if area(&b) < area(&best) * (1.0 - TIE) { b } else { best })
@@ -62,8 +77,9 @@ fn best_of(hull: &[DVec2], angles: impl Iterator<Item = f64>, allowed: impl Fn(&
 /// The turns in [0, 90), ascending, that bring an edge of the hull parallel to an axis.
 fn flush_angles(hull: &[DVec2]) -> Vec<f64> {
     let edges = hull.iter().zip(hull.iter().cycle().skip(1)).map(|(&a, &b)| b - a);
-    let mut angles: Vec<f64> =
-        edges.map(|e| rounded((-e.y.atan2(e.x)).to_degrees().rem_euclid(90.0)).rem_euclid(90.0)).collect();
+    let mut angles: Vec<f64> = edges
+        .map(|e| rounded((-e.y.atan2(e.x)).to_degrees().rem_euclid(90.0)).rem_euclid(90.0))
+        .collect();
     angles.sort_by(f64::total_cmp);
     angles.dedup();
     angles
@@ -77,7 +93,8 @@ fn touching_angles(hull: &[DVec2], flush: &[f64], room: DVec2) -> Vec<f64> {
     stops.extend(first);
     let mut angles = Vec::new();
     for w in stops.windows(2) {
-        // Between two stops the same two corners are the outermost ones, so that an extent is one sine arc.
+        // Between two stops the same two corners are the outermost ones, so that an extent is one
+        // sine arc.
         let turn = Turn::degrees(w[0].midpoint(w[1]));
         let across = |key: fn(DVec2) -> f64| {
             let (mut low, mut high) = (hull[0], hull[0]);
@@ -118,12 +135,17 @@ mod tests {
 
     fn rectangle(width: f64, height: f64, angle: f64) -> Vec<DVec2> {
         let corners = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)];
-        corners.map(|(x, y)| Turn::degrees(angle).apply(DVec2::new(x, y)) + DVec2::new(1e3, -2e3)).to_vec()
+        corners
+            .map(|(x, y)| Turn::degrees(angle).apply(DVec2::new(x, y)) + DVec2::new(1e3, -2e3))
+            .to_vec()
     }
 
     #[test]
     fn an_upright_rectangle_stays_and_a_turned_one_comes_back() {
-        assert_eq!(smallest_box(&rectangle(5.0, 2.0, 0.0)), MinBox { angle: 0.0, width: 5.0, height: 2.0 });
+        assert_eq!(
+            smallest_box(&rectangle(5.0, 2.0, 0.0)),
+            MinBox { angle: 0.0, width: 5.0, height: 2.0 }
+        );
         let found = smallest_box(&rectangle(5.0, 2.0, 30.0));
         assert!((found.width - 5.0).abs() < 1e-9 && (found.height - 2.0).abs() < 1e-9);
         assert!((found.angle - 150.0).abs() < 1e-7, "{}", found.angle);
@@ -145,15 +167,20 @@ mod tests {
     #[test]
     fn a_piece_exactly_as_large_as_the_room_fits_at_every_turn() {
         for angle in [0.0, 10.0, 45.0, 91.3] {
-            let found = fitting_box(&rectangle(590.0, 390.0, angle), DVec2::new(590.0, 390.0), 1e-6);
+            let found =
+                fitting_box(&rectangle(590.0, 390.0, angle), DVec2::new(590.0, 390.0), 1e-6);
             assert!(found.is_some(), "{angle}");
-            assert!(fitting_box(&rectangle(590.01, 390.0, angle), DVec2::new(590.0, 390.0), 1e-6).is_none());
+            assert!(
+                fitting_box(&rectangle(590.01, 390.0, angle), DVec2::new(590.0, 390.0), 1e-6)
+                    .is_none()
+            );
         }
     }
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(64))]
-        /// A fine scan over all angles never finds a smaller box, nor a fit where the exact search finds none.
+        /// A fine scan over all angles never finds a smaller box, nor a fit where the exact search
+        /// finds none.
         #[test]
         fn no_scanned_angle_is_better(
             points in prop::collection::vec((-50.0..50.0_f64, -20.0..20.0_f64), 3..12),

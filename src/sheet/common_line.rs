@@ -1,12 +1,13 @@
-//! Lines that two parts share are cut once: what has been drawn for one part is left out of the next.
+//! Lines that two parts share are cut once: what has been drawn for one part is left out of the
+//! next.
 
 use glam::DVec2;
 
 use super::drawing::{Drawing, LayerKind, Mark, Stroke};
 
 impl Drawing {
-    /// Leaves out of every closed cut what runs along another cut before it, up to `tolerance` mm, and keeps the whole contours
-    /// for [`Drawing::parts`]. Returns the length that is left out.
+    /// Leaves out of every closed cut what runs along another cut before it, up to `tolerance` mm,
+    /// and keeps the whole contours for [`Drawing::parts`]. Returns the length that is left out.
     pub(crate) fn cut_once(&mut self, tolerance: f64) -> f64 {
         let mut drawn: Vec<[DVec2; 2]> = Vec::new();
         let mut saved = 0.0;
@@ -39,7 +40,8 @@ fn ring(mark: &Mark) -> Option<Vec<DVec2>> {
     }
 }
 
-/// The open lines that are left of a ring without what is drawn already; nothing when it stays whole.
+/// The open lines that are left of a ring without what is drawn already; nothing when it stays
+/// whole.
 fn left_of(ring: &[DVec2], drawn: &[[DVec2; 2]], tolerance: f64) -> Option<Vec<Stroke>> {
     let mut lines: Vec<Vec<DVec2>> = Vec::new();
     let (mut is_whole, mut goes_on) = (true, false);
@@ -52,7 +54,9 @@ fn left_of(ring: &[DVec2], drawn: &[[DVec2; 2]], tolerance: f64) -> Option<Vec<S
             let end = if to == length { q } else { p.lerp(q, to / length) };
             match lines.last_mut().filter(|_| from == 0.0 && goes_on) {
                 Some(line) => line.push(end),
-                None => lines.push(vec![if from == 0.0 { p } else { p.lerp(q, from / length) }, end]),
+                None => {
+                    lines.push(vec![if from == 0.0 { p } else { p.lerp(q, from / length) }, end])
+                }
             }
         }
         goes_on = free.last().is_some_and(|f| f[1] == length);
@@ -84,7 +88,8 @@ fn free_stretches([p, q]: [DVec2; 2], drawn: &[[DVec2; 2]], tolerance: f64) -> V
         let (a, b) = (along.dot(r - p), along.dot(s - p));
         is_on.then_some([a.min(b), a.max(b)])
     };
-    let mut covered: Vec<[f64; 2]> = drawn.iter().filter_map(covers).filter(|c| c[1] - c[0] > tolerance).collect();
+    let mut covered: Vec<[f64; 2]> =
+        drawn.iter().filter_map(covers).filter(|c| c[1] - c[0] > tolerance).collect();
     covered.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     let mut free = Vec::new();
     let mut at = 0.0;
@@ -119,9 +124,14 @@ mod tests {
     }
 
     fn cuts(set: &SheetSet) -> Vec<[DVec2; 2]> {
-        let strokes = set.drawings.iter().flat_map(Drawing::marks).filter(|m| m.kind.layer() == LayerKind::CutOuter);
+        let strokes = set
+            .drawings
+            .iter()
+            .flat_map(Drawing::marks)
+            .filter(|m| m.kind.layer() == LayerKind::CutOuter);
         let sides = |s: &Stroke| {
-            let ring: Vec<DVec2> = s.points.iter().chain(s.points.first().filter(|_| s.closed)).copied().collect();
+            let ring: Vec<DVec2> =
+                s.points.iter().chain(s.points.first().filter(|_| s.closed)).copied().collect();
             ring.windows(2).map(|w| [w[0], w[1]]).collect::<Vec<_>>()
         };
         strokes.flat_map(|m| &m.strokes).flat_map(sides).collect()
@@ -154,12 +164,19 @@ mod tests {
     #[test]
     fn triangles_and_hexagons_of_any_turn_share_sides() {
         let turned = |by: f64, n: i32| -> Vec<DVec2> {
-            (0..n).map(|i| DVec2::from_angle(by + f64::from(i) * std::f64::consts::TAU / f64::from(n)) * 30.0).collect()
+            (0..n)
+                .map(|i| {
+                    DVec2::from_angle(by + f64::from(i) * std::f64::consts::TAU / f64::from(n))
+                        * 30.0
+                })
+                .collect()
         };
         for corners in [3, 6] {
             let contours: Vec<_> = (0..10).map(|i| turned(0.37 * f64::from(i), corners)).collect();
-            let whole: f64 =
-                contours.iter().map(|c| (0..c.len()).map(|i| c[i].distance(c[(i + 1) % c.len()])).sum::<f64>()).sum();
+            let whole: f64 = contours
+                .iter()
+                .map(|c| (0..c.len()).map(|i| c[i].distance(c[(i + 1) % c.len()])).sum::<f64>())
+                .sum();
             assert!(signed_area(&contours[0]) > 0.0);
             let set = lay_out(&net_of(contours), &params()).expect("all fit");
             assert_cut_once(&set);
@@ -170,7 +187,8 @@ mod tests {
     #[test]
     fn a_kerf_and_holding_tabs_are_refused_with_the_reason() {
         let net = net_of(vec![square(40.0); 2]);
-        let error = lay_out(&net, &SheetParams { kerf: Length::from_mm(0.2), ..params() }).expect_err("a kerf");
+        let error = lay_out(&net, &SheetParams { kerf: Length::from_mm(0.2), ..params() })
+            .expect_err("a kerf");
         assert!(error.to_string().contains("0.1 mm of both parts"), "{error}");
         let error = lay_out(&net, &SheetParams { hold: 2, ..params() }).expect_err("tabs");
         assert_eq!(error, SheetError::CommonLineOption { option: "hold" });
@@ -182,13 +200,23 @@ mod tests {
         let line = |a: (f64, f64), b: (f64, f64)| [DVec2::from(a), DVec2::from(b)];
         assert_eq!(left_of(&square, &[line((0.0, 12.0), (10.0, 12.0))], 1e-6), None);
         // Half of the lower side, and the whole left one.
-        let left = left_of(&square, &[line((10.0, 0.0), (5.0, 0.0)), line((0.0, -5.0), (0.0, 15.0))], 1e-6);
-        let expected = [points([(0.0, 0.0), (5.0, 0.0)]).to_vec(), points([(10.0, 0.0), (10.0, 10.0), (0.0, 10.0)])];
+        let left = left_of(
+            &square,
+            &[line((10.0, 0.0), (5.0, 0.0)), line((0.0, -5.0), (0.0, 15.0))],
+            1e-6,
+        );
+        let expected = [
+            points([(0.0, 0.0), (5.0, 0.0)]).to_vec(),
+            points([(10.0, 0.0), (10.0, 10.0), (0.0, 10.0)]),
+        ];
         let left: Vec<_> = left.expect("not whole").into_iter().map(|s| s.points).collect();
         assert_eq!(left, expected);
         // The middle of the upper side: one line around the corner where the ring begins.
         let left = left_of(&square, &[line((3.0, 10.0), (6.0, 10.0))], 1e-6).expect("not whole");
         assert_eq!(left.len(), 1);
-        assert!(left[0].points[0].distance(DVec2::new(3.0, 10.0)) < 1e-12 && left[0].points.len() == 6, "{left:?}");
+        assert!(
+            left[0].points[0].distance(DVec2::new(3.0, 10.0)) < 1e-12 && left[0].points.len() == 6,
+            "{left:?}"
+        );
     }
 }

@@ -1,14 +1,17 @@
-//! Whether two parts that may touch overlap: found from where their borders run, without moving anything.
+//! Whether two parts that may touch overlap: found from where their borders run, without moving
+//! anything.
 //!
-//! The border of one is divided where it meets the border of the other. Each stretch then lies outside, inside, or on the other
-//! border; inside is an overlap, and so is on it in the same direction, since material lies on the left of every contour.
+//! The border of one is divided where it meets the border of the other. Each stretch then lies
+//! outside, inside, or on the other border; inside is an overlap, and so is on it in the same
+//! direction, since material lies on the left of every contour.
 
 use glam::DVec2;
 
 use super::verify::{distance_to_segment, edges};
 use crate::geom::polygon::{Location, locate};
 
-/// Whether two parts, each an outline counter-clockwise and holes clockwise, overlap by more than `tolerance` mm.
+/// Whether two parts, each an outline counter-clockwise and holes clockwise, overlap by more than
+/// `tolerance` mm.
 pub(crate) fn overlap(a: &[Vec<DVec2>], b: &[Vec<DVec2>], tolerance: f64) -> bool {
     runs_inside(a, b, tolerance) || runs_inside(b, a, tolerance)
 }
@@ -19,7 +22,8 @@ fn runs_inside(a: &[Vec<DVec2>], b: &[Vec<DVec2>], tolerance: f64) -> bool {
         let length = p.distance(q);
         let grown = DVec2::splat(tolerance);
         let (low, high) = (p.min(q) - grown, p.max(q) + grown);
-        let is_near = |&&(r, s): &&(DVec2, DVec2)| r.max(s).cmpge(low).all() && r.min(s).cmple(high).all();
+        let is_near =
+            |&&(r, s): &&(DVec2, DVec2)| r.max(s).cmpge(low).all() && r.min(s).cmple(high).all();
         let near: Vec<(DVec2, DVec2)> = sides.iter().filter(is_near).copied().collect();
         let mut meets = vec![0.0, 1.0];
         near.iter().for_each(|&side| meets.extend(meetings((p, q), side, tolerance)));
@@ -30,8 +34,15 @@ fn runs_inside(a: &[Vec<DVec2>], b: &[Vec<DVec2>], tolerance: f64) -> bool {
     })
 }
 
-/// Whether the stretch around a point of a side runs through the material of `b`, whose sides nearby are given.
-fn is_in((p, q): (DVec2, DVec2), middle: DVec2, b: &[Vec<DVec2>], near: &[(DVec2, DVec2)], tolerance: f64) -> bool {
+/// Whether the stretch around a point of a side runs through the material of `b`, whose sides
+/// nearby are given.
+fn is_in(
+    (p, q): (DVec2, DVec2),
+    middle: DVec2,
+    b: &[Vec<DVec2>],
+    near: &[(DVec2, DVec2)],
+    tolerance: f64,
+) -> bool {
     let on = near.iter().find(|&&(r, s)| distance_to_segment(middle, r, s) <= tolerance);
     if let Some((r, s)) = on {
         return (q - p).dot(*s - *r) > 0.0;
@@ -41,7 +52,11 @@ fn is_in((p, q): (DVec2, DVec2), middle: DVec2, b: &[Vec<DVec2>], near: &[(DVec2
 }
 
 /// Where along `p`–`q`, from 0 to 1, the side `r`–`s` crosses it or has an end on it.
-fn meetings((p, q): (DVec2, DVec2), (r, s): (DVec2, DVec2), tolerance: f64) -> impl Iterator<Item = f64> {
+fn meetings(
+    (p, q): (DVec2, DVec2),
+    (r, s): (DVec2, DVec2),
+    tolerance: f64,
+) -> impl Iterator<Item = f64> {
     let (along, across) = (q - p, s - r);
     let ends = [r, s].into_iter().filter(move |&e| distance_to_segment(e, p, q) <= tolerance);
     let ends = ends.map(move |e| (e - p).dot(along) / along.length_squared());
@@ -68,7 +83,8 @@ mod tests {
         }
         // Into the notch of an L, and into a hole of the same size.
         assert!(!overlap(&[ell()], &moved(&square(20.0), 20.0, 20.0), 1e-6));
-        let hole: Vec<DVec2> = square(4.0).into_iter().rev().map(|p| p + DVec2::splat(3.0)).collect();
+        let hole: Vec<DVec2> =
+            square(4.0).into_iter().rev().map(|p| p + DVec2::splat(3.0)).collect();
         assert!(!overlap(&[square(10.0), hole], &moved(&square(4.0), 3.0, 3.0), 1e-6));
     }
 

@@ -26,20 +26,27 @@ struct Features<'a> {
     folds: Vec<&'a Fold>,
     /// The seams of the piece with the side, 0 or 1, that lies on it.
     seams: Vec<(&'a Seam, usize)>,
-    /// Stretches of seam with the side, 0 for forwards and 1 for its partner, that lies on the piece.
+    /// Stretches of seam with the side, 0 for forwards and 1 for its partner, that lies on the
+    /// piece.
     stretches: Vec<(&'a Stretch, usize)>,
 }
 
-fn features<'a>(net: &'a Net, stretches: &'a [Stretch]) -> Result<BTreeMap<PieceId, Features<'a>>, SheetError> {
-    let mut all: BTreeMap<PieceId, Features<'a>> = net.pieces.iter().map(|p| (p.id, Features::default())).collect();
+fn features<'a>(
+    net: &'a Net,
+    stretches: &'a [Stretch],
+) -> Result<BTreeMap<PieceId, Features<'a>>, SheetError> {
+    let mut all: BTreeMap<PieceId, Features<'a>> =
+        net.pieces.iter().map(|p| (p.id, Features::default())).collect();
     let unknown = |edge: String, piece| SheetError::UnknownPiece { edge, piece };
     for fold in &net.folds {
-        let here = all.get_mut(&fold.piece).ok_or_else(|| unknown(fold.id.to_string(), fold.piece))?;
+        let here =
+            all.get_mut(&fold.piece).ok_or_else(|| unknown(fold.id.to_string(), fold.piece))?;
         here.folds.push(fold);
     }
     for seam in &net.seams {
         for (i, side) in seam.sides.iter().enumerate() {
-            let here = all.get_mut(&side.piece).ok_or_else(|| unknown(seam.id.to_string(), side.piece))?;
+            let here =
+                all.get_mut(&side.piece).ok_or_else(|| unknown(seam.id.to_string(), side.piece))?;
             here.seams.push((seam, i));
         }
     }
@@ -80,8 +87,11 @@ pub(crate) fn draw(
             // The cut of a panel is not the border of its face: there are gaps, fingers and holes.
             let is_face = |f: &FlatFace| piece.outline == f.polygon && piece.holes.is_empty();
             let is_panel = piece.faces.len() == 1 && !is_face(&piece.faces[0]);
-            let mut obstacles: Vec<Vec<DVec2>> =
-                if jointed.is_some() || is_panel { shape.contours().cloned().collect() } else { Vec::new() };
+            let mut obstacles: Vec<Vec<DVec2>> = if jointed.is_some() || is_panel {
+                shape.contours().cloned().collect()
+            } else {
+                Vec::new()
+            };
             obstacles.extend(hinges.rows.iter().flat_map(|r| &r.slits).map(|slit| slit.to_vec()));
             let lettering = Lettering { net, piece, here, placed, obstacles: &obstacles, params };
             lettering.draw(&mut drawing, &mut report)?;
@@ -105,10 +115,21 @@ fn hold_of(params: &SheetParams) -> Result<(usize, f64), SheetError> {
     }
 }
 
-fn draw_cuts(drawing: &mut Drawing, shape: &CutShape, placed: &Placed, (tabs, width): (usize, f64)) {
+fn draw_cuts(
+    drawing: &mut Drawing,
+    shape: &CutShape,
+    placed: &Placed,
+    (tabs, width): (usize, f64),
+) {
     let id = shape.piece;
-    let stroke = |points: &[DVec2], closed| vec![Stroke { points: placed.apply_all(points), closed }];
-    drawing.add(MarkKind::Outline, id.to_string(), Some(id), hold(&placed.apply_all(&shape.outline), tabs, width));
+    let stroke =
+        |points: &[DVec2], closed| vec![Stroke { points: placed.apply_all(points), closed }];
+    drawing.add(
+        MarkKind::Outline,
+        id.to_string(),
+        Some(id),
+        hold(&placed.apply_all(&shape.outline), tabs, width),
+    );
     for (i, hole) in shape.holes.iter().enumerate() {
         drawing.add(MarkKind::Hole, format!("{id}-hole-{}", i + 1), Some(id), stroke(hole, true));
     }
@@ -117,7 +138,8 @@ fn draw_cuts(drawing: &mut Drawing, shape: &CutShape, placed: &Placed, (tabs, wi
     }
 }
 
-/// The folds of a piece; of one whose `cut` differs from its faces only what lies inside of the cut.
+/// The folds of a piece; of one whose `cut` differs from its faces only what lies inside of the
+/// cut.
 fn draw_folds(
     drawing: &mut Drawing,
     here: &Features<'_>,
@@ -137,9 +159,11 @@ fn draw_folds(
         if hinges.folds.contains(&fold.id) {
             continue;
         }
-        let parts = cut.map_or_else(|| vec![fold.segment], |piece| on_material(piece, fold.segment));
+        let parts =
+            cut.map_or_else(|| vec![fold.segment], |piece| on_material(piece, fold.segment));
         let parts = parts.into_iter().map(|part| part.map(|p| placed.apply(p)));
-        let strokes: Vec<Stroke> = parts.flat_map(|[a, b]| score.strokes(a, b, kind == MarkKind::ValleyFold)).collect();
+        let strokes: Vec<Stroke> =
+            parts.flat_map(|[a, b]| score.strokes(a, b, kind == MarkKind::ValleyFold)).collect();
         if strokes.is_empty() {
             report.unscored_folds += 1;
             continue;
@@ -214,7 +238,10 @@ impl Lettering<'_> {
         report.unnumbered_sides += lettered.unnumbered;
         report.unmarked_angles += lettered.unmarked_angles;
         for (kind, id, label) in lettered.labels {
-            let open = |points: &Vec<DVec2>| Stroke { points: self.placed.apply_all(points), closed: false };
+            let open = |points: &Vec<DVec2>| Stroke {
+                points: self.placed.apply_all(points),
+                closed: false,
+            };
             drawing.add(kind, id, Some(self.piece.id), label.strokes.iter().map(open).collect());
         }
         Ok(())
@@ -242,7 +269,9 @@ impl Lettering<'_> {
 
     fn name(&self, lettered: &mut Lettered) -> Result<(), SheetError> {
         let upright = DVec2::from_angle(-self.placed.rotation.to_radians());
-        if let Some((face, label)) = name_label(self.piece, upright, &lettered.taken, self.obstacles)? {
+        if let Some((face, label)) =
+            name_label(self.piece, upright, &lettered.taken, self.obstacles)?
+        {
             lettered.put(MarkKind::PieceName, format!("{}-name", self.piece.id), face, label);
             lettered.named = true;
         }
@@ -258,16 +287,20 @@ impl Lettering<'_> {
         for &(seam, i) in &self.here.seams {
             let text = seam.id.0.to_string();
             match self.beside(&text, &faces, (seam, i), false, &lettered.taken)? {
-                Some((at, label)) => {
-                    lettered.put(MarkKind::SeamNumber, format!("{}-number-{}", seam.id, i + 1), at, label)
-                }
+                Some((at, label)) => lettered.put(
+                    MarkKind::SeamNumber,
+                    format!("{}-number-{}", seam.id, i + 1),
+                    at,
+                    label,
+                ),
                 None => lettered.unnumbered += 1,
             }
         }
         Ok(())
     }
 
-    /// One number for every stretch, as near to its middle as there is room, and marks where only they show its ends.
+    /// One number for every stretch, as near to its middle as there is room, and marks where only
+    /// they show its ends.
     fn stretches(&self, lettered: &mut Lettered) -> Result<(), SheetError> {
         let faces = self.faces();
         for &(stretch, i) in &self.here.stretches {
@@ -287,7 +320,8 @@ impl Lettering<'_> {
                 }
             }
             let (first, forward) = stretch.seams[0];
-            let name = |what: &str| format!("{}-{what}-{}", self.net.seams[first].id, 1 + (forward ^ i));
+            let name =
+                |what: &str| format!("{}-{what}-{}", self.net.seams[first].id, 1 + (forward ^ i));
             match found {
                 Some((at, label)) => lettered.put(MarkKind::SeamNumber, name("number"), at, label),
                 None => lettered.unnumbered += 1,
@@ -325,13 +359,22 @@ impl Lettering<'_> {
             for at in fold.faces.iter().filter_map(|f| faces.get(f).copied()) {
                 let taken = lettered.taken.get(&at).map_or(&[][..], Vec::as_slice);
                 found = match found {
-                    None => number_label(&text, &self.piece.faces[at], fold.edge, fold.segment, taken, self.obstacles)?
-                        .map(|label| (at, label)),
+                    None => number_label(
+                        &text,
+                        &self.piece.faces[at],
+                        fold.edge,
+                        fold.segment,
+                        taken,
+                        self.obstacles,
+                    )?
+                    .map(|label| (at, label)),
                     some => some,
                 };
             }
             match found {
-                Some((at, label)) => lettered.put(MarkKind::FoldAngle, format!("{}-angle", fold.id), at, label),
+                Some((at, label)) => {
+                    lettered.put(MarkKind::FoldAngle, format!("{}-angle", fold.id), at, label)
+                }
                 None => lettered.unmarked_angles += 1,
             }
         }
@@ -350,7 +393,8 @@ impl Lettering<'_> {
         let Some(&at) = faces.get(&side.face) else { return Ok(None) };
         let taken = taken.get(&at).map_or(&[][..], Vec::as_slice);
         let put = if across { number_across } else { number_label };
-        let label = put(text, &self.piece.faces[at], seam.edge, side.segment, taken, self.obstacles)?;
+        let label =
+            put(text, &self.piece.faces[at], seam.edge, side.segment, taken, self.obstacles)?;
         Ok(label.map(|label| (at, label)))
     }
 }
@@ -362,14 +406,15 @@ impl Lettered {
     }
 }
 
-/// The reference square, clear of all pieces where there is room and else in the lower left corner; and a note in the
-/// lower margin, where it is high enough.
+/// The reference square, clear of all pieces where there is room and else in the lower left corner;
+/// and a note in the lower margin, where it is high enough.
 fn draw_info(drawing: &mut Drawing, stock: &Stock, params: &SheetParams) -> Result<(), SheetError> {
     let inset = stock.margin / 2.0;
     let room = stock.size - DVec2::splat(2.0 * inset);
     if let Some(side) = REFERENCE_SIDES.into_iter().find(|&s| s <= room.min_element()) {
         let low = free_corner(drawing, stock, side).unwrap_or(DVec2::splat(inset));
-        let corners = [(0.0, 0.0), (side, 0.0), (side, side), (0.0, side)].map(|(x, y)| low + DVec2::new(x, y));
+        let corners = [(0.0, 0.0), (side, 0.0), (side, side), (0.0, side)]
+            .map(|(x, y)| low + DVec2::new(x, y));
         let mut strokes = vec![Stroke { points: corners.to_vec(), closed: true }];
         let text = lettering(&format!("{side} MM"), side / 20.0)?;
         strokes.extend(text_strokes(text.strokes, low + DVec2::splat(side / 20.0)));
@@ -377,11 +422,16 @@ fn draw_info(drawing: &mut Drawing, stock: &Stock, params: &SheetParams) -> Resu
     }
     let short = |value: f64| (value * 1e4).round() / 1e4;
     let (width, height, kerf) = (short(stock.size.x), short(stock.size.y), short(params.kerf.mm()));
-    let text =
-        lettering(&format!("{}  {width} X {height} MM  KERF {kerf} MM", drawing.sheet), (stock.margin / 2.0).min(3.0))?;
+    let text = lettering(
+        &format!("{}  {width} X {height} MM  KERF {kerf} MM", drawing.sheet),
+        (stock.margin / 2.0).min(3.0),
+    )?;
     let fits = text.high.x + 2.0 * stock.margin <= stock.size.x;
     if stock.margin >= 2.0 && fits {
-        let strokes = text_strokes(text.strokes, DVec2::new(stock.margin, stock.margin / 4.0 + 0.25 * -text.low.y));
+        let strokes = text_strokes(
+            text.strokes,
+            DVec2::new(stock.margin, stock.margin / 4.0 + 0.25 * -text.low.y),
+        );
         drawing.add(MarkKind::Note, "note".to_owned(), None, strokes);
     }
     Ok(())
@@ -392,7 +442,8 @@ fn text_strokes(strokes: Vec<Vec<DVec2>>, at: DVec2) -> Vec<Stroke> {
     strokes.into_iter().map(|points| Stroke { points: moved(points), closed: false }).collect()
 }
 
-/// The lower left corner of a free square on the sheet, searched from the upper right on a grid of places.
+/// The lower left corner of a free square on the sheet, searched from the upper right on a grid of
+/// places.
 fn free_corner(drawing: &Drawing, stock: &Stock, side: f64) -> Option<DVec2> {
     const PLACES: usize = 24;
     let outlines = drawing.marks().filter(|m| m.kind == MarkKind::Outline).flat_map(|m| &m.strokes);
@@ -464,11 +515,15 @@ mod tests {
     fn lettering_crosses_no_cut_and_no_fold_and_the_square_no_piece() {
         let mut net = two_pieces();
         net.pieces.push(ring(PieceId(2)));
-        net.pieces.extend((3..20).map(|i| super::super::testing::piece(PieceId(i), random_convex(i as u64))));
+        net.pieces.extend(
+            (3..20).map(|i| super::super::testing::piece(PieceId(i), random_convex(i as u64))),
+        );
         let params = SheetParams { kerf: Length::from_mm(0.2), ..SheetParams::default() };
         let (drawing, _) = drawn(&net, &params);
         let lines = lines(&drawing);
-        let solid = |l: LayerKind| matches!(l, LayerKind::Score | LayerKind::CutInner | LayerKind::CutOuter);
+        let solid = |l: LayerKind| {
+            matches!(l, LayerKind::Score | LayerKind::CutInner | LayerKind::CutOuter)
+        };
         for (_, a, b) in lines.iter().filter(|(l, ..)| !solid(*l)) {
             for (_, c, d) in lines.iter().filter(|(l, ..)| solid(*l)) {
                 assert!(!segments_meet(*a, *b, *c, *d), "{a} {b} meets {c} {d}");
@@ -478,8 +533,11 @@ mod tests {
 
     #[test]
     fn labels_are_left_out_on_request_and_counted_when_too_small() {
-        for (labels, expected) in [(Labels::None, vec![]), (Labels::Pieces, vec!["P01-name", "P02-name"])] {
-            let (drawing, _) = drawn(&two_pieces(), &SheetParams { labels, ..SheetParams::default() });
+        for (labels, expected) in
+            [(Labels::None, vec![]), (Labels::Pieces, vec!["P01-name", "P02-name"])]
+        {
+            let (drawing, _) =
+                drawn(&two_pieces(), &SheetParams { labels, ..SheetParams::default() });
             assert_eq!(ids(&drawing, LayerKind::Engrave), expected);
         }
         // Too small even for a number of one digit.
@@ -509,8 +567,10 @@ mod tests {
         let (whole, _) = drawn(&two_pieces(), &SheetParams::default());
         let (drawing, _) = drawn(&two_pieces(), &held);
         assert!((whole.cut_length() - drawing.cut_length() - 3.0).abs() < 1e-9);
-        let error =
-            lay_out(&two_pieces(), &SheetParams { hold_width: Some(Length::from_mm(1.0)), ..Default::default() });
+        let error = lay_out(
+            &two_pieces(),
+            &SheetParams { hold_width: Some(Length::from_mm(1.0)), ..Default::default() },
+        );
         assert_eq!(error, Err(SheetError::HoldOption));
     }
 
@@ -518,17 +578,23 @@ mod tests {
     fn a_chain_of_narrow_faces_becomes_one_hinge_field() {
         let net = strips(8, 5.0, 80.0);
         let nest = NestParams { rotations: Rotation::Fixed, ..NestParams::default() };
-        let params = SheetParams { hinge: Some(Length::from_mm(6.0)), nest, ..SheetParams::default() };
+        let params =
+            SheetParams { hinge: Some(Length::from_mm(6.0)), nest, ..SheetParams::default() };
         let (drawing, _) = drawn(&net, &params);
-        // Six narrow faces between two wide ones: seven folds, none scored, and a row between every two.
+        // Six narrow faces between two wide ones: seven folds, none scored, and a row between every
+        // two.
         assert_eq!(ids(&drawing, LayerKind::Score), [""; 0]);
         let rows: Vec<&Mark> = drawing.marks().filter(|m| m.kind == MarkKind::Hinge).collect();
         assert_eq!(rows.len(), 7 + 6);
-        // No two neighbouring rows have a bridge in the same place: nothing is left unslit across three rows.
+        // No two neighbouring rows have a bridge in the same place: nothing is left unslit across
+        // three rows.
         let mut lines: Vec<(f64, Vec<[f64; 2]>)> = rows
             .iter()
             .map(|m| {
-                (m.strokes[0].points[0].x, m.strokes.iter().map(|s| sorted([s.points[0].y, s.points[1].y])).collect())
+                (
+                    m.strokes[0].points[0].x,
+                    m.strokes.iter().map(|s| sorted([s.points[0].y, s.points[1].y])).collect(),
+                )
             })
             .collect();
         lines.sort_by(|a, b| a.0.total_cmp(&b.0));

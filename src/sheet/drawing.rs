@@ -1,4 +1,5 @@
-//! What the machine does on every sheet, in order, without colours: layers of lines with a meaning and a name.
+//! What the machine does on every sheet, in order, without colours: layers of lines with a meaning
+//! and a name.
 
 use glam::DVec2;
 
@@ -18,7 +19,8 @@ pub struct Drawing {
     pub height: f64,
     /// All five layers in working order.
     pub layers: Vec<Layer>,
-    /// Whole contours of the parts that share lines with others, which the layers hold without what others draw.
+    /// Whole contours of the parts that share lines with others, which the layers hold without what
+    /// others draw.
     pub whole: Vec<Mark>,
 }
 
@@ -84,14 +86,16 @@ pub enum MarkKind {
 /// Lines that belong together under one name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mark {
-    /// Unique in its drawing: `P01`, `P01-hole-1`, `P01-slit-1`, `P01-name`, `E012`, `E013-number-1`, `E013-mark-1`,
-    /// `E012-angle`, `E013-flap`, `E012-slits-1`, `reference`, `note`.
+    /// Unique in its drawing: `P01`, `P01-hole-1`, `P01-slit-1`, `P01-name`, `E012`,
+    /// `E013-number-1`, `E013-mark-1`, `E012-angle`, `E013-flap`, `E012-slits-1`, `reference`,
+    /// `note`.
     pub id: String,
     /// What it means.
     pub kind: MarkKind,
     /// The piece that it is on, if on any.
     pub piece: Option<PieceId>,
-    /// Its lines; contours have exactly one unless they are held by tabs, letters and dashes several.
+    /// Its lines; contours have exactly one unless they are held by tabs, letters and dashes
+    /// several.
     pub strokes: Vec<Stroke>,
 }
 
@@ -106,7 +110,8 @@ pub struct Stroke {
 
 impl LayerKind {
     /// All layers in working order.
-    pub const ALL: [Self; 5] = [Self::Engrave, Self::Score, Self::CutInner, Self::CutOuter, Self::Info];
+    pub const ALL: [Self; 5] =
+        [Self::Engrave, Self::Score, Self::CutInner, Self::CutOuter, Self::Info];
 
     /// The name in files.
     pub const fn name(self) -> &'static str {
@@ -124,9 +129,13 @@ impl MarkKind {
     /// The layer that holds it.
     pub const fn layer(self) -> LayerKind {
         match self {
-            Self::PieceName | Self::SeamNumber | Self::FoldAngle | Self::SeamMark => LayerKind::Engrave,
+            Self::PieceName | Self::SeamNumber | Self::FoldAngle | Self::SeamMark => {
+                LayerKind::Engrave
+            }
             Self::FlapFold | Self::MountainFold | Self::ValleyFold => LayerKind::Score,
-            Self::Perforation | Self::Hinge | Self::Hole | Self::Slit | Self::NestedOutline => LayerKind::CutInner,
+            Self::Perforation | Self::Hinge | Self::Hole | Self::Slit | Self::NestedOutline => {
+                LayerKind::CutInner
+            }
             Self::Outline => LayerKind::CutOuter,
             Self::Reference | Self::Note => LayerKind::Info,
         }
@@ -165,7 +174,14 @@ impl Stroke {
 impl Drawing {
     pub(crate) fn new(sheet: &Sheet) -> Self {
         let layers = LayerKind::ALL.map(|kind| Layer { kind, marks: Vec::new() }).to_vec();
-        Self { sheet: sheet.id, part: None, width: sheet.width, height: sheet.height, layers, whole: Vec::new() }
+        Self {
+            sheet: sheet.id,
+            part: None,
+            width: sheet.width,
+            height: sheet.height,
+            layers,
+            whole: Vec::new(),
+        }
     }
 
     /// The name of its file without the ending: `sheet-01`; of a part `P01`.
@@ -192,7 +208,13 @@ impl Drawing {
         self.layers.iter().filter(|l| wanted(l.kind)).map(Layer::length).sum()
     }
 
-    pub(crate) fn add(&mut self, kind: MarkKind, id: String, piece: Option<PieceId>, strokes: Vec<Stroke>) {
+    pub(crate) fn add(
+        &mut self,
+        kind: MarkKind,
+        id: String,
+        piece: Option<PieceId>,
+        strokes: Vec<Stroke>,
+    ) {
         let layer = self.layers.iter_mut().find(|l| l.kind == kind.layer());
         layer.expect("a drawing has all layers").marks.push(Mark { id, kind, piece, strokes });
     }

@@ -7,8 +7,8 @@ use super::layout::SheetId;
 use crate::code::codes;
 use crate::net::PieceId;
 
-/// Why pieces could not be laid out. The last three variants are the findings of [`super::verify`]: our own bugs, reported
-/// instead of written to a file.
+/// Why pieces could not be laid out. The last three variants are the findings of [`super::verify`]:
+/// our own bugs, reported instead of written to a file.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SheetError {
@@ -33,7 +33,10 @@ pub enum SheetError {
         is_missing: bool,
     },
     /// A length for dashes where nothing is dashed.
-    #[error("{option} needs folds that are dashed or perforated; choose a score that is, or leave it out")]
+    #[error(
+        "{option} needs folds that are dashed or perforated; choose a score that is, or leave it \
+        out"
+    )]
     ScoreOption {
         /// The option, as a flag without its dashes.
         option: &'static str,
@@ -69,7 +72,8 @@ pub enum SheetError {
     },
     /// The margin leaves nothing of the sheet.
     #[error(
-        "a margin of {margin} mm and a kerf of {kerf} mm leaves no room on a {width} × {height} mm sheet; \
+        "a margin of {margin} mm and a kerf of {kerf} mm leaves no room on a {width} × {height} mm \
+        sheet; \
          choose a smaller margin or a larger sheet"
     )]
     MarginTooLarge {
@@ -104,12 +108,14 @@ pub enum SheetError {
     },
     /// Guillotine cuts with what they cannot do.
     #[error(
-        "guillotine cuts need whole rectangular sheets and no groups; leave out sheet-outline, defects and together"
+        "guillotine cuts need whole rectangular sheets and no groups; leave out sheet-outline, \
+        defects and together"
     )]
     GuillotineOption,
     /// Lines shared by parts, and a cut that has a width.
     #[error(
-        "common-line needs a kerf of 0, and it is {kerf} mm, given or the material's: a shared line would take {} mm of both \
+        "common-line needs a kerf of 0, and it is {kerf} mm, given or the material's: a shared \
+        line would take {} mm of both \
          parts; leave out common-line, or name no material and no kerf", kerf / 2.0
     )]
     CommonLineKerf {
@@ -132,7 +138,8 @@ pub enum SheetError {
         /// How many there are.
         pieces: usize,
     },
-    /// Pieces that fit on a sheet by their size, but for which no place was found even on an empty one.
+    /// Pieces that fit on a sheet by their size, but for which no place was found even on an empty
+    /// one.
     #[error("{}", no_place(pieces))]
     NoPlace {
         /// One piece, or those of one group.
@@ -156,7 +163,8 @@ pub enum SheetError {
     },
     /// A piece in the way of a defect or over the outline of the sheet.
     #[error(
-        "piece {piece} on sheet {sheet} is {distance} mm from {what} instead of {least} mm; please report this bug"
+        "piece {piece} on sheet {sheet} is {distance} mm from {what} instead of {least} mm; please \
+        report this bug"
     )]
     OnDefect {
         /// The piece.
@@ -171,7 +179,10 @@ pub enum SheetError {
         least: f64,
     },
     /// A piece that a guillotine cut would cut through.
-    #[error("a cut from edge to edge runs through piece {piece} on sheet {sheet}; please report this bug")]
+    #[error(
+        "a cut from edge to edge runs through piece {piece} on sheet {sheet}; please report this \
+        bug"
+    )]
     CutThrough {
         /// The piece.
         piece: PieceId,
@@ -180,7 +191,8 @@ pub enum SheetError {
     },
     /// An outline or hole that bounds no area.
     #[error(
-        "contour {contour} of piece {piece} has {corners} corners or numbers that are not finite; unfold the mesh again"
+        "contour {contour} of piece {piece} has {corners} corners or numbers that are not finite; \
+        unfold the mesh again"
     )]
     BadContour {
         /// The piece.
@@ -192,7 +204,8 @@ pub enum SheetError {
     },
     /// An outline that crosses itself or runs clockwise cannot grow by the kerf.
     #[error(
-        "the outline of piece {piece} falls into {parts} parts when it grows by half the kerf; unfold the mesh again"
+        "the outline of piece {piece} falls into {parts} parts when it grows by half the kerf; \
+        unfold the mesh again"
     )]
     KerfSplit {
         /// The piece.
@@ -201,7 +214,9 @@ pub enum SheetError {
         parts: usize,
     },
     /// A fold or seam names a piece that the net does not hold.
-    #[error("edge {edge} lies on piece {piece}, which the net does not hold; read the pieces file again")]
+    #[error(
+        "edge {edge} lies on piece {piece}, which the net does not hold; read the pieces file again"
+    )]
     UnknownPiece {
         /// The edge's name.
         edge: String,
@@ -225,7 +240,9 @@ pub enum SheetError {
         times: usize,
     },
     /// A cut line in the margin or off the sheet.
-    #[error("piece {piece} on sheet {sheet} reaches {by} mm over the margin; please report this bug")]
+    #[error(
+        "piece {piece} on sheet {sheet} reaches {by} mm over the margin; please report this bug"
+    )]
     OverMargin {
         /// The piece.
         piece: PieceId,
@@ -236,7 +253,8 @@ pub enum SheetError {
     },
     /// Two pieces nearer than the spacing.
     #[error(
-        "pieces {first} and {second} on sheet {sheet} are {distance} mm apart instead of {spacing} mm; please report this bug"
+        "pieces {first} and {second} on sheet {sheet} are {distance} mm apart instead of {spacing} \
+        mm; please report this bug"
     )]
     TooClose {
         /// One piece.
@@ -304,16 +322,20 @@ fn no_place(pieces: &[PieceId]) -> String {
     let names = names.join(", ") + more;
     match pieces.len() {
         1 => format!(
-            "no place on an empty sheet was found for piece {names}; use larger sheets, or look at their outline and defects"
+            "no place on an empty sheet was found for piece {names}; use larger sheets, or look at \
+            their outline and defects"
         ),
         _ => format!(
-            "pieces {names} are to lie on one sheet, but no place was found for all of them on an empty one; use larger sheets or smaller groups"
+            "pieces {names} are to lie on one sheet, but no place was found for all of them on an \
+            empty one; use larger sheets or smaller groups"
         ),
     }
 }
 
 fn joint_option(option: &str, joint: Joint, is_missing: bool) -> String {
-    let name = clap::ValueEnum::to_possible_value(&joint).map(|v| v.get_name().to_owned()).unwrap_or_default();
+    let name = clap::ValueEnum::to_possible_value(&joint)
+        .map(|v| v.get_name().to_owned())
+        .unwrap_or_default();
     if is_missing {
         format!("joint {name} needs the {option}; give it, for example 3mm")
     } else {
@@ -324,8 +346,13 @@ fn joint_option(option: &str, joint: Joint, is_missing: bool) -> String {
 fn too_large(pieces: &[TooLarge], width: f64, height: f64, margin: f64) -> String {
     let (usable_width, usable_height) = (width - 2.0 * margin, height - 2.0 * margin);
     let mut text = format!(
-        "{} too large for a {width} × {height} mm sheet ({usable_width} × {usable_height} mm inside the margin):",
-        if pieces.len() == 1 { "1 piece is".to_owned() } else { format!("{} pieces are", pieces.len()) },
+        "{} too large for a {width} × {height} mm sheet ({usable_width} × {usable_height} mm \
+        inside the margin):",
+        if pieces.len() == 1 {
+            "1 piece is".to_owned()
+        } else {
+            format!("{} pieces are", pieces.len())
+        },
     );
     for p in pieces.iter().take(LISTED) {
         text += &format!(" {} needs {:.1} × {:.1} mm", p.piece, p.width, p.height);

@@ -80,7 +80,8 @@ impl FromStr for Formats {
     fn from_str(text: &str) -> Result<Self, FormatsError> {
         let read = |word: &str| {
             let word = word.trim();
-            let found = SheetFormat::ALL.into_iter().find(|f| f.extension().eq_ignore_ascii_case(word));
+            let found =
+                SheetFormat::ALL.into_iter().find(|f| f.extension().eq_ignore_ascii_case(word));
             found.ok_or_else(|| FormatsError { word: word.to_owned() })
         };
         text.split(',').map(read).collect()
@@ -190,11 +191,14 @@ const GREEN: Rgb = [0, 255, 0];
 const GREY: Rgb = [128, 128, 128];
 
 impl Style {
-    /// The pen of a layer. Strokes are hairlines, never above 0.1 mm: wider ones are taken for areas to engrave.
+    /// The pen of a layer. Strokes are hairlines, never above 0.1 mm: wider ones are taken for
+    /// areas to engrave.
     pub fn pen(&self, layer: LayerKind) -> Pen {
         // In the order of `LayerKind::ALL`: engrave, score, inner cuts, outer cuts, info.
         let (colours, width) = match self.preset {
-            Preset::RedCut | Preset::Glowforge | Preset::Epilog => ([BLACK, BLUE, RED, RED, GREY], 0.0254),
+            Preset::RedCut | Preset::Glowforge | Preset::Epilog => {
+                ([BLACK, BLUE, RED, RED, GREY], 0.0254)
+            }
             Preset::Boxes => ([GREEN, GREEN, BLUE, BLACK, GREY], 0.1),
             // C03, C02, C01, C00 and T1 of its palette; T1 is a tool layer, which is never run.
             Preset::Lightburn => ([[0, 0xE0, 0], RED, BLUE, BLACK, [0xF3, 0x69, 0x26]], 0.0254),

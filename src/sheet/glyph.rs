@@ -11,7 +11,8 @@ const CAP: f64 = 6.0;
 /// From one letter to the next, in table units.
 const ADVANCE: f64 = 6.0;
 
-/// Strokes are separated by spaces; each is a row of points, a digit for x (0 to 4) and one for y (0 to 6) each.
+/// Strokes are separated by spaces; each is a row of points, a digit for x (0 to 4) and one for y
+/// (0 to 6) each.
 const TABLE: [(char, &str); 45] = [
     (' ', ""),
     ('A', "0004264440 0242"),
@@ -71,8 +72,8 @@ pub struct Lettering {
     pub high: DVec2,
 }
 
-/// Letters a text with capitals `height` mm high, from (0, 0) on along x, baseline on y = 0. The figures 6 and 9 are
-/// underlined, so that they can be told apart on a loose piece.
+/// Letters a text with capitals `height` mm high, from (0, 0) on along x, baseline on y = 0. The
+/// figures 6 and 9 are underlined, so that they can be told apart on a loose piece.
 ///
 /// # Errors
 /// [`SheetError::NoGlyph`] for a character other than A–Z, 0–9, space and `- . / # + : _ °`.
@@ -82,8 +83,11 @@ pub fn lettering(text: &str, height: f64) -> Result<Lettering, SheetError> {
     for (i, character) in text.chars().enumerate() {
         let origin = DVec2::new(i as f64 * ADVANCE, 0.0);
         let row = TABLE.iter().find(|(c, _)| *c == character);
-        let (_, glyph) = row.ok_or_else(|| SheetError::NoGlyph { character, text: text.to_owned() })?;
-        let mut add = |points: Vec<DVec2>| strokes.push(points.into_iter().map(|p| (origin + p) * unit).collect());
+        let (_, glyph) =
+            row.ok_or_else(|| SheetError::NoGlyph { character, text: text.to_owned() })?;
+        let mut add = |points: Vec<DVec2>| {
+            strokes.push(points.into_iter().map(|p| (origin + p) * unit).collect())
+        };
         glyph.split_whitespace().for_each(|stroke| add(points(stroke)));
         if matches!(character, '6' | '9') {
             add(vec![DVec2::new(0.0, -1.5), DVec2::new(4.0, -1.5)]);
@@ -95,7 +99,11 @@ pub fn lettering(text: &str, height: f64) -> Result<Lettering, SheetError> {
 
 fn points(stroke: &str) -> Vec<DVec2> {
     let digit = |b: u8| f64::from(b - b'0');
-    stroke.as_bytes().chunks_exact(2).map(|pair| DVec2::new(digit(pair[0]), digit(pair[1]))).collect()
+    stroke
+        .as_bytes()
+        .chunks_exact(2)
+        .map(|pair| DVec2::new(digit(pair[0]), digit(pair[1])))
+        .collect()
 }
 
 #[cfg(test)]

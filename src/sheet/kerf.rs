@@ -1,7 +1,8 @@
 //! Kerf: outlines grow by half the width of the cut, holes shrink by as much, corners stay sharp.
 //!
-//! Growing is done by `i_overlay` on a grid of 2⁶¹ steps across the piece, which unites what overlaps: no loops, at narrow
-//! notches neither. What growing closes is opened again by a single cut, see [`super::slit`].
+//! Growing is done by `i_overlay` on a grid of 2⁶¹ steps across the piece, which unites what
+//! overlaps: no loops, at narrow notches neither. What growing closes is opened again by a single
+//! cut, see [`super::slit`].
 
 use glam::DVec2;
 use i_overlay::mesh::float::outline::offset::OutlineOffset;
@@ -12,11 +13,12 @@ use super::slit::{notch_slits, take_spikes};
 use crate::geom::polygon::{bounds, signed_area};
 use crate::net::{Piece, PieceId};
 
-/// Corners sharper than this are cut off square: the mitre would reach more than four times the offset.
+/// Corners sharper than this are cut off square: the mitre would reach more than four times the
+/// offset.
 const SHARPEST_MITRE: f64 = 29.0;
 
-/// Corners straighter than this would be found only roughly, so they are cut off as well; the bevel lies less than a
-/// 10000th of the offset inside the mitre.
+/// Corners straighter than this would be found only roughly, so they are cut off as well; the bevel
+/// lies less than a 10000th of the offset inside the mitre.
 const STRAIGHTEST_MITRE: f64 = 1.0;
 
 /// What is cut to get one piece, in the piece's frame.
@@ -46,7 +48,8 @@ impl CutShape {
         let mut contours = Vec::new();
         let mut spikes = Vec::new();
         for (i, contour) in std::iter::once(&piece.outline).chain(&piece.holes).enumerate() {
-            let bad = || SheetError::BadContour { piece: piece.id, contour: i, corners: contour.len() };
+            let bad =
+                || SheetError::BadContour { piece: piece.id, contour: i, corners: contour.len() };
             if !contour.iter().all(|p| p.is_finite()) {
                 return Err(bad());
             }
@@ -88,19 +91,31 @@ impl CutShape {
     }
 }
 
-fn grown(piece: PieceId, contours: &[Vec<DVec2>], spikes: Vec<Vec<DVec2>>, kerf: f64) -> Result<CutShape, SheetError> {
+fn grown(
+    piece: PieceId,
+    contours: &[Vec<DVec2>],
+    spikes: Vec<Vec<DVec2>>,
+    kerf: f64,
+) -> Result<CutShape, SheetError> {
     let (low, high) = bounds(contours.iter().flatten()).unwrap_or_default();
-    // A kerf below the rounding of the coordinates moves nothing; the grid could not show it either.
+    // A kerf below the rounding of the coordinates moves nothing; the grid could not show it
+    // either.
     let coarse = 1e-12 * (high - low).length();
-    let shapes = if kerf > coarse { grow(contours, low.midpoint(high), kerf / 2.0) } else { vec![contours.to_vec()] };
+    let shapes = if kerf > coarse {
+        grow(contours, low.midpoint(high), kerf / 2.0)
+    } else {
+        vec![contours.to_vec()]
+    };
     let parts = shapes.len();
     let mut shape = shapes.into_iter().next().unwrap_or_default().into_iter();
-    let outline = shape.next().filter(|_| parts == 1).ok_or(SheetError::KerfSplit { piece, parts })?;
+    let outline =
+        shape.next().filter(|_| parts == 1).ok_or(SheetError::KerfSplit { piece, parts })?;
     let holes: Vec<Vec<DVec2>> = shape.collect();
     let lost_holes = (contours.len() - 1).saturating_sub(holes.len());
     // A notch that closes at its mouth only leaves a hole more, and its flaps together.
     let closed_mouths = (holes.len() + 1).saturating_sub(contours.len());
-    let mut grown = CutShape { piece, outline, holes, slits: Vec::new(), lost_holes, closed_notches: 0 };
+    let mut grown =
+        CutShape { piece, outline, holes, slits: Vec::new(), lost_holes, closed_notches: 0 };
     let (slits, closed) = notch_slits(contours, &spikes, &grown, kerf);
     (grown.slits, grown.closed_notches) = (slits, closed + closed_mouths);
     Ok(grown)
@@ -118,7 +133,8 @@ fn grow(contours: &[Vec<DVec2>], centre: DVec2, by: f64) -> Vec<Vec<Vec<DVec2>>>
         sharpened(straightened(points, by), SHORT_BEVEL * by)
     };
     let shapes = shape.outline_as::<i64>(&style);
-    // A notch just as wide as the kerf ends in a line that is cut on both its sides: the open cut of the notch is enough.
+    // A notch just as wide as the kerf ends in a line that is cut on both its sides: the open cut
+    // of the notch is enough.
     let to_points = |c| {
         let points = to_points(c);
         let (rest, _) = take_spikes(&points);
@@ -127,8 +143,8 @@ fn grow(contours: &[Vec<DVec2>], centre: DVec2, by: f64) -> Vec<Vec<Vec<DVec2>>>
     shapes.into_iter().map(|s| s.into_iter().map(to_points).collect()).collect()
 }
 
-/// A contour without the points that growing by `by` leaves on straight edges beside a mitre: where it turns by no more than
-/// rounding, no further from a corner than a mitre reaches.
+/// A contour without the points that growing by `by` leaves on straight edges beside a mitre: where
+/// it turns by no more than rounding, no further from a corner than a mitre reaches.
 fn straightened(points: Vec<DVec2>, by: f64) -> Vec<DVec2> {
     let n = points.len();
     let is_idle = |i: usize| {
@@ -144,14 +160,16 @@ fn straightened(points: Vec<DVec2>, by: f64) -> Vec<DVec2> {
 /// Turns below this, in radians, are rounding.
 const NO_TURN: f64 = 1e-6;
 
-/// Bevels shorter than this part of the offset become corners, where the edges around them turn by less than about 11°.
+/// Bevels shorter than this part of the offset become corners, where the edges around them turn by
+/// less than about 11°.
 const SHORT_BEVEL: f64 = 0.1;
 
 /// The cosine of that angle.
 const STRAIGHT: f64 = 0.98;
 
-/// A contour whose runs of edges shorter than `least` have given way to the corner of the edges around them. Growing cuts
-/// nearly straight corners off; such edges are shorter than any machine's step and look like lines drawn twice.
+/// A contour whose runs of edges shorter than `least` have given way to the corner of the edges
+/// around them. Growing cuts nearly straight corners off; such edges are shorter than any machine's
+/// step and look like lines drawn twice.
 fn sharpened(points: Vec<DVec2>, least: f64) -> Vec<DVec2> {
     let n = points.len();
     let at = |i: usize| points[i % n];
@@ -167,7 +185,12 @@ fn sharpened(points: Vec<DVec2>, least: f64) -> Vec<DVec2> {
         let corner = q + u * ((r - q).perp_dot(v) / u.perp_dot(v));
         // Only nearly straight corners; what cuts a needle off square stays.
         let is_straight = u.dot(-v) > STRAIGHT * u.length() * v.length();
-        if run > 0 && is_straight && corner.is_finite() && corner.distance(q) < least && corner.distance(r) < least {
+        if run > 0
+            && is_straight
+            && corner.is_finite()
+            && corner.distance(q) < least
+            && corner.distance(r) < least
+        {
             sharp.push(corner);
         } else {
             sharp.extend((i..=i + run).map(at));
@@ -193,7 +216,8 @@ mod tests {
         let n = contour.len();
         for i in 0..n {
             for j in 0..i {
-                let (a, b, c, d) = (contour[i], contour[(i + 1) % n], contour[j], contour[(j + 1) % n]);
+                let (a, b, c, d) =
+                    (contour[i], contour[(i + 1) % n], contour[j], contour[(j + 1) % n]);
                 assert!(!segments_cross(a, b, c, d), "edges {i} and {j} cross");
             }
         }
@@ -216,8 +240,9 @@ mod tests {
     #[test]
     fn nearly_straight_corners_stay_corners() {
         let n = 160;
-        let round: Vec<DVec2> =
-            (0..n).map(|i| 50.0 * DVec2::from_angle(f64::from(i) * std::f64::consts::TAU / f64::from(n))).collect();
+        let round: Vec<DVec2> = (0..n)
+            .map(|i| 50.0 * DVec2::from_angle(f64::from(i) * std::f64::consts::TAU / f64::from(n)))
+            .collect();
         let grown = cut(round.clone(), 0.15);
         assert_eq!(grown.outline.len(), round.len());
         let turned = cut(random_convex(5), 0.15);
@@ -237,7 +262,8 @@ mod tests {
         assert_eq!((lost.holes.len(), lost.lost_holes), (0, 1));
     }
 
-    /// A tab of 3 mm fits a slot of 3 mm after cutting, whatever the kerf: drawn, the tab is wider and the slot narrower by it.
+    /// A tab of 3 mm fits a slot of 3 mm after cutting, whatever the kerf: drawn, the tab is wider
+    /// and the slot narrower by it.
     #[test]
     fn a_tab_of_three_millimetres_fits_a_slot_of_three() {
         let tab = points([
@@ -255,11 +281,14 @@ mod tests {
         for kerf in [0.08, 0.2, 0.5] {
             let drawn_tab = cut(tab.clone(), kerf).outline;
             let tops = drawn_tab.iter().filter(|p| p.y > 22.0).map(|p| p.x);
-            let (low, high) = tops.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+            let (low, high) =
+                tops.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
             let slot = CutShape::of_piece(&plate, kerf).expect("a plate");
             let (from, to) = bounds(&slot.holes[0]).expect("a slot");
             let (drawn_tab, drawn_slot) = (high - low, to.y - from.y);
-            assert!((drawn_tab - (3.0 + kerf)).abs() < 1e-6 && (drawn_slot - (3.0 - kerf)).abs() < 1e-6);
+            assert!(
+                (drawn_tab - (3.0 + kerf)).abs() < 1e-6 && (drawn_slot - (3.0 - kerf)).abs() < 1e-6
+            );
             // The cut takes half its width on both sides of the line.
             assert!(((drawn_tab - kerf) - (drawn_slot + kerf)).abs() < 1e-6);
         }
@@ -303,8 +332,8 @@ mod tests {
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(48))]
-        /// Star-shaped outlines with spikes and notches: every corner of the grown contour keeps half the kerf, the contour
-        /// does not cross itself, and the piece lies inside.
+        /// Star-shaped outlines with spikes and notches: every corner of the grown contour keeps
+        /// half the kerf, the contour does not cross itself, and the piece lies inside.
         #[test]
         fn grown_outlines_keep_their_distance(radii in prop::collection::vec(2.0..60.0_f64, 5..24), kerf in 0.01..2.0_f64) {
             let n = radii.len() as f64;

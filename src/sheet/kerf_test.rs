@@ -1,8 +1,9 @@
 //! A coupon that tells the kerf of a material on a machine, and the slot that holds it.
 //!
-//! Above, a bar of ten blocks cut apart by single lines in a window: pushed to one side they leave a gap of eleven kerfs
-//! (eleven cuts lie side by side). Below, a comb with slots around the thickness, drawn without compensation: the kerf is
-//! the thickness less the drawn width of the slot that holds the material tight, so the two ways check one another.
+//! Above, a bar of ten blocks cut apart by single lines in a window: pushed to one side they leave
+//! a gap of eleven kerfs (eleven cuts lie side by side). Below, a comb with slots around the
+//! thickness, drawn without compensation: the kerf is the thickness less the drawn width of the
+//! slot that holds the material tight, so the two ways check one another.
 
 use glam::DVec2;
 
@@ -26,8 +27,8 @@ const TOOTH: f64 = 9.0;
 /// Height of lettering, in mm.
 const LETTERS: f64 = 2.5;
 
-/// Draws the coupon for a material of the given thickness in mm. `title` is engraved, its letters in capitals; letters
-/// without a glyph are left out.
+/// Draws the coupon for a material of the given thickness in mm. `title` is engraved, its letters
+/// in capitals; letters without a glyph are left out.
 ///
 /// # Errors
 /// [`SheetError::OutOfRange`] for a thickness that is not at least 0.3 mm, the narrowest slot.
@@ -40,12 +41,14 @@ pub fn kerf_coupon(thickness: f64, title: &str) -> Result<Drawing, SheetError> {
     let bar = DVec2::new(BLOCKS.0 as f64 * BLOCKS.1, BLOCKS.2);
     let width = comb.x.max(bar.x) + 2.0 * BORDER;
     let height = comb.y + bar.y + 3.0 * BORDER + 2.0 * LETTERS;
-    let sheet = Sheet { id: SheetId(0), width: tenths(width), height: tenths(height), ..Sheet::default() };
+    let sheet =
+        Sheet { id: SheetId(0), width: tenths(width), height: tenths(height), ..Sheet::default() };
     let mut drawing = Drawing::new(&sheet);
     draw_comb(&mut drawing, DVec2::splat(BORDER), comb, &slots, thickness)?;
     let low = DVec2::new(BORDER, comb.y + 2.0 * BORDER);
     draw_bar(&mut drawing, low, bar)?;
-    let title: String = title.to_uppercase().chars().filter(|&c| lettering(&c.to_string(), 1.0).is_ok()).collect();
+    let title: String =
+        title.to_uppercase().chars().filter(|&c| lettering(&c.to_string(), 1.0).is_ok()).collect();
     let words = if title.ends_with(" MM") { title } else { format!("{title}  {thickness} MM") };
     let at = DVec2::new(BORDER, low.y + bar.y + LETTERS);
     write(&mut drawing, MarkKind::PieceName, "title", &words, at)?;
@@ -60,7 +63,13 @@ fn slots(thickness: f64) -> Vec<f64> {
     (0..SLOTS.0).map(|i| thickness + widest - step * (SLOTS.0 - 1 - i) as f64).collect()
 }
 
-fn draw_comb(drawing: &mut Drawing, low: DVec2, size: DVec2, slots: &[f64], thickness: f64) -> Result<(), SheetError> {
+fn draw_comb(
+    drawing: &mut Drawing,
+    low: DVec2,
+    size: DVec2,
+    slots: &[f64],
+    thickness: f64,
+) -> Result<(), SheetError> {
     let top = low.y + size.y;
     let mut points = vec![low, low + DVec2::new(size.x, 0.0), low + size];
     let mut x = low.x + TOOTH;
@@ -69,11 +78,18 @@ fn draw_comb(drawing: &mut Drawing, low: DVec2, size: DVec2, slots: &[f64], thic
         notches.push([DVec2::new(x, top), DVec2::new(x + width, top)]);
         // Hundredths of a millimetre against the thickness, below the slot.
         let hundredths = ((width - thickness) * 100.0).round();
-        let words = if hundredths > 0.0 { format!("+{hundredths}") } else { format!("{hundredths}") };
+        let words =
+            if hundredths > 0.0 { format!("+{hundredths}") } else { format!("{hundredths}") };
         let text = lettering(&words, LETTERS)?;
         let middle = x + width / 2.0 - (text.low.x + text.high.x) / 2.0;
         let at = DVec2::new(middle, top - SLOTS.2 - 2.0 * LETTERS);
-        write(drawing, MarkKind::SeamNumber, &format!("slot-{}", i + 1), &words.replace("-0", "0"), at)?;
+        write(
+            drawing,
+            MarkKind::SeamNumber,
+            &format!("slot-{}", i + 1),
+            &words.replace("-0", "0"),
+            at,
+        )?;
         x += width + TOOTH;
     }
     for [left, right] in notches.into_iter().rev() {
@@ -88,18 +104,37 @@ fn draw_comb(drawing: &mut Drawing, low: DVec2, size: DVec2, slots: &[f64], thic
 fn draw_bar(drawing: &mut Drawing, low: DVec2, size: DVec2) -> Result<(), SheetError> {
     let corners = [(0.0, 0.0), (size.x, 0.0), (size.x, size.y), (0.0, size.y)];
     let points = corners.map(|(x, y)| low + DVec2::new(x, y)).to_vec();
-    drawing.add(MarkKind::Outline, "window".to_owned(), None, vec![Stroke { points, closed: true }]);
+    drawing.add(
+        MarkKind::Outline,
+        "window".to_owned(),
+        None,
+        vec![Stroke { points, closed: true }],
+    );
     for i in 1..BLOCKS.0 {
         let x = low.x + BLOCKS.1 * i as f64;
         let points = vec![DVec2::new(x, low.y), DVec2::new(x, low.y + size.y)];
-        drawing.add(MarkKind::Slit, format!("cut-{i}"), None, vec![Stroke { points, closed: false }]);
+        drawing.add(
+            MarkKind::Slit,
+            format!("cut-{i}"),
+            None,
+            vec![Stroke { points, closed: false }],
+        );
     }
     let words = format!("/{}", BLOCKS.0 + 1);
     write(drawing, MarkKind::PieceName, "divisor", &words, low + DVec2::splat(1.5))
 }
 
-fn write(drawing: &mut Drawing, kind: MarkKind, id: &str, words: &str, at: DVec2) -> Result<(), SheetError> {
-    let moved = |points: Vec<DVec2>| Stroke { points: points.into_iter().map(|p| p + at).collect(), closed: false };
+fn write(
+    drawing: &mut Drawing,
+    kind: MarkKind,
+    id: &str,
+    words: &str,
+    at: DVec2,
+) -> Result<(), SheetError> {
+    let moved = |points: Vec<DVec2>| Stroke {
+        points: points.into_iter().map(|p| p + at).collect(),
+        closed: false,
+    };
     let strokes = lettering(words, LETTERS)?.strokes.into_iter().map(moved).collect();
     drawing.add(kind, id.to_owned(), None, strokes);
     Ok(())
@@ -123,9 +158,13 @@ mod tests {
             let coupon = kerf_coupon(thickness, "Birch plywood").expect("a coupon");
             let points = coupon.marks().flat_map(|m| &m.strokes).flat_map(|s| &s.points);
             for p in points {
-                assert!(p.min_element() >= 0.0 && p.x <= coupon.width && p.y <= coupon.height, "{p}");
+                assert!(
+                    p.min_element() >= 0.0 && p.x <= coupon.width && p.y <= coupon.height,
+                    "{p}"
+                );
             }
-            let inner = coupon.layers.iter().find(|l| l.kind == LayerKind::CutInner).expect("a layer");
+            let inner =
+                coupon.layers.iter().find(|l| l.kind == LayerKind::CutInner).expect("a layer");
             assert_eq!(inner.marks.len(), BLOCKS.0 - 1);
         }
         assert!(kerf_coupon(0.1, "").is_err() && kerf_coupon(f64::NAN, "").is_err());

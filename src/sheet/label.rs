@@ -1,7 +1,9 @@
-//! Where lettering goes: names in the widest face of a piece, seam numbers along the edges, always inside one face.
+//! Where lettering goes: names in the widest face of a piece, seam numbers along the edges, always
+//! inside one face.
 //!
-//! A text that lies inside one face crosses neither a cut nor a fold. What does not fit at the least height is left out and
-//! counted: lettering that nobody can read only costs time on the machine.
+//! A text that lies inside one face crosses neither a cut nor a fold. What does not fit at the
+//! least height is left out and counted: lettering that nobody can read only costs time on the
+//! machine.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +12,9 @@ use glam::DVec2;
 use super::error::SheetError;
 use super::glyph::lettering;
 use super::verify::{distance_to_contour, edges};
-use crate::geom::polygon::{Location, bounds, centroid, locate, on_segment, segments_cross, signed_area};
+use crate::geom::polygon::{
+    Location, bounds, centroid, locate, on_segment, segments_cross, signed_area,
+};
 use crate::net::{FlatFace, Piece, Segment};
 
 /// Height of a piece's name, in mm.
@@ -46,11 +50,12 @@ pub(crate) struct Label {
 /// What is already lettered on the faces of a piece, by their index.
 pub(crate) type Taken = BTreeMap<usize, Vec<[DVec2; 4]>>;
 
-/// Contours of joints that lettering must keep clear of: the cut of a piece where it differs from its faces, and slits.
+/// Contours of joints that lettering must keep clear of: the cut of a piece where it differs from
+/// its faces, and slits.
 pub(crate) type Obstacles<'a> = &'a [Vec<DVec2>];
 
-/// The name of a piece, as large as fits beside what is taken, reading along `upright` where possible and else along a
-/// face's longest edge; with the index of the face that holds it.
+/// The name of a piece, as large as fits beside what is taken, reading along `upright` where
+/// possible and else along a face's longest edge; with the index of the face that holds it.
 pub(crate) fn name_label(
     piece: &Piece,
     upright: DVec2,
@@ -70,8 +75,10 @@ pub(crate) fn name_label(
         }
         for direction in [upright, along_longest_edge(polygon, upright)] {
             let beaten = best.as_ref().map_or(0.0, |(_, b)| b.height);
-            let free =
-                |l: &Label| is_free(polygon, l, taken.get(&i).map_or(&[], Vec::as_slice)) && is_clear(l, obstacles);
+            let free = |l: &Label| {
+                is_free(polygon, l, taken.get(&i).map_or(&[], Vec::as_slice))
+                    && is_clear(l, obstacles)
+            };
             if let Some(label) = largest_name(&text, &centres, direction, beaten, free)? {
                 best = Some((i, label));
             }
@@ -102,8 +109,9 @@ fn largest_name(
     Ok(None)
 }
 
-/// The number of a seam inside `face`, parallel to its edge, to be read from the middle of the face: its head is at the
-/// edge. `edge` are the mesh's vertices at the two ends of `segment`. Keeps clear of the frames in `taken`.
+/// The number of a seam inside `face`, parallel to its edge, to be read from the middle of the
+/// face: its head is at the edge. `edge` are the mesh's vertices at the two ends of `segment`.
+/// Keeps clear of the frames in `taken`.
 pub(crate) fn number_label(
     text: &str,
     face: &FlatFace,
@@ -144,8 +152,10 @@ fn beside(
     for height in heights(largest) {
         for t in [0.5, 0.38, 0.62, 0.26, 0.74] {
             let at = set(text, a.lerp(b, t), reading, height)?;
-            // The face lies on the left of its edges; the frame goes there until it is clear of the edge.
-            let reach = at.frame.iter().map(|&p| (p - a).dot(inwards)).fold(f64::INFINITY, f64::min);
+            // The face lies on the left of its edges; the frame goes there until it is clear of the
+            // edge.
+            let reach =
+                at.frame.iter().map(|&p| (p - a).dot(inwards)).fold(f64::INFINITY, f64::min);
             let mut label = at.moved(inwards * (CLEAR * height - reach));
             // Notches and holes of a joint lie along the edge: further in it may be free.
             let tries = if obstacles.is_empty() { 1 } else { 8 };
@@ -170,32 +180,38 @@ fn set(text: &str, centre: DVec2, direction: DVec2, height: f64) -> Result<Label
     let middle = letters.low.midpoint(letters.high);
     let put = |p: DVec2| centre + direction.rotate(p - middle);
     let strokes = letters.strokes.iter().map(|s| s.iter().map(|&p| put(p)).collect()).collect();
-    let (low, high) = (letters.low - DVec2::splat(CLEAR * height), letters.high + DVec2::splat(CLEAR * height));
+    let (low, high) =
+        (letters.low - DVec2::splat(CLEAR * height), letters.high + DVec2::splat(CLEAR * height));
     let frame = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)].map(put);
     Ok(Label { strokes, frame, height })
 }
 
 impl Label {
     fn moved(self, by: DVec2) -> Self {
-        let strokes = self.strokes.into_iter().map(|s| s.into_iter().map(|p| p + by).collect()).collect();
+        let strokes =
+            self.strokes.into_iter().map(|s| s.into_iter().map(|p| p + by).collect()).collect();
         Self { strokes, frame: self.frame.map(|p| p + by), height: self.height }
     }
 }
 
 /// Along the longest edge of a polygon, not upside down with respect to `upright`.
 fn along_longest_edge(polygon: &[DVec2], upright: DVec2) -> DVec2 {
-    let longest = edges(polygon).map(|(a, b)| b - a).reduce(|l, e| if e.length() > l.length() { e } else { l });
+    let longest = edges(polygon)
+        .map(|(a, b)| b - a)
+        .reduce(|l, e| if e.length() > l.length() { e } else { l });
     let direction = longest.unwrap_or(upright).normalize_or(upright);
     if direction.dot(upright) < 0.0 { -direction } else { direction }
 }
 
-/// A point far inside a polygon and from obstacles: the best of a grid, the centroid and the ears, then improved step by step.
+/// A point far inside a polygon and from obstacles: the best of a grid, the centroid and the ears,
+/// then improved step by step.
 fn inner_point(polygon: &[DVec2], obstacles: Obstacles<'_>) -> DVec2 {
     const GRID: usize = 12;
     let Some((low, high)) = bounds(polygon) else { return DVec2::ZERO };
     let n = polygon.len();
     let depth = |p: DVec2| {
-        if locate(polygon, p) != Location::Inside || !obstacles.iter().all(|o| is_on_material(o, p)) {
+        if locate(polygon, p) != Location::Inside || !obstacles.iter().all(|o| is_on_material(o, p))
+        {
             return -1.0;
         }
         let all = obstacles.iter().map(|o| distance_to_contour(p, o));
@@ -205,11 +221,13 @@ fn inner_point(polygon: &[DVec2], obstacles: Obstacles<'_>) -> DVec2 {
     let on_grid = |i: usize| low + cell * (DVec2::new((i % GRID) as f64, (i / GRID) as f64) + 0.5);
     let ears = (0..n).map(|i| (polygon[i] + polygon[(i + 1) % n] + polygon[(i + 2) % n]) / 3.0);
     let candidates = (0..GRID * GRID).map(on_grid).chain(ears).chain([centroid(polygon)]);
-    let deeper = |best: (f64, DVec2), p: DVec2| if depth(p) > best.0 { (depth(p), p) } else { best };
+    let deeper =
+        |best: (f64, DVec2), p: DVec2| if depth(p) > best.0 { (depth(p), p) } else { best };
     let mut best = candidates.fold((-1.0, low), deeper);
     let mut step = cell;
     for _ in 0..16 {
-        let around = (0..8).map(|k| best.1 + step * DVec2::from_angle(f64::from(k) * std::f64::consts::FRAC_PI_4));
+        let around = (0..8)
+            .map(|k| best.1 + step * DVec2::from_angle(f64::from(k) * std::f64::consts::FRAC_PI_4));
         let found = around.fold(best, deeper);
         step = if found.0 > best.0 { step } else { step / 2.0 };
         best = found;
@@ -222,15 +240,18 @@ fn is_free(polygon: &[DVec2], label: &Label, taken: &[[DVec2; 4]]) -> bool {
     taken.iter().all(|frame| !overlap(frame, &label.frame)) && frame_inside(polygon, &label.frame)
 }
 
-/// Whether a label neither crosses an obstacle nor has one inside, nor lies in a notch or hole that is cut away.
+/// Whether a label neither crosses an obstacle nor has one inside, nor lies in a notch or hole that
+/// is cut away.
 pub(crate) fn is_clear(label: &Label, obstacles: Obstacles<'_>) -> bool {
     obstacles.iter().all(|o| is_on_material(o, label.frame[0]))
         && obstacles.iter().all(|o| {
-            !borders_meet(o, &label.frame) && o.first().is_none_or(|&p| locate(&label.frame, p) == Location::Outside)
+            !borders_meet(o, &label.frame)
+                && o.first().is_none_or(|&p| locate(&label.frame, p) == Location::Outside)
         })
 }
 
-/// Whether a point lies on the material side of an obstacle: outlines run counter-clockwise, holes clockwise, slits have no inside.
+/// Whether a point lies on the material side of an obstacle: outlines run counter-clockwise, holes
+/// clockwise, slits have no inside.
 fn is_on_material(obstacle: &[DVec2], p: DVec2) -> bool {
     (locate(obstacle, p) == Location::Inside) == (obstacle.len() > 2 && signed_area(obstacle) > 0.0)
 }
@@ -241,7 +262,9 @@ fn frame_inside(polygon: &[DVec2], frame: &[DVec2; 4]) -> bool {
 }
 
 fn overlap(a: &[DVec2; 4], b: &[DVec2; 4]) -> bool {
-    borders_meet(a, b) || locate(a, b[0]) != Location::Outside || locate(b, a[0]) != Location::Outside
+    borders_meet(a, b)
+        || locate(a, b[0]) != Location::Outside
+        || locate(b, a[0]) != Location::Outside
 }
 
 /// Whether two closed contours touch or cross, exactly.
@@ -280,9 +303,15 @@ mod tests {
     fn names_lie_inside_squares_ells_rings_and_slivers() {
         let sliver = points([(0.0, 0.0), (90.0, 60.0), (86.0, 62.0)]);
         let ring = ring(PieceId(7));
-        for piece in [piece(PieceId(0), square(30.0)), piece(PieceId(1), ell()), piece(PieceId(2), sliver), ring] {
-            let (_, label) =
-                name_label(&piece, DVec2::X, &Taken::new(), &[]).expect("known letters").expect("room for a name");
+        for piece in [
+            piece(PieceId(0), square(30.0)),
+            piece(PieceId(1), ell()),
+            piece(PieceId(2), sliver),
+            ring,
+        ] {
+            let (_, label) = name_label(&piece, DVec2::X, &Taken::new(), &[])
+                .expect("known letters")
+                .expect("room for a name");
             assert!(label.height >= LEAST_HEIGHT);
             assert_clear(&piece, &label);
         }
@@ -292,19 +321,22 @@ mod tests {
 
     #[test]
     fn the_name_of_a_frame_lies_beside_its_hole() {
-        let hole: Vec<DVec2> = square(80.0).into_iter().rev().map(|p| p + DVec2::splat(20.0)).collect();
+        let hole: Vec<DVec2> =
+            square(80.0).into_iter().rev().map(|p| p + DVec2::splat(20.0)).collect();
         let mut frame = piece(PieceId(0), square(120.0));
         frame.holes = vec![hole.clone()];
         let contours = [square(120.0), hole];
-        let (_, label) = name_label(&frame, DVec2::X, &Taken::new(), &contours).expect("letters").expect("room");
+        let (_, label) =
+            name_label(&frame, DVec2::X, &Taken::new(), &contours).expect("letters").expect("room");
         assert_clear(&frame, &label);
         assert_eq!(label.height, NAME_HEIGHT);
     }
 
     #[test]
     fn a_large_square_gets_the_full_height_upright() {
-        let (_, label) =
-            name_label(&piece(PieceId(0), square(50.0)), DVec2::Y, &Taken::new(), &[]).expect("letters").expect("room");
+        let (_, label) = name_label(&piece(PieceId(0), square(50.0)), DVec2::Y, &Taken::new(), &[])
+            .expect("letters")
+            .expect("room");
         assert_eq!(label.height, NAME_HEIGHT);
         let reading = (label.frame[1] - label.frame[0]).normalize();
         assert!(reading.distance(DVec2::Y) < 1e-12);
@@ -314,10 +346,12 @@ mod tests {
     fn numbers_stand_inside_their_edge_with_the_head_to_it() {
         let piece = piece(PieceId(0), square(30.0));
         let face = &piece.faces[0];
-        for (edge, segment) in
-            [([0, 1], [piece.outline[0], piece.outline[1]]), ([1, 0], [piece.outline[1], piece.outline[0]])]
-        {
-            let label = number_label("12", face, edge, segment, &[], &[]).expect("letters").expect("room");
+        for (edge, segment) in [
+            ([0, 1], [piece.outline[0], piece.outline[1]]),
+            ([1, 0], [piece.outline[1], piece.outline[0]]),
+        ] {
+            let label =
+                number_label("12", face, edge, segment, &[], &[]).expect("letters").expect("room");
             assert_clear(&piece, &label);
             // The lower edge: reading from the middle, right is left.
             assert!((label.frame[1] - label.frame[0]).normalize().distance(-DVec2::X) < 1e-12);
@@ -334,13 +368,23 @@ mod tests {
         let segment = [piece.outline[0], piece.outline[1]];
         // A notch from the lower edge, wide and deep enough for a number.
         let notch = [(20.0, 0.0), (20.0, 12.0), (40.0, 12.0), (40.0, 0.0)];
-        let cut = [vec![DVec2::ZERO], points(notch), points([(60.0, 0.0), (60.0, 60.0), (0.0, 60.0)])].concat();
-        let label = number_label("12", &piece.faces[0], [0, 1], segment, &[], std::slice::from_ref(&cut));
+        let cut =
+            [vec![DVec2::ZERO], points(notch), points([(60.0, 0.0), (60.0, 60.0), (0.0, 60.0)])]
+                .concat();
+        let label =
+            number_label("12", &piece.faces[0], [0, 1], segment, &[], std::slice::from_ref(&cut));
         let label = label.expect("letters").expect("room beside or behind the notch");
         let in_notch = label.frame.iter().all(|p| locate(&points(notch), *p) == Location::Inside);
-        assert!(!in_notch && label.frame.iter().all(|p| locate(&cut, *p) == Location::Inside), "{:?}", label.frame);
+        assert!(
+            !in_notch && label.frame.iter().all(|p| locate(&cut, *p) == Location::Inside),
+            "{:?}",
+            label.frame
+        );
         let hole = points([(10.0, 10.0), (10.0, 50.0), (50.0, 50.0), (50.0, 10.0)]);
-        assert!(!is_clear(&set("1", DVec2::splat(30.0), DVec2::X, 3.0).expect("a letter"), &[square(60.0), hole]));
+        assert!(!is_clear(
+            &set("1", DVec2::splat(30.0), DVec2::X, 3.0).expect("a letter"),
+            &[square(60.0), hole]
+        ));
         let slit = points([(0.0, 50.0), (60.0, 50.0)]);
         assert!(is_clear(&set("1", DVec2::splat(30.0), DVec2::X, 3.0).expect("a letter"), &[slit]));
     }
@@ -349,12 +393,19 @@ mod tests {
     fn a_taken_place_is_avoided_and_a_short_edge_gets_no_number() {
         let piece = piece(PieceId(0), square(60.0));
         let segment = [piece.outline[0], piece.outline[1]];
-        let first = number_label("12", &piece.faces[0], [0, 1], segment, &[], &[]).expect("letters").expect("room");
-        let second =
-            number_label("13", &piece.faces[0], [0, 1], segment, &[first.frame], &[]).expect("letters").expect("room");
+        let first = number_label("12", &piece.faces[0], [0, 1], segment, &[], &[])
+            .expect("letters")
+            .expect("room");
+        let second = number_label("13", &piece.faces[0], [0, 1], segment, &[first.frame], &[])
+            .expect("letters")
+            .expect("room");
         assert!(!overlap(&first.frame, &second.frame));
         let small = self::piece(PieceId(0), square(3.0));
         let segment = [small.outline[0], small.outline[1]];
-        assert!(number_label("12", &small.faces[0], [0, 1], segment, &[], &[]).expect("letters").is_none());
+        assert!(
+            number_label("12", &small.faces[0], [0, 1], segment, &[], &[])
+                .expect("letters")
+                .is_none()
+        );
     }
 }

@@ -47,9 +47,11 @@ pub struct Sheet {
     pub height: f64,
     /// The pieces on it, ascending by name.
     pub placed: Vec<Placed>,
-    /// Which of the sheets at hand it is: their order in the parameter `stock`, then those of the usual size.
+    /// Which of the sheets at hand it is: their order in the parameter `stock`, then those of the
+    /// usual size.
     pub stock: usize,
-    /// Of the last sheet, the corners of the rectangle that is left whole, when it is worth keeping.
+    /// Of the last sheet, the corners of the rectangle that is left whole, when it is worth
+    /// keeping.
     pub offcut: Option<[DVec2; 2]>,
     /// Cuts from edge to edge in the order in which they are made; only for guillotine layouts.
     pub cuts: Vec<[DVec2; 2]>,
@@ -116,13 +118,15 @@ pub struct SheetReport {
     pub unscored_folds: usize,
     /// Holes narrower than the kerf, which nothing can cut.
     pub lost_holes: usize,
-    /// Notches narrower than the kerf that no single cut could open from end to end: the flaps hang together there.
+    /// Notches narrower than the kerf that no single cut could open from end to end: the flaps hang
+    /// together there.
     pub closed_notches: usize,
     /// Folds without room for their angle, where angles were asked for.
     pub unmarked_angles: usize,
     /// Length of the lines that two parts share and that are cut once, in mm.
     pub shared_length: f64,
-    /// What is left between two parts and the least that the material wants, in mm, when that is more.
+    /// What is left between two parts and the least that the material wants, in mm, when that is
+    /// more.
     pub narrow_spacing: Option<[f64; 2]>,
     /// Whether the search was stopped before its effort was used up.
     pub is_stopped: bool,
@@ -143,7 +147,8 @@ pub struct SheetSet {
     pub report: SheetReport,
 }
 
-/// Whether a piece, kerf included, fits on an empty sheet at an angle that is allowed. Every piece fits on `sheet = none`.
+/// Whether a piece, kerf included, fits on an empty sheet at an angle that is allowed. Every piece
+/// fits on `sheet = none`.
 ///
 /// # Errors
 /// As [`lay_out`], for the parameters and the piece's contours; a piece too large is no error here.
@@ -156,11 +161,11 @@ pub fn fits(piece: &Piece, params: &SheetParams) -> Result<bool, SheetError> {
 /// Places, letters, draws and measures all pieces of a net. For `sheet = none` everything is empty.
 ///
 /// # Errors
-/// [`SheetError::OutOfRange`], [`SheetError::MarginTooLarge`], [`SheetError::JointOption`], [`SheetError::FlapAngle`],
-/// [`SheetError::BadPolygon`], [`SheetError::GuillotineOption`] and [`SheetError::NoSuchPiece`] for
-/// parameters; [`SheetError::PiecesTooLarge`] with all
-/// pieces that fit at no angle, so that they can be split; [`SheetError::NoPlace`] for pieces that outlines, defects and
-/// groups leave no place for; [`SheetError::BadContour`], [`SheetError::KerfSplit`] and
+/// [`SheetError::OutOfRange`], [`SheetError::MarginTooLarge`], [`SheetError::JointOption`],
+/// [`SheetError::FlapAngle`], [`SheetError::BadPolygon`], [`SheetError::GuillotineOption`] and
+/// [`SheetError::NoSuchPiece`] for parameters; [`SheetError::PiecesTooLarge`] with all pieces that
+/// fit at no angle, so that they can be split; [`SheetError::NoPlace`] for pieces that outlines,
+/// defects and groups leave no place for; [`SheetError::BadContour`], [`SheetError::KerfSplit`] and
 /// [`SheetError::UnknownPiece`] for a broken net; what [`verify`] finds, for a bug of ours.
 pub fn lay_out(net: &Net, params: &SheetParams) -> Result<SheetSet, SheetError> {
     lay_out_watched(net, params, &Silent)
@@ -170,7 +175,11 @@ pub fn lay_out(net: &Net, params: &SheetParams) -> Result<SheetSet, SheetError> 
 ///
 /// # Errors
 /// As [`lay_out`].
-pub fn lay_out_watched(net: &Net, params: &SheetParams, progress: &dyn Progress) -> Result<SheetSet, SheetError> {
+pub fn lay_out_watched(
+    net: &Net,
+    params: &SheetParams,
+    progress: &dyn Progress,
+) -> Result<SheetSet, SheetError> {
     params.check_material()?;
     let Some(sheets) = params.sheets()? else {
         return Ok(SheetSet::default());
@@ -181,10 +190,15 @@ pub fn lay_out_watched(net: &Net, params: &SheetParams, progress: &dyn Progress)
     let jointed = join(net, params)?;
     let bare = net;
     let net = jointed.as_ref().map_or(net, |j| &j.net);
-    let shapes = net.pieces.iter().map(|p| CutShape::of_piece(p, params.kerf.mm())).collect::<Result<Vec<_>, _>>()?;
+    let shapes = net
+        .pieces
+        .iter()
+        .map(|p| CutShape::of_piece(p, params.kerf.mm()))
+        .collect::<Result<Vec<_>, _>>()?;
     let mut layout = place_all(net, &shapes, (params, &sheets), progress)?;
     let usual = &sheets[sheets.len() - 1].stock;
-    let (mut drawings, mut report) = draw(net, &shapes, &layout, usual, (params, &stretches, jointed.as_ref()))?;
+    let (mut drawings, mut report) =
+        draw(net, &shapes, &layout, usual, (params, &stretches, jointed.as_ref()))?;
     for (drawing, sheet) in drawings.iter_mut().zip(&layout.sheets) {
         if params.nest.common_line == CommonLine::On {
             report.shared_length += drawing.cut_once(6.0 * sheets[sheet.stock].stock.rounding());
@@ -212,7 +226,9 @@ fn check_names(net: &Net, params: &SheetParams) -> Result<(), SheetError> {
     let turned = params.nest.rotate.0.keys().map(|&piece| ("rotate", piece));
     let grouped = params.nest.together.0.iter().flatten().map(|&piece| ("together", piece));
     match turned.chain(grouped).find(|(_, piece)| !known.contains(piece)) {
-        Some((name, piece)) => Err(SheetError::NoSuchPiece { name, piece, pieces: net.pieces.len() }),
+        Some((name, piece)) => {
+            Err(SheetError::NoSuchPiece { name, piece, pieces: net.pieces.len() })
+        }
         None => Ok(()),
     }
 }
@@ -231,20 +247,28 @@ fn place_all(
         .filter(|(_, c)| c.poses.iter().all(Option::is_none))
         .map(|(piece, c)| {
             let least = smallest_box(&c.shape.outline);
-            TooLarge { piece: piece.id, width: least.width, height: least.height, faces: piece.faces.len() }
+            TooLarge {
+                piece: piece.id,
+                width: least.width,
+                height: least.height,
+                faces: piece.faces.len(),
+            }
         })
         .collect();
     if !too_large.is_empty() {
         let largest = |s: &&StockSheet| s.stock.size.x * s.stock.size.y;
-        let stock = sheets.iter().max_by(|a, b| largest(a).total_cmp(&largest(b))).map_or(sheets[0].stock, |s| s.stock);
+        let stock = sheets
+            .iter()
+            .max_by(|a, b| largest(a).total_cmp(&largest(b)))
+            .map_or(sheets[0].stock, |s| s.stock);
         let (width, height, margin) = (stock.size.x, stock.size.y, stock.margin);
         return Err(SheetError::PiecesTooLarge { pieces: too_large, width, height, margin });
     }
     if shapes.is_empty() {
         return Ok(Layout::default());
     }
-    let laid = lay(&candidates, sheets, params, progress).map_err(|no_place| SheetError::NoPlace {
-        pieces: no_place.pieces.iter().map(|&i| shapes[i].piece).collect(),
+    let laid = lay(&candidates, sheets, params, progress).map_err(|no_place| {
+        SheetError::NoPlace { pieces: no_place.pieces.iter().map(|&i| shapes[i].piece).collect() }
     })?;
     Ok(layout_of(shapes, &laid, sheets))
 }
@@ -253,7 +277,8 @@ fn layout_of(shapes: &[CutShape], laid: &Laid, stock: &[StockSheet]) -> Layout {
     let mut bins: BTreeMap<usize, (Vec<Placed>, DVec2)> = BTreeMap::new();
     for (shape, lying) in shapes.iter().zip(&laid.lying) {
         let rotation = rounded(rounded(lying.angle).rem_euclid(360.0));
-        let placed = Placed { piece: shape.piece, x: rounded(lying.at.x), y: rounded(lying.at.y), rotation };
+        let placed =
+            Placed { piece: shape.piece, x: rounded(lying.at.x), y: rounded(lying.at.y), rotation };
         let (_, high) = bounds(&placed.apply_all(&shape.outline)).unwrap_or_default();
         let here = bins.entry(lying.bin).or_default();
         here.0.push(placed);
@@ -267,7 +292,15 @@ fn layout_of(shapes: &[CutShape], laid: &Laid, stock: &[StockSheet]) -> Layout {
         let is_whole = stock[which].outline.is_empty();
         let offcut = offcut(size, used, spacing).filter(|_| Some(bin) == last && is_whole);
         let cuts = laid.cuts.get(bin).cloned().unwrap_or_default();
-        Sheet { id: SheetId(i), width: rounded(size.x), height: rounded(size.y), placed, stock: which, offcut, cuts }
+        Sheet {
+            id: SheetId(i),
+            width: rounded(size.x),
+            height: rounded(size.y),
+            placed,
+            stock: which,
+            offcut,
+            cuts,
+        }
     });
     let sheets: Vec<Sheet> = sheets.collect();
     let area: f64 = shapes.iter().map(CutShape::area).sum();
@@ -276,8 +309,8 @@ fn layout_of(shapes: &[CutShape], laid: &Laid, stock: &[StockSheet]) -> Layout {
     Layout { sheets, density, cut_length: 0.0, score_length: 0.0 }
 }
 
-/// What the sheet itself is like, on the layer that is never machined: its outline, its defects, the cuts from edge to edge and
-/// where the offcut begins.
+/// What the sheet itself is like, on the layer that is never machined: its outline, its defects,
+/// the cuts from edge to edge and where the offcut begins.
 fn draw_sheet(drawing: &mut Drawing, sheet: &Sheet, stock: &StockSheet) {
     let mut note = |id: String, points: Vec<DVec2>, closed| {
         drawing.add(MarkKind::Note, id, None, vec![Stroke { points, closed }]);
@@ -356,7 +389,8 @@ mod tests {
     #[test]
     fn a_long_sliver_lies_along_the_diagonal() {
         let sliver = [(0.0, 0.0), (650.0, 0.0), (650.0, 4.0)].map(DVec2::from).to_vec();
-        let set = lay_out(&net_of(vec![sliver]), &SheetParams::default()).expect("fits along the diagonal");
+        let set = lay_out(&net_of(vec![sliver]), &SheetParams::default())
+            .expect("fits along the diagonal");
         let rotation = set.layout.sheets[0].placed[0].rotation;
         assert!(rotation % 90.0 > 10.0, "{rotation}");
     }
@@ -389,7 +423,8 @@ mod tests {
         contours.extend(vec![triangle; 10]);
         contours.extend(vec![bar; 5]);
         let mut net = net_of(contours);
-        let hole: Vec<DVec2> = square(80.0).into_iter().rev().map(|p| p + DVec2::splat(20.0)).collect();
+        let hole: Vec<DVec2> =
+            square(80.0).into_iter().rev().map(|p| p + DVec2::splat(20.0)).collect();
         net.pieces[..3].iter_mut().for_each(|p| p.holes = vec![hole.clone()]);
         for seed in 0..4 {
             let nest = NestParams {
@@ -399,7 +434,11 @@ mod tests {
                 nest_seed: seed,
                 ..NestParams::default()
             };
-            let params = SheetParams { sheet: SheetSize::of_mm(300.0, 250.0), nest, ..SheetParams::default() };
+            let params = SheetParams {
+                sheet: SheetSize::of_mm(300.0, 250.0),
+                nest,
+                ..SheetParams::default()
+            };
             let set = lay_out(&net, &params).expect("all fit");
             assert_eq!(set.report.unnamed_pieces, []);
         }
@@ -410,16 +449,29 @@ mod tests {
         let params = SheetParams { sheet: SheetSize::None, ..SheetParams::default() };
         let set = lay_out(&net_of(vec![square(1e6)]), &params).expect("everything fits nowhere");
         assert!(set.layout.sheets.is_empty() && set.drawings.is_empty());
-        assert_eq!(lay_out(&net_of(vec![]), &SheetParams::default()).expect("nothing to place").layout.sheets, []);
+        assert_eq!(
+            lay_out(&net_of(vec![]), &SheetParams::default())
+                .expect("nothing to place")
+                .layout
+                .sheets,
+            []
+        );
     }
 
     #[test]
     fn a_broken_outline_is_an_error_and_no_panic() {
-        for contour in [vec![], vec![DVec2::ZERO, DVec2::ONE], vec![DVec2::ZERO, DVec2::X, DVec2::splat(f64::NAN)]] {
+        for contour in [
+            vec![],
+            vec![DVec2::ZERO, DVec2::ONE],
+            vec![DVec2::ZERO, DVec2::X, DVec2::splat(f64::NAN)],
+        ] {
             for kerf in [0.0, 0.1] {
                 let params = SheetParams { kerf: Length::from_mm(kerf), ..SheetParams::default() };
                 let result = lay_out(&net_of(vec![contour.clone()]), &params);
-                assert!(matches!(result, Err(SheetError::BadContour { contour: 0, .. })), "{result:?}");
+                assert!(
+                    matches!(result, Err(SheetError::BadContour { contour: 0, .. })),
+                    "{result:?}"
+                );
             }
         }
     }

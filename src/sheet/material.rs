@@ -10,7 +10,8 @@ use super::layout::SheetSet;
 use super::params::SheetParams;
 use crate::units::Length;
 
-/// A material on a machine. In files every length may have a unit; speeds are millimetres per second.
+/// A material on a machine. In files every length may have a unit; speeds are millimetres per
+/// second.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
@@ -68,10 +69,13 @@ impl<'de> Deserialize<'de> for Hex {
     fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let text = String::deserialize(deserializer)?;
         let digits = text.strip_prefix('#').filter(|d| d.len() == 6 && d.is_ascii());
-        let channel = |i: usize| digits.and_then(|d| u8::from_str_radix(&d[2 * i..2 * i + 2], 16).ok());
+        let channel =
+            |i: usize| digits.and_then(|d| u8::from_str_radix(&d[2 * i..2 * i + 2], 16).ok());
         match (channel(0), channel(1), channel(2)) {
             (Some(r), Some(g), Some(b)) => Ok(Self([r, g, b])),
-            _ => Err(serde::de::Error::custom(format!("`{text}` is no colour; write it like #FF0000"))),
+            _ => Err(serde::de::Error::custom(format!(
+                "`{text}` is no colour; write it like #FF0000"
+            ))),
         }
     }
 }
@@ -87,7 +91,8 @@ impl Speeds {
         }
     }
 
-    /// Estimated seconds on the machine: all lines at their speeds, and the ways between them; without acceleration.
+    /// Estimated seconds on the machine: all lines at their speeds, and the ways between them;
+    /// without acceleration.
     pub fn seconds(&self, drawing: &Drawing) -> f64 {
         let layers = drawing.layers.iter().filter_map(|l| self.of(l.kind).map(|speed| (l, speed)));
         let lines: f64 = layers.map(|(l, speed)| l.length() / speed).sum();
@@ -101,7 +106,8 @@ impl Material {
     /// # Errors
     /// [`SheetError::OutOfRange`] for the first that is out of its range.
     pub fn check(&self) -> Result<(), SheetError> {
-        let lengths = [("thickness", self.thickness, 0.01), ("kerf", self.kerf, 0.0), ("web", self.web, 0.0)];
+        let lengths =
+            [("thickness", self.thickness, 0.01), ("kerf", self.kerf, 0.0), ("web", self.web, 0.0)];
         for (name, value, least) in lengths.map(|(n, v, l)| (n, v.mm(), l)) {
             if !(value >= least && value.is_finite()) {
                 return Err(SheetError::OutOfRange { name, value, least });
@@ -111,7 +117,9 @@ impl Material {
             return Err(SheetError::OutOfRange { name: "density", value, least: 0.0 });
         }
         let Speeds { cut, score, engrave, travel } = self.speed;
-        for (name, value) in [("cut", cut), ("score", score), ("engrave", engrave), ("travel", travel)] {
+        for (name, value) in
+            [("cut", cut), ("score", score), ("engrave", engrave), ("travel", travel)]
+        {
             if !(value > 0.0 && value.is_finite()) {
                 return Err(SheetError::BadSpeed { name, value });
             }
@@ -134,14 +142,15 @@ impl SheetSet {
 }
 
 impl SheetParams {
-    /// The same with everything that the material decides: its kerf where none is given, its thickness where the joint
-    /// needs one and none is given, its colours and speeds.
+    /// The same with everything that the material decides: its kerf where none is given, its
+    /// thickness where the joint needs one and none is given, its colours and speeds.
     pub fn with_material(&self, material: Material) -> Self {
         let mut params = self.clone();
         if params.kerf.mm() == 0.0 {
             params.kerf = material.kerf;
         }
-        let is_thick = !matches!(params.joint, Joint::None | Joint::Flaps | Joint::Rivets | Joint::Stitch);
+        let is_thick =
+            !matches!(params.joint, Joint::None | Joint::Flaps | Joint::Rivets | Joint::Stitch);
         if is_thick && params.thickness.is_none() {
             params.thickness = Some(material.thickness);
         }

@@ -1,11 +1,13 @@
 //! Pieces to sheets: kerf, joints, labels, placing, cutting order; knows pieces, never meshes.
 //!
-//! Frames: a piece has its own (y up, seen from outside); a sheet has its origin at the bottom left and y up. A point p of
-//! a piece lands at R(rotation)·p + (x, y). Nothing is mirrored. All numbers are millimetres, rotations are degrees.
+//! Frames: a piece has its own (y up, seen from outside); a sheet has its origin at the bottom left
+//! and y up. A point p of a piece lands at R(rotation)·p + (x, y). Nothing is mirrored. All numbers
+//! are millimetres, rotations are degrees.
 //!
-//! The way of a piece: it gets its joints ([`Joint`]), its outline grows by half the kerf ([`CutShape`]), is turned to its smallest bounding box
-//! ([`smallest_box`]), placed ([`Layout`]), lettered, drawn ([`Drawing`]), and measured once more ([`verify`]) before
-//! anybody may write a file.
+//! The way of a piece: it gets its joints ([`Joint`]), its outline grows by half the kerf
+//! ([`CutShape`]), is turned to its smallest bounding box ([`smallest_box`]), placed ([`Layout`]),
+//! lettered, drawn ([`Drawing`]), and measured once more ([`verify`]) before anybody may write a
+//! file.
 
 mod assembly;
 mod bounding_box;
@@ -41,9 +43,14 @@ pub use glyph::{Lettering, lettering};
 pub use joint::{Fallback, FlapSide, Joint, JointReport, Substitute};
 pub use kerf::CutShape;
 pub use kerf_test::kerf_coupon;
-pub use layout::{Layout, Placed, Sheet, SheetId, SheetReport, SheetSet, fits, lay_out, lay_out_watched};
+pub use layout::{
+    Layout, Placed, Sheet, SheetId, SheetReport, SheetSet, fits, lay_out, lay_out_watched,
+};
 pub use material::{Hex, Material, MaterialColours, Speeds};
-pub use nest::{CommonLine, Corners, DefectList, GroupList, Guillotine, NestParams, Rotation, RotationList, StockList};
+pub use nest::{
+    CommonLine, Corners, DefectList, GroupList, Guillotine, NestParams, Rotation, RotationList,
+    StockList,
+};
 pub use params::{Angles, Labels, Preset, ScoreStyle, SheetParams, SheetSize};
 pub use stretch::Stretch;
 pub use verify::{clearance, verify};

@@ -1,7 +1,9 @@
-//! In which order the lines of a sheet are machined: what lies inside before what lies around it, on short ways.
+//! In which order the lines of a sheet are machined: what lies inside before what lies around it,
+//! on short ways.
 //!
-//! Within an operation the next line is the nearest one (nearest neighbour), then stretches of the way are turned around
-//! as long as that shortens it (2-opt, Croes 1958, with a window). A contour is entered at its corner nearest to the way.
+//! Within an operation the next line is the nearest one (nearest neighbour), then stretches of the
+//! way are turned around as long as that shortens it (2-opt, Croes 1958, with a window). A contour
+//! is entered at its corner nearest to the way.
 
 use std::ops::Range;
 
@@ -24,14 +26,17 @@ impl Layer {
 }
 
 impl Drawing {
-    /// Length of the ways between the lines, from the lower left corner on, in mm. Nothing is machined on the info layer.
+    /// Length of the ways between the lines, from the lower left corner on, in mm. Nothing is
+    /// machined on the info layer.
     pub fn travel_length(&self) -> f64 {
         let layers = self.layers.iter().filter(|l| l.kind != LayerKind::Info);
         let strokes = layers.flat_map(|l| &l.marks).flat_map(|m| &m.strokes);
         let mut at = DVec2::ZERO;
         let mut length = 0.0;
         for stroke in strokes {
-            let Some((&first, &last)) = stroke.points.first().zip(stroke.points.last()) else { continue };
+            let Some((&first, &last)) = stroke.points.first().zip(stroke.points.last()) else {
+                continue;
+            };
             length += at.distance(first);
             at = if stroke.closed { first } else { last };
         }
@@ -53,11 +58,15 @@ impl Drawing {
         }
     }
 
-    /// A piece that lies in a hole of another is an inner cut: the hole falls out with all that is in it.
+    /// A piece that lies in a hole of another is an inner cut: the hole falls out with all that is
+    /// in it.
     fn cut_nested_pieces_first(&mut self) {
-        let of_kind = |kind: MarkKind| self.marks().filter(move |m| m.kind == kind).cloned().collect::<Vec<_>>();
+        let of_kind = |kind: MarkKind| {
+            self.marks().filter(move |m| m.kind == kind).cloned().collect::<Vec<_>>()
+        };
         let (holes, outlines) = (of_kind(MarkKind::Hole), of_kind(MarkKind::Outline));
-        let boxed: Vec<_> = holes.iter().filter_map(|h| bounds(&h.strokes[0].points).map(|b| (h, b))).collect();
+        let boxed: Vec<_> =
+            holes.iter().filter_map(|h| bounds(&h.strokes[0].points).map(|b| (h, b))).collect();
         let is_nested = |outline: &Mark| {
             let first = outline.strokes.first().and_then(|s| s.points.first()).copied();
             first.is_some_and(|p| {
@@ -93,7 +102,10 @@ fn depths(marks: Vec<Mark>) -> Vec<Vec<Mark>> {
         let first = marks[i].strokes.first().and_then(|s| s.points.first()).copied();
         let around = |p: DVec2| {
             let holds = |(j, points, (low, high)): &&(usize, &Vec<DVec2>, (DVec2, DVec2))| {
-                *j != i && p.cmpge(*low).all() && p.cmple(*high).all() && locate(points, p) == Location::Inside
+                *j != i
+                    && p.cmpge(*low).all()
+                    && p.cmple(*high).all()
+                    && locate(points, p) == Location::Inside
             };
             closed.iter().filter(holds).count()
         };
@@ -184,9 +196,12 @@ fn turn_stretches(ways: &mut [Way], from: DVec2) -> bool {
             let after = ways.get(j + 1).map(|w| w.ends[0]);
             let [entry, exit] = [ways[i].ends[0], ways[j].ends[1]];
             let to_after = |p: DVec2| after.map_or(0.0, |a| p.distance(a));
-            let gain = before.distance(entry) + to_after(exit) - before.distance(exit) - to_after(entry);
+            let gain =
+                before.distance(entry) + to_after(exit) - before.distance(exit) - to_after(entry);
             // Less than rounding is no gain, or stretches might turn for ever.
-            if gain > 1e-9 * (1.0 + before.distance(entry)) && best.as_ref().is_none_or(|b| gain > b.0) {
+            if gain > 1e-9 * (1.0 + before.distance(entry))
+                && best.as_ref().is_none_or(|b| gain > b.0)
+            {
                 best = Some((gain, i..j + 1));
             }
         }
@@ -208,7 +223,8 @@ fn enter_nearest(marks: &mut [Mark], from: DVec2) {
         let before = if i == 0 { Some(from) } else { ends(&marks[i - 1]).map(|e| e[1]) };
         let after = marks.get(i + 1).and_then(ends).map(|e| e[0]);
         let points = &mut marks[i].strokes[0].points;
-        let cost = |p: DVec2| [before, after].into_iter().flatten().map(|q| p.distance(q)).sum::<f64>();
+        let cost =
+            |p: DVec2| [before, after].into_iter().flatten().map(|q| p.distance(q)).sum::<f64>();
         let best = (0..points.len()).min_by(|&a, &b| cost(points[a]).total_cmp(&cost(points[b])));
         points.rotate_left(best.unwrap_or(0));
     }
@@ -228,11 +244,13 @@ struct Nearest<'a> {
 
 impl<'a> Nearest<'a> {
     fn of(marks: &'a [Mark]) -> Self {
-        let (low, high) = bounds(marks.iter().flat_map(|m| &m.strokes).flat_map(|s| &s.points)).unwrap_or_default();
+        let (low, high) = bounds(marks.iter().flat_map(|m| &m.strokes).flat_map(|s| &s.points))
+            .unwrap_or_default();
         let side = ((marks.len() as f64).sqrt().ceil() as i64).clamp(1, 256);
         let cell = ((high - low).max_element() / side as f64).max(f64::MIN_POSITIVE);
         let cells = vec![Vec::new(); (side * side) as usize];
-        let mut grid = Self { marks, is_taken: vec![false; marks.len()], low, cell, side, cells, left: 0 };
+        let mut grid =
+            Self { marks, is_taken: vec![false; marks.len()], low, cell, side, cells, left: 0 };
         for (i, mark) in marks.iter().enumerate() {
             let Some([first, last]) = ends(mark) else { continue };
             grid.left += 1;
@@ -270,7 +288,8 @@ impl<'a> Nearest<'a> {
         Some(Way { mark, ends, corner, is_reversed })
     }
 
-    /// The nearest mark that is left; rings of cells around the place, until none further out can be nearer.
+    /// The nearest mark that is left; rings of cells around the place, until none further out can
+    /// be nearer.
     fn take(&mut self, at: DVec2) -> Option<Way> {
         if self.left == 0 {
             return None;
@@ -285,16 +304,19 @@ impl<'a> Nearest<'a> {
             for y in (cy - ring).max(0)..=(cy + ring).min(self.side - 1) {
                 let is_edge = (y - cy).abs() == ring;
                 let step = if is_edge || ring == 0 { 1 } else { 2 * ring };
-                for x in (cx - ring..=cx + ring).step_by(step as usize).filter(|x| (0..self.side).contains(x)) {
+                for x in (cx - ring..=cx + ring)
+                    .step_by(step as usize)
+                    .filter(|x| (0..self.side).contains(x))
+                {
                     let c = (y * self.side + x) as usize;
                     let is_taken = &self.is_taken;
                     self.cells[c].retain(|e| !is_taken[e.0]);
                     for &entry in &self.cells[c] {
                         let Some(way) = self.way(entry) else { continue };
                         let distance = at.distance(way.ends[0]);
-                        let is_nearer = best
-                            .as_ref()
-                            .is_none_or(|b| distance.total_cmp(&b.0).then(way.mark.cmp(&b.1.mark)).is_lt());
+                        let is_nearer = best.as_ref().is_none_or(|b| {
+                            distance.total_cmp(&b.0).then(way.mark.cmp(&b.1.mark)).is_lt()
+                        });
                         if is_nearer {
                             best = Some((distance, way));
                         }
@@ -366,9 +388,16 @@ mod tests {
         for i in 0..20 {
             let x = 10.0 + 5.0 * f64::from(i);
             let points = points([(x, 10.0), (x, 200.0)]);
-            drawing.add(MarkKind::MountainFold, format!("E{i}"), None, vec![Stroke { points, closed: false }]);
+            drawing.add(
+                MarkKind::MountainFold,
+                format!("E{i}"),
+                None,
+                vec![Stroke { points, closed: false }],
+            );
         }
         drawing.arrange();
-        assert!((drawing.travel_length() - (DVec2::splat(10.0).length() + 19.0 * 5.0)).abs() < 1e-9);
+        assert!(
+            (drawing.travel_length() - (DVec2::splat(10.0).length() + 19.0 * 5.0)).abs() < 1e-9
+        );
     }
 }

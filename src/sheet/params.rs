@@ -1,4 +1,5 @@
-//! How sheets are laid out and drawn: one definition for the library, the command line and the recipe.
+//! How sheets are laid out and drawn: one definition for the library, the command line and the
+//! recipe.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -21,7 +22,8 @@ const MIN_SPACING: f64 = 0.01;
 /// How pieces are placed on sheets and drawn.
 #[derive(Debug, Clone, PartialEq, clap::Args, Deserialize)]
 pub struct SheetParams {
-    /// Size of a sheet, width x height: 600x400, 24inx12in, A0 to A5, letter, jumbo (glass, 6000x3210); none for no sheets
+    /// Size of a sheet, width x height: 600x400, 24inx12in, A0 to A5, letter, jumbo (glass,
+    /// 6000x3210); none for no sheets
     #[arg(long, value_name = "SIZE", default_value = "600x400")]
     #[serde(default = "default_sheet")]
     pub sheet: SheetSize,
@@ -45,7 +47,8 @@ pub struct SheetParams {
     #[arg(skip)]
     #[serde(skip)]
     pub made_of: Option<Material>,
-    /// Full width of the cut: outlines grow by half of it, holes shrink; 0 or more. With 0 the material's kerf is taken
+    /// Full width of the cut: outlines grow by half of it, holes shrink; 0 or more. With 0 the
+    /// material's kerf is taken
     #[arg(long, value_name = "LENGTH", default_value = "0mm")]
     #[serde(default)]
     pub kerf: Length,
@@ -73,11 +76,13 @@ pub struct SheetParams {
     #[arg(long, value_enum, default_value = "solid")]
     #[serde(default)]
     pub score: ScoreStyle,
-    /// Length of a dash or of a cut of a perforation, at least 0.1mm; 2mm, perforated 3mm unless given
+    /// Length of a dash or of a cut of a perforation, at least 0.1mm; 2mm, perforated 3mm unless
+    /// given
     #[arg(long, value_name = "LENGTH")]
     #[serde(default)]
     pub score_dash: Option<Length>,
-    /// Length of the gap or bridge between them, about, at least 0.1mm; 2mm, perforated 1mm unless given
+    /// Length of the gap or bridge between them, about, at least 0.1mm; 2mm, perforated 1mm unless
+    /// given
     #[arg(long, value_name = "LENGTH")]
     #[serde(default)]
     pub score_gap: Option<Length>,
@@ -85,7 +90,8 @@ pub struct SheetParams {
     #[arg(long, value_name = "LENGTH", default_value = "0mm")]
     #[serde(default)]
     pub score_inset: Length,
-    /// Faces between two folds that are narrower than this become living hinges: staggered slits instead of scores
+    /// Faces between two folds that are narrower than this become living hinges: staggered slits
+    /// instead of scores
     #[arg(long, value_name = "LENGTH")]
     #[serde(default)]
     pub hinge: Option<Length>,
@@ -109,7 +115,8 @@ pub struct SheetParams {
     #[arg(long, value_name = "LENGTH")]
     #[serde(default)]
     pub flap_width: Option<Length>,
-    /// Angle at the ends of flaps, 20 to 90 degrees; 60deg unless given. Short seams get steeper flaps
+    /// Angle at the ends of flaps, 20 to 90 degrees; 60deg unless given. Short seams get steeper
+    /// flaps
     #[arg(long, value_name = "ANGLE")]
     #[serde(default)]
     pub flap_angle: Option<Angle>,
@@ -121,7 +128,8 @@ pub struct SheetParams {
     #[arg(long, value_name = "LENGTH")]
     #[serde(default)]
     pub thickness: Option<Length>,
-    /// Width of a finger, about, or of a tab; three times the thickness unless given, never less than it
+    /// Width of a finger, about, or of a tab; three times the thickness unless given, never less
+    /// than it
     #[arg(long, value_name = "LENGTH")]
     #[serde(default)]
     pub finger_width: Option<Length>,
@@ -129,12 +137,13 @@ pub struct SheetParams {
     #[arg(long, value_enum)]
     #[serde(default)]
     pub substitute: Option<Substitute>,
-    /// From one hole to the next along a seam; stitch holes 6mm, rivets 25mm unless given, at least twice what thick plates need
+    /// From one hole to the next along a seam; stitch holes 6mm, rivets 25mm unless given, at least
+    /// twice what thick plates need
     #[arg(long, value_name = "LENGTH")]
     #[serde(default)]
     pub hole_spacing: Option<Length>,
-    /// Diameter of stitch holes (1.5mm unless given) or rivet holes (3.2mm), in plates above 1mm at least 1.55 times their thickness
-    /// and the kerf; more than the kerf
+    /// Diameter of stitch holes (1.5mm unless given) or rivet holes (3.2mm), in plates above 1mm at
+    /// least 1.55 times their thickness and the kerf; more than the kerf
     #[arg(long, value_name = "LENGTH")]
     #[serde(default)]
     pub hole_diameter: Option<Length>,
@@ -239,10 +248,12 @@ pub enum Labels {
     None,
     /// The name of every piece.
     Pieces,
-    /// The name of every piece, and on both sides of every stretch of seam its number, with marks where it ends.
+    /// The name of every piece, and on both sides of every stretch of seam its number, with marks
+    /// where it ends.
     #[default]
     All,
-    /// The name of every piece, and on both sides of every seam edge the number of the edge in the model.
+    /// The name of every piece, and on both sides of every seam edge the number of the edge in the
+    /// model.
     Edges,
 }
 
@@ -371,12 +382,15 @@ impl SheetParams {
     /// Whether a material that is named was looked up.
     pub(crate) fn check_material(&self) -> Result<(), SheetError> {
         match &self.material {
-            Some(name) if self.made_of.is_none() => Err(SheetError::MaterialNotTaken { name: name.clone() }),
+            Some(name) if self.made_of.is_none() => {
+                Err(SheetError::MaterialNotTaken { name: name.clone() })
+            }
             _ => Ok(()),
         }
     }
 
-    /// How far joints may stand out beyond the outlines of pieces, in mm; 0 for options that are refused later.
+    /// How far joints may stand out beyond the outlines of pieces, in mm; 0 for options that are
+    /// refused later.
     pub fn joint_reach(&self) -> f64 {
         plan(self).map_or(0.0, |plan| plan.reach())
     }
@@ -386,9 +400,11 @@ impl SheetParams {
     /// # Errors
     /// [`SheetError::OutOfRange`] and [`SheetError::MarginTooLarge`] with the numbers.
     pub(crate) fn stock(&self) -> Result<Option<Stock>, SheetError> {
-        for (name, value, least) in
-            [("margin", self.margin, 0.0), ("spacing", self.spacing, MIN_SPACING), ("kerf", self.kerf, 0.0)]
-        {
+        for (name, value, least) in [
+            ("margin", self.margin, 0.0),
+            ("spacing", self.spacing, MIN_SPACING),
+            ("kerf", self.kerf, 0.0),
+        ] {
             // Written so that NaN is out of range too.
             if !(value.mm() >= least && value.mm().is_finite()) {
                 return Err(SheetError::OutOfRange { name, value: value.mm(), least });
@@ -403,7 +419,12 @@ impl SheetParams {
         let stock = Stock { size, margin: self.margin.mm(), spacing: self.spacing.mm() };
         if stock.usable().min_element() <= self.kerf.mm() {
             let margin = stock.margin;
-            return Err(SheetError::MarginTooLarge { margin, kerf: self.kerf.mm(), width: size.x, height: size.y });
+            return Err(SheetError::MarginTooLarge {
+                margin,
+                kerf: self.kerf.mm(),
+                width: size.x,
+                height: size.y,
+            });
         }
         Ok(Some(stock))
     }
@@ -429,9 +450,20 @@ mod tests {
 
     #[test]
     fn the_recipe_and_the_flags_say_the_same() {
-        let text = "sheet = \"24x12in\"\nkerf = \"0.15mm\"\nmargin = 2\npreset = \"lightburn\"\nlabels = \"pieces\"\nscore = \"dashed\"\njoint = \"none\"";
+        let text = "sheet = \"24x12in\"\nkerf = \"0.15mm\"\nmargin = 2\npreset = \
+        \"lightburn\"\nlabels = \"pieces\"\nscore = \"dashed\"\njoint = \"none\"";
         let recipe: SheetParams = toml::from_str(text).expect("a recipe");
-        let flags = ["x", "--sheet", "24inx12in", "--kerf", "0.15", "--margin", "2mm", "--preset", "lightburn"];
+        let flags = [
+            "x",
+            "--sheet",
+            "24inx12in",
+            "--kerf",
+            "0.15",
+            "--margin",
+            "2mm",
+            "--preset",
+            "lightburn",
+        ];
         let flags = flags.into_iter().chain(["--labels", "pieces", "--score", "dashed"]);
         assert_eq!(<Line as clap::Parser>::parse_from(flags).params, recipe);
         assert_eq!(recipe.sheet, SheetSize::of_mm(24.0 * 25.4, 12.0 * 25.4));
@@ -439,7 +471,8 @@ mod tests {
 
     #[test]
     fn sheet_sizes_are_read() {
-        let mm = |text: &str| text.parse::<SheetSize>().ok().and_then(SheetSize::mm).map(|s| (s.x, s.y));
+        let mm =
+            |text: &str| text.parse::<SheetSize>().ok().and_then(SheetSize::mm).map(|s| (s.x, s.y));
         assert_eq!(mm("600x400"), Some((600.0, 400.0)));
         assert_eq!(mm("600mm x 40cm"), Some((600.0, 400.0)));
         assert_eq!(mm("A4"), Some((210.0, 297.0)));
@@ -460,7 +493,10 @@ mod tests {
         };
         assert!(with(|p| p.kerf = Length::from_mm(-0.1)).contains("kerf is -0.1 mm"));
         assert!(with(|p| p.spacing = Length::from_mm(0.0)).contains("at least 0.01 mm"));
-        assert!(with(|p| p.margin = Length::from_mm(200.0)).contains("leaves no room on a 600 × 400 mm sheet"));
+        assert!(
+            with(|p| p.margin = Length::from_mm(200.0))
+                .contains("leaves no room on a 600 × 400 mm sheet")
+        );
         assert!(with(|p| p.margin = Length::from_mm(f64::NAN)).contains("margin is NaN mm"));
         let none = SheetParams { sheet: SheetSize::None, ..SheetParams::default() };
         assert_eq!(none.stock().expect("no sheet is fine"), None);

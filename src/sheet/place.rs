@@ -1,11 +1,12 @@
 //! Placing boxes on sheets: maximal rectangles, several orders and rules tried, the best taken.
 //!
-//! Source: Jylänki 2010, "A Thousand Ways to Pack the Bin", MAXRECTS. Every run is deterministic; ties go to the lower
-//! sheet, then the lower and left place, then the unturned box.
+//! Source: Jylänki 2010, "A Thousand Ways to Pack the Bin", MAXRECTS. Every run is deterministic;
+//! ties go to the lower sheet, then the lower and left place, then the unturned box.
 
 use glam::DVec2;
 
-/// A box to place, spacing included: its size upright and a quarter turned; nothing where it would not fit.
+/// A box to place, spacing included: its size upright and a quarter turned; nothing where it would
+/// not fit.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Item {
     pub upright: Option<DVec2>,
@@ -56,10 +57,11 @@ const RULES: [Rule; 3] = [Rule::ShortSide, Rule::Area, Rule::BottomLeft];
 /// What the boxes are sorted by, largest first.
 const ORDERS: [fn(DVec2) -> f64; 3] = [|s| s.x * s.y, |s| s.max_element(), |s| s.x + s.y];
 
-/// Places every item in a room of the given size, as often as rooms are needed; one spot per item. At least one way of
-/// every item must fit.
+/// Places every item in a room of the given size, as often as rooms are needed; one spot per item.
+/// At least one way of every item must fit.
 pub(crate) fn pack(items: &[Item], room: DVec2) -> Vec<Spot> {
-    let sizes: Vec<DVec2> = items.iter().map(|i| i.upright.or(i.turned).unwrap_or_default()).collect();
+    let sizes: Vec<DVec2> =
+        items.iter().map(|i| i.upright.or(i.turned).unwrap_or_default()).collect();
     let mut best: Option<((usize, f64), Vec<Spot>)> = None;
     for key in ORDERS {
         let mut order: Vec<usize> = (0..items.len()).collect();
@@ -75,8 +77,9 @@ pub(crate) fn pack(items: &[Item], room: DVec2) -> Vec<Spot> {
     best.map(|(_, spots)| spots).unwrap_or_default()
 }
 
-/// Places every item in rows, the highest first, without looking back: next-fit shelves by falling height (Coffman, Garey, Johnson
-/// and Tarjan 1980). For tens of thousands of items, where [`pack`] would take minutes. At least one way of every item must fit.
+/// Places every item in rows, the highest first, without looking back: next-fit shelves by falling
+/// height (Coffman, Garey, Johnson and Tarjan 1980). For tens of thousands of items, where [`pack`]
+/// would take minutes. At least one way of every item must fit.
 pub(crate) fn pack_rows(items: &[Item], room: DVec2) -> Vec<Spot> {
     // Lying, so that rows are low; upright where only that fits.
     let way = |item: &Item| match (item.upright, item.turned) {
@@ -117,12 +120,16 @@ fn run(items: &[Item], order: &[usize], rule: Rule, may_turn: bool, room: DVec2)
     let mut bins: Vec<Vec<Rect>> = Vec::new();
     let mut spots = vec![Spot { bin: 0, low: DVec2::ZERO, turned: false }; items.len()];
     for &i in order {
-        let item = Item { turned: items[i].turned.filter(|_| may_turn || items[i].upright.is_none()), ..items[i] };
+        let item = Item {
+            turned: items[i].turned.filter(|_| may_turn || items[i].upright.is_none()),
+            ..items[i]
+        };
         let Spot { bin, low, turned } = best_place(&bins, &item, rule).unwrap_or_else(|| {
             bins.push(vec![whole]);
             Spot { bin: bins.len() - 1, low: DVec2::ZERO, turned: item.upright.is_none() }
         });
-        let size = if turned { item.turned } else { item.upright }.expect("one way of every item fits");
+        let size =
+            if turned { item.turned } else { item.upright }.expect("one way of every item fits");
         occupy(&mut bins[bin], Rect { low, high: low + size });
         spots[i] = Spot { bin, low, turned };
     }
@@ -166,7 +173,9 @@ fn occupy(free: &mut Vec<Rect>, used: Rect) {
         !hit
     });
     for (i, part) in parts.iter().enumerate() {
-        let in_part = |(j, other): (usize, &Rect)| j != i && other.contains(part) && (j < i || !part.contains(other));
+        let in_part = |(j, other): (usize, &Rect)| {
+            j != i && other.contains(part) && (j < i || !part.contains(other))
+        };
         if !free.iter().any(|f| f.contains(part)) && !parts.iter().enumerate().any(in_part) {
             free.push(*part);
         }

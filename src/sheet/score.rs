@@ -50,22 +50,28 @@ pub(crate) struct Hinges {
 
 impl ScorePlan {
     /// # Errors
-    /// [`SheetError::OutOfRange`] for numbers; [`SheetError::ScoreOption`] for lengths of dashes without dashes.
+    /// [`SheetError::OutOfRange`] for numbers; [`SheetError::ScoreOption`] for lengths of dashes
+    /// without dashes.
     pub fn of(params: &SheetParams) -> Result<Self, SheetError> {
         if params.score == ScoreStyle::Solid {
-            for (option, is_given) in
-                [("score-dash", params.score_dash.is_some()), ("score-gap", params.score_gap.is_some())]
-            {
+            for (option, is_given) in [
+                ("score-dash", params.score_dash.is_some()),
+                ("score-gap", params.score_gap.is_some()),
+            ] {
                 if is_given {
                     return Err(SheetError::ScoreOption { option });
                 }
             }
         }
-        let checked = |name: &'static str, value: Option<crate::units::Length>, least: f64| match value.map(|v| v.mm())
-        {
-            Some(value) if !(value >= least && value.is_finite()) => Err(SheetError::OutOfRange { name, value, least }),
-            value => Ok(value),
-        };
+        let checked =
+            |name: &'static str, value: Option<crate::units::Length>, least: f64| match value
+                .map(|v| v.mm())
+            {
+                Some(value) if !(value >= least && value.is_finite()) => {
+                    Err(SheetError::OutOfRange { name, value, least })
+                }
+                value => Ok(value),
+            };
         Ok(Self {
             style: params.score,
             dash: checked("score-dash", params.score_dash, 0.1)?,
@@ -80,11 +86,14 @@ impl ScorePlan {
         self.style == ScoreStyle::Perforated
     }
 
-    /// A fold as lines from a to b. Nothing is left of a fold that is shorter than what its ends keep free.
+    /// A fold as lines from a to b. Nothing is left of a fold that is shorter than what its ends
+    /// keep free.
     pub fn strokes(&self, a: DVec2, b: DVec2, is_valley: bool) -> Vec<Stroke> {
         let length = a.distance(b);
         let [dash, gap] = match self.style {
-            ScoreStyle::Perforated => [self.dash.unwrap_or(PERFORATED[0]), self.gap.unwrap_or(PERFORATED[1])],
+            ScoreStyle::Perforated => {
+                [self.dash.unwrap_or(PERFORATED[0]), self.gap.unwrap_or(PERFORATED[1])]
+            }
             _ => [self.dash.unwrap_or(DASHED[0]), self.gap.unwrap_or(DASHED[1])],
         };
         // A perforation begins with a bridge: cut at its ends, it would open the outline.
@@ -103,13 +112,15 @@ impl ScorePlan {
         lines.into_iter().map(|line| Stroke { points: line.to_vec(), closed: false }).collect()
     }
 
-    /// The hinge fields of a piece: every chain of faces narrower than the hinge width, with the folds at their ends.
+    /// The hinge fields of a piece: every chain of faces narrower than the hinge width, with the
+    /// folds at their ends.
     pub fn hinges(&self, piece: &Piece, folds: &[&Fold]) -> Hinges {
         self.hinge.map_or_else(Hinges::default, |width| hinges(piece, folds, width))
     }
 }
 
-/// Dashes that begin and end at the ends; the gaps between them are as near to `gap` as that allows.
+/// Dashes that begin and end at the ends; the gaps between them are as near to `gap` as that
+/// allows.
 fn dashes(a: DVec2, b: DVec2, dash: f64, gap: f64) -> Vec<[DVec2; 2]> {
     let length = a.distance(b);
     // As many gaps as leave room for a dash at each end.
@@ -140,7 +151,11 @@ fn hinges(piece: &Piece, folds: &[&Fold], width: f64) -> Hinges {
         let Some(&[i, j]) = of_face.get(&face.face).map(Vec::as_slice) else { continue };
         let [a, b] = folds[i].segment;
         let [c, d] = folds[j].segment;
-        let other = if a.distance(c) + b.distance(d) <= a.distance(d) + b.distance(c) { [c, d] } else { [d, c] };
+        let other = if a.distance(c) + b.distance(d) <= a.distance(d) + b.distance(c) {
+            [c, d]
+        } else {
+            [d, c]
+        };
         let span = a.distance(other[0]).max(b.distance(other[1]));
         // A strip is longer along its folds than across.
         if span <= width && span < a.distance(b).max(c.distance(d)) {
@@ -149,7 +164,8 @@ fn hinges(piece: &Piece, folds: &[&Fold], width: f64) -> Hinges {
         }
     }
     let parity = parities(&strips, folds.len());
-    // The folds themselves are rows, and between the two of a strip as many as keep the rows near enough.
+    // The folds themselves are rows, and between the two of a strip as many as keep the rows near
+    // enough.
     let mut rows: Vec<(usize, usize, Segment, bool)> = Vec::new();
     for (i, fold) in folds.iter().enumerate().filter(|(_, f)| hinges.folds.contains(&f.id)) {
         rows.push((i, 0, fold.segment, parity[i]));
@@ -181,7 +197,8 @@ fn rows_between(strip: &Strip) -> usize {
     (a.distance(c).max(b.distance(d)) / ROWS).ceil().max(1.0) as usize - 1
 }
 
-/// Whether the slits of a fold are moved by half a period, so that they are so in every other row of a chain.
+/// Whether the slits of a fold are moved by half a period, so that they are so in every other row
+/// of a chain.
 fn parities(strips: &[Strip], count: usize) -> Vec<bool> {
     let mut parity: Vec<Option<bool>> = vec![None; count];
     for start in 0..strips.len() {
@@ -208,7 +225,8 @@ fn parities(strips: &[Strip], count: usize) -> Vec<bool> {
     parity.into_iter().map(|p| p.unwrap_or(false)).collect()
 }
 
-/// Slits along a row: whole ones with bridges at both ends, or moved by half a period with halves at the ends.
+/// Slits along a row: whole ones with bridges at both ends, or moved by half a period with halves
+/// at the ends.
 fn slits(a: DVec2, b: DVec2, is_odd: bool) -> Vec<[DVec2; 2]> {
     let length = a.distance(b);
     let [slit, bridge] = SLITS;
@@ -226,12 +244,18 @@ fn slits(a: DVec2, b: DVec2, is_odd: bool) -> Vec<[DVec2; 2]> {
         [from.max(bridge), (from + own).min(length - bridge)]
     };
     let n = count as u32;
-    let spans: Vec<[f64; 2]> = if is_odd { (0..=n).map(moved).collect() } else { (0..n).map(whole).collect() };
-    spans.into_iter().filter(|[from, to]| to - from > bridge / 2.0).map(|[from, to]| [at(from), at(to)]).collect()
+    let spans: Vec<[f64; 2]> =
+        if is_odd { (0..=n).map(moved).collect() } else { (0..n).map(whole).collect() };
+    spans
+        .into_iter()
+        .filter(|[from, to]| to - from > bridge / 2.0)
+        .map(|[from, to]| [at(from), at(to)])
+        .collect()
 }
 
-/// Opens a contour at `count` places, `width` mm wide: bridges that hold a part until it is broken out. They lie in the middle
-/// of edges, spread over the contour; a contour too short for them stays closed.
+/// Opens a contour at `count` places, `width` mm wide: bridges that hold a part until it is broken
+/// out. They lie in the middle of edges, spread over the contour; a contour too short for them
+/// stays closed.
 pub(crate) fn hold(contour: &[DVec2], count: usize, width: f64) -> Vec<Stroke> {
     let whole = || vec![Stroke { points: contour.to_vec(), closed: true }];
     let n = contour.len();
@@ -248,7 +272,10 @@ pub(crate) fn hold(contour: &[DVec2], count: usize, width: f64) -> Vec<Stroke> {
         let mut best: Option<usize> = None;
         for (i, length) in lengths.iter().enumerate() {
             let middle = at + length / 2.0;
-            if (from..to).contains(&middle) && *length > 2.0 * width && best.is_none_or(|b| *length > lengths[b]) {
+            if (from..to).contains(&middle)
+                && *length > 2.0 * width
+                && best.is_none_or(|b| *length > lengths[b])
+            {
                 best = Some(i);
             }
             at += length;
@@ -302,7 +329,8 @@ mod tests {
 
     #[test]
     fn perforations_keep_bridges_at_both_ends_and_insets_free_the_corners() {
-        let perforated = plan(&SheetParams { score: ScoreStyle::Perforated, ..SheetParams::default() });
+        let perforated =
+            plan(&SheetParams { score: ScoreStyle::Perforated, ..SheetParams::default() });
         let cuts = perforated.strokes(DVec2::ZERO, DVec2::new(21.0, 0.0), false);
         assert_eq!((cuts[0].points[0].x, cuts[cuts.len() - 1].points[1].x), (1.0, 20.0));
         assert_eq!(lengths(&cuts), [3.0; 5]);
@@ -314,10 +342,13 @@ mod tests {
 
     #[test]
     fn options_that_do_nothing_are_refused() {
-        let params = SheetParams { score_gap: Some(Length::from_mm(1.0)), ..SheetParams::default() };
+        let params =
+            SheetParams { score_gap: Some(Length::from_mm(1.0)), ..SheetParams::default() };
         assert!(ScorePlan::of(&params).expect_err("no dashes").to_string().contains("score-gap"));
         let params = SheetParams { hinge: Some(Length::from_mm(-1.0)), ..SheetParams::default() };
-        assert!(ScorePlan::of(&params).expect_err("below 0").to_string().contains("hinge is -1 mm"));
+        assert!(
+            ScorePlan::of(&params).expect_err("below 0").to_string().contains("hinge is -1 mm")
+        );
     }
 
     #[test]
@@ -335,12 +366,17 @@ mod tests {
 
     #[test]
     fn neighbouring_rows_have_their_slits_in_other_places() {
-        let (even, odd) =
-            (slits(DVec2::ZERO, DVec2::new(72.0, 0.0), false), slits(DVec2::ZERO, DVec2::new(72.0, 0.0), true));
+        let (even, odd) = (
+            slits(DVec2::ZERO, DVec2::new(72.0, 0.0), false),
+            slits(DVec2::ZERO, DVec2::new(72.0, 0.0), true),
+        );
         assert_eq!((even.len(), odd.len()), (3, 4));
         // Every bridge of one row lies beside a slit of the other.
         for bridge in even.windows(2).map(|w| w[0][1].midpoint(w[1][0])) {
-            assert!(odd.iter().any(|s| s[0].x < bridge.x - 1.5 && bridge.x + 1.5 < s[1].x), "{bridge}");
+            assert!(
+                odd.iter().any(|s| s[0].x < bridge.x - 1.5 && bridge.x + 1.5 < s[1].x),
+                "{bridge}"
+            );
         }
         assert!(even.iter().chain(&odd).all(|s| s[0].x >= 3.0 - 1e-9 && s[1].x <= 69.0 + 1e-9));
     }

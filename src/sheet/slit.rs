@@ -1,8 +1,10 @@
-//! Cuts without width: slits of an outline, and the ends of notches that are narrower than the kerf.
+//! Cuts without width: slits of an outline, and the ends of notches that are narrower than the
+//! kerf.
 //!
-//! An opened edge between two faces in one plane has two sides in the same place: two lines where the machine must cut
-//! once. And where a notch is narrower than the kerf, an outline grown by half the kerf closes before the notch ends, so
-//! that its flaps would hang together. Both become single open cuts that end on the closed one.
+//! An opened edge between two faces in one plane has two sides in the same place: two lines where
+//! the machine must cut once. And where a notch is narrower than the kerf, an outline grown by half
+//! the kerf closes before the notch ends, so that its flaps would hang together. Both become single
+//! open cuts that end on the closed one.
 
 use glam::DVec2;
 
@@ -11,7 +13,8 @@ use super::verify::edges;
 use crate::geom::polygon::{bounds, segments_cross};
 use crate::geom::predicate::orient2d;
 
-/// Files hold four decimals of a millimetre: what is narrower, along both axes, may be one line there.
+/// Files hold four decimals of a millimetre: what is narrower, along both axes, may be one line
+/// there.
 const FILE_STEP: f64 = 1.5e-4;
 
 /// The same for small pieces, relative to their size.
@@ -20,8 +23,8 @@ const RELATIVE_STEP: f64 = 1e-6;
 /// How far before the mouth of a slit its contour may lie, in kerfs.
 const REACH: f64 = 4.0;
 
-/// Takes the spikes out of a contour: corners whose two edges lie on one another. Gives the rest of the contour, empty when
-/// nothing else is left, and the spikes, each from its tip to its base.
+/// Takes the spikes out of a contour: corners whose two edges lie on one another. Gives the rest of
+/// the contour, empty when nothing else is left, and the spikes, each from its tip to its base.
 pub(crate) fn take_spikes(contour: &[DVec2]) -> (Vec<DVec2>, Vec<Vec<DVec2>>) {
     let mut rest = contour.to_vec();
     let mut spikes: Vec<Vec<DVec2>> = Vec::new();
@@ -63,8 +66,8 @@ fn add_edge(spikes: &mut Vec<Vec<DVec2>>, tip: DVec2, base: DVec2) {
     }
 }
 
-/// The open cuts of a grown shape: the narrow notches of the contours that it grew from, and the spikes led to its edge;
-/// and the number of notches whose cut would have gone through the piece.
+/// The open cuts of a grown shape: the narrow notches of the contours that it grew from, and the
+/// spikes led to its edge; and the number of notches whose cut would have gone through the piece.
 pub(crate) fn notch_slits(
     contours: &[Vec<DVec2>],
     spikes: &[Vec<DVec2>],
@@ -75,7 +78,9 @@ pub(crate) fn notch_slits(
     let mut closed = 0;
     for contour in contours {
         for apex in (0..contour.len()).filter(|&i| is_narrow(contour, i)) {
-            let Some(mut slit) = notch_slit(contour, apex, grown, kerf).filter(|s| stays_outside(s, contours)) else {
+            let Some(mut slit) =
+                notch_slit(contour, apex, grown, kerf).filter(|s| stays_outside(s, contours))
+            else {
                 closed += 1;
                 continue;
             };
@@ -90,7 +95,8 @@ pub(crate) fn notch_slits(
         let mut slit = spike.clone();
         shorten(&mut slit, kerf / 2.0);
         let base = spike.last().copied().unwrap_or_default();
-        let corner = contours.iter().find_map(|c| c.iter().position(|&p| p == base).map(|i| (c, i)));
+        let corner =
+            contours.iter().find_map(|c| c.iter().position(|&p| p == base).map(|i| (c, i)));
         if let (Some((contour, i)), Some(from)) = (corner, spike.iter().rev().nth(1))
             && !is_narrow(contour, i)
         {
@@ -102,31 +108,41 @@ pub(crate) fn notch_slits(
     (slits, closed)
 }
 
-/// Whether more than the kerf would stay uncut at the end of the notch at corner `i`: the beam of radius r stops r / sin α
-/// before it, α being half the notch's angle.
+/// Whether more than the kerf would stay uncut at the end of the notch at corner `i`: the beam of
+/// radius r stops r / sin α before it, α being half the notch's angle.
 fn is_narrow(contour: &[DVec2], i: usize) -> bool {
     let n = contour.len();
     let (before, apex, after) = (contour[(i + n - 1) % n], contour[i], contour[(i + 1) % n]);
-    let half_sine = (before - apex).normalize_or_zero().distance((after - apex).normalize_or_zero()) / 2.0;
+    let half_sine =
+        (before - apex).normalize_or_zero().distance((after - apex).normalize_or_zero()) / 2.0;
     orient2d(before, apex, after) < 0.0 && half_sine < 1.0 / 3.0
 }
 
 /// The middle line of a notch from its end to the grown contour; `None` when it never gets there.
 ///
-/// Two points go along the two sides equally far, and the line between them has its middle on the slit.
+/// Two points go along the two sides equally far, and the line between them has its middle on the
+/// slit.
 fn notch_slit(contour: &[DVec2], apex: usize, grown: &CutShape, kerf: f64) -> Option<Vec<DVec2>> {
     let n = contour.len();
     let mut slit = vec![contour[apex]];
     let (mut left, mut right) = (contour[apex], contour[apex]);
     let (mut next_left, mut next_right) = (1, 1);
     while next_left + next_right <= n {
-        let (to_left, to_right) = (contour[(apex + n - next_left) % n], contour[(apex + next_right) % n]);
+        let (to_left, to_right) =
+            (contour[(apex + n - next_left) % n], contour[(apex + next_right) % n]);
         let (l, r) = (left.distance(to_left), right.distance(to_right));
         let step = l.min(r);
         // The nearer corner is reached; the farther one only when it is equally far.
-        (left, next_left) = if l <= r { (to_left, next_left + 1) } else { (left.lerp(to_left, step / l), next_left) };
-        (right, next_right) =
-            if r <= l { (to_right, next_right + 1) } else { (right.lerp(to_right, step / r), next_right) };
+        (left, next_left) = if l <= r {
+            (to_left, next_left + 1)
+        } else {
+            (left.lerp(to_left, step / l), next_left)
+        };
+        (right, next_right) = if r <= l {
+            (to_right, next_right + 1)
+        } else {
+            (right.lerp(to_right, step / r), next_right)
+        };
         let from = *slit.last()?;
         let to = left.midpoint(right);
         if let Some(hit) = first_hit(from, to, grown) {
@@ -136,7 +152,11 @@ fn notch_slit(contour: &[DVec2], apex: usize, grown: &CutShape, kerf: f64) -> Op
         if left.distance(right) > kerf {
             // Out of the mouth, which the kerf has closed: straight on to the contour before it.
             let (&end, &before) = (slit.last()?, slit.iter().rev().nth(1)?);
-            slit.push(first_hit(end, end + (end - before).normalize_or_zero() * (REACH * kerf), grown)?);
+            slit.push(first_hit(
+                end,
+                end + (end - before).normalize_or_zero() * (REACH * kerf),
+                grown,
+            )?);
             return Some(slit);
         }
         if from != to {
@@ -148,7 +168,9 @@ fn notch_slit(contour: &[DVec2], apex: usize, grown: &CutShape, kerf: f64) -> Op
 
 /// Whether a slit crosses none of the contours that bound the material.
 fn stays_outside(slit: &[DVec2], contours: &[Vec<DVec2>]) -> bool {
-    let crosses = |w: &[DVec2]| contours.iter().any(|c| edges(c).any(|(a, b)| segments_cross(w[0], w[1], a, b)));
+    let crosses = |w: &[DVec2]| {
+        contours.iter().any(|c| edges(c).any(|(a, b)| segments_cross(w[0], w[1], a, b)))
+    };
     !slit.windows(2).any(crosses)
 }
 
@@ -175,7 +197,8 @@ fn first_hit(a: DVec2, b: DVec2, shape: &CutShape) -> Option<DVec2> {
             }
             let t = (c - a).perp_dot(edge) / cross;
             let u = (c - a).perp_dot(along) / cross;
-            // A little beyond its ends the edge counts too: a hit at a corner must not slip through.
+            // A little beyond its ends the edge counts too: a hit at a corner must not slip
+            // through.
             if (0.0..=1.0).contains(&t) && (-1e-9..=1.0 + 1e-9).contains(&u) {
                 first = first.min(t);
             }
@@ -195,10 +218,16 @@ mod tests {
     /// A square of 100 mm with a slit in two edges that goes in from the middle of the right side.
     fn slit_square(width: f64) -> Vec<DVec2> {
         let w = width / 2.0;
-        let low = [(0.0, 0.0), (100.0, 0.0), (100.0, 50.0 - 2.0 * w), (70.0, 50.0 - w), (50.0, 60.0)];
+        let low =
+            [(0.0, 0.0), (100.0, 0.0), (100.0, 50.0 - 2.0 * w), (70.0, 50.0 - w), (50.0, 60.0)];
         points(low)
             .into_iter()
-            .chain(points([(70.0, 50.0 + w), (100.0, 50.0 + 2.0 * w), (100.0, 100.0), (0.0, 100.0)]))
+            .chain(points([
+                (70.0, 50.0 + w),
+                (100.0, 50.0 + 2.0 * w),
+                (100.0, 100.0),
+                (0.0, 100.0),
+            ]))
             .collect()
     }
 
@@ -222,7 +251,10 @@ mod tests {
             let end = *shape.slits[0].last().expect("points");
             assert!(distance_to_contour(end, &shape.outline) < 1e-6, "width {width}: {end}");
             let start = shape.slits[0][0];
-            assert!((start.distance(DVec2::new(50.0, 60.0)) - 0.1).abs() < 1e-3, "width {width}: {start}");
+            assert!(
+                (start.distance(DVec2::new(50.0, 60.0)) - 0.1).abs() < 1e-3,
+                "width {width}: {start}"
+            );
             assert!((signed_area(&shape.outline) - 100.2 * 100.2).abs() < 0.5, "width {width}");
         }
     }
@@ -279,7 +311,8 @@ mod tests {
         ]);
         let (rest, spikes) = take_spikes(&y);
         assert_eq!(rest.len(), 5);
-        let length: f64 = spikes.iter().flat_map(|s| s.windows(2)).map(|w| w[0].distance(w[1])).sum();
+        let length: f64 =
+            spikes.iter().flat_map(|s| s.windows(2)).map(|w| w[0].distance(w[1])).sum();
         assert!((length - (40.0 + 2.0 * 800.0_f64.sqrt())).abs() < 1e-9, "{spikes:?}");
     }
 }

@@ -1,6 +1,7 @@
 //! Stretches: seam edges that follow one another on both their sides, numbered and marked as one.
 //!
-//! A smooth seam of a D-form has hundreds of tiny edges; nobody could letter or read that many numbers.
+//! A smooth seam of a D-form has hundreds of tiny edges; nobody could letter or read that many
+//! numbers.
 
 use super::joint::Boundaries;
 use crate::net::{Net, PieceId};
@@ -16,11 +17,13 @@ const LONGEST: f64 = 60.0;
 pub struct Stretch {
     /// Counted from 1.
     pub number: usize,
-    /// The seams by their index in the net, each with the side that runs forwards; its partner runs backwards.
+    /// The seams by their index in the net, each with the side that runs forwards; its partner runs
+    /// backwards.
     pub seams: Vec<(usize, usize)>,
     /// The pieces on the two sides.
     pub pieces: [PieceId; 2],
-    /// Whether it goes on smoothly at its beginning and its end, so that only a mark shows where it ends.
+    /// Whether it goes on smoothly at its beginning and its end, so that only a mark shows where it
+    /// ends.
     pub goes_on: [bool; 2],
 }
 
@@ -65,7 +68,8 @@ pub(crate) fn stretches(net: &Net, boundaries: &Boundaries) -> Vec<Stretch> {
         start = if is_loop { (s, 0) } else { start };
         let mut chain = vec![start];
         seen[start.0] = true;
-        while let Some(after) = following(boundaries, chain[chain.len() - 1]).filter(|a| !seen[a.0]) {
+        while let Some(after) = following(boundaries, chain[chain.len() - 1]).filter(|a| !seen[a.0])
+        {
             seen[after.0] = true;
             chain.push(after);
         }
@@ -81,7 +85,9 @@ fn divide(net: &Net, chain: &[(usize, usize)], is_loop: bool, all: &mut Vec<Stre
     let mut groups: Vec<Vec<(usize, usize)>> = vec![Vec::new()];
     for &(s, k) in chain {
         let middle = done + net.seams[s].length / 2.0;
-        if middle > total * groups.len() as f64 / parts && groups.last().is_some_and(|g| !g.is_empty()) {
+        if middle > total * groups.len() as f64 / parts
+            && groups.last().is_some_and(|g| !g.is_empty())
+        {
             groups.push(Vec::new());
         }
         groups.last_mut().expect("at least one group").push((s, k));
@@ -100,7 +106,8 @@ fn divide(net: &Net, chain: &[(usize, usize)], is_loop: bool, all: &mut Vec<Stre
 fn following(boundaries: &Boundaries, (s, k): (usize, usize)) -> Option<(usize, usize)> {
     let [own, partner] = [k, 1 - k].map(|k| boundaries.places[s][k]);
     let (own, partner) = (own?, partner?);
-    let (contour, other) = (&boundaries.contours[own.contour], &boundaries.contours[partner.contour]);
+    let (contour, other) =
+        (&boundaries.contours[own.contour], &boundaries.contours[partner.contour]);
     let (n, m) = (contour.len(), other.len());
     let (i, j) = ((own.edge + 1) % n, (partner.edge + m - 1) % m);
     let next = contour.sides[i]?;
@@ -133,7 +140,8 @@ mod tests {
         (0..corners).map(|i| radius * DVec2::from_angle(i as f64 * step)).collect()
     }
 
-    /// The vertices along a stretch, in its direction; nothing when two seams of it have no common end.
+    /// The vertices along a stretch, in its direction; nothing when two seams of it have no common
+    /// end.
     fn way(net: &Net, stretch: &Stretch) -> Option<Vec<usize>> {
         let ends = |&(s, k): &(usize, usize)| {
             let seam = &net.seams[s];
@@ -198,7 +206,8 @@ mod tests {
     }
 
     proptest! {
-        /// Every seam is in one stretch, stretches run on without a gap, and the number is that of their order.
+        /// Every seam is in one stretch, stretches run on without a gap, and the number is that of
+        /// their order.
         #[test]
         fn stretches_divide_the_seams(seed in 0..500_u64, corners in 3..90_usize, radius in 5.0..200.0_f64) {
             for net in [twins(random_convex(seed), 40.0), twins(circle(radius, corners), 40.0)] {

@@ -2,7 +2,9 @@
 
 use glam::DVec2;
 
-use crate::net::{EdgeLabel, FlatFace, Fold, FoldKind, MeshCounts, Net, Piece, PieceId, Proof, Seam, SeamSide};
+use crate::net::{
+    EdgeLabel, FlatFace, Fold, FoldKind, MeshCounts, Net, Piece, PieceId, Proof, Seam, SeamSide,
+};
 
 pub(crate) fn points<const N: usize>(corners: [(f64, f64); N]) -> Vec<DVec2> {
     corners.map(DVec2::from).to_vec()
@@ -27,15 +29,18 @@ pub(crate) fn random_convex(seed: u64) -> Vec<DVec2> {
     };
     let (corners, radius, stretch, turn) =
         (5 + (next() * 4.0) as usize, 10.0 + 25.0 * next(), 0.4 + 0.6 * next(), next());
-    let angle = |i: usize, shake: f64| (i as f64 + 0.4 * shake) / corners as f64 * std::f64::consts::TAU;
-    let circle: Vec<DVec2> = (0..corners).map(|i| DVec2::from_angle(angle(i, next())) * radius).collect();
+    let angle =
+        |i: usize, shake: f64| (i as f64 + 0.4 * shake) / corners as f64 * std::f64::consts::TAU;
+    let circle: Vec<DVec2> =
+        (0..corners).map(|i| DVec2::from_angle(angle(i, next())) * radius).collect();
     let across = DVec2::from_angle(turn * 7.0);
     circle.into_iter().map(|p| across.rotate(p * DVec2::new(1.0, stretch))).collect()
 }
 
 /// A piece of one face.
 pub(crate) fn piece(id: PieceId, outline: Vec<DVec2>) -> Piece {
-    let face = FlatFace { face: id.0, vertices: (0..outline.len()).collect(), polygon: outline.clone() };
+    let face =
+        FlatFace { face: id.0, vertices: (0..outline.len()).collect(), polygon: outline.clone() };
     Piece { id, outline, holes: vec![], faces: vec![face] }
 }
 
@@ -52,7 +57,8 @@ pub(crate) fn ring(id: PieceId) -> Piece {
     Piece { id, outline: outer.clone(), holes: vec![inner.iter().rev().copied().collect()], faces }
 }
 
-/// One piece of `count` upright strips side by side, folded between any two; the outer two are 30 mm wide.
+/// One piece of `count` upright strips side by side, folded between any two; the outer two are 30
+/// mm wide.
 pub(crate) fn strips(count: usize, width: f64, height: f64) -> Net {
     let mut net = net_of(vec![]);
     let x = |i: usize| match i {
@@ -78,7 +84,12 @@ pub(crate) fn strips(count: usize, width: f64, height: f64) -> Net {
             kind: FoldKind::Mountain,
         })
         .collect();
-    net.pieces = vec![Piece { id: PieceId(0), outline, holes: vec![], faces: (0..count).map(face).collect() }];
+    net.pieces = vec![Piece {
+        id: PieceId(0),
+        outline,
+        holes: vec![],
+        faces: (0..count).map(face).collect(),
+    }];
     net
 }
 
@@ -86,15 +97,34 @@ pub(crate) fn strips(count: usize, width: f64, height: f64) -> Net {
 pub(crate) fn net_of(contours: Vec<Vec<DVec2>>) -> Net {
     let pieces = contours.into_iter().enumerate().map(|(i, c)| piece(PieceId(i), c)).collect();
     let counts = MeshCounts { vertices: 0, edges: 0, faces: 0 };
-    Net { scale: 1.0, counts, pieces, folds: vec![], seams: vec![], rims: vec![], proof: Proof::default() }
+    Net {
+        scale: 1.0,
+        counts,
+        pieces,
+        folds: vec![],
+        seams: vec![],
+        rims: vec![],
+        proof: Proof::default(),
+    }
 }
 
-/// Two pieces: a strip of two squares with a mountain fold, and one square, joined by one seam; a triangle by another.
+/// Two pieces: a strip of two squares with a mountain fold, and one square, joined by one seam; a
+/// triangle by another.
 pub(crate) fn two_pieces() -> Net {
-    let strip = points([(0.0, 0.0), (30.0, 0.0), (60.0, 0.0), (60.0, 30.0), (30.0, 30.0), (0.0, 30.0)]);
-    let left = FlatFace { face: 0, vertices: vec![0, 1, 4, 5], polygon: vec![strip[0], strip[1], strip[4], strip[5]] };
-    let right = FlatFace { face: 1, vertices: vec![1, 2, 3, 4], polygon: vec![strip[1], strip[2], strip[3], strip[4]] };
-    let first = Piece { id: PieceId(0), outline: strip.clone(), holes: vec![], faces: vec![left, right] };
+    let strip =
+        points([(0.0, 0.0), (30.0, 0.0), (60.0, 0.0), (60.0, 30.0), (30.0, 30.0), (0.0, 30.0)]);
+    let left = FlatFace {
+        face: 0,
+        vertices: vec![0, 1, 4, 5],
+        polygon: vec![strip[0], strip[1], strip[4], strip[5]],
+    };
+    let right = FlatFace {
+        face: 1,
+        vertices: vec![1, 2, 3, 4],
+        polygon: vec![strip[1], strip[2], strip[3], strip[4]],
+    };
+    let first =
+        Piece { id: PieceId(0), outline: strip.clone(), holes: vec![], faces: vec![left, right] };
     let mut second = piece(PieceId(1), square(30.0));
     second.faces[0].face = 2;
     second.faces[0].vertices = vec![3, 2, 6, 7];
@@ -131,16 +161,19 @@ pub(crate) fn twins(contour: Vec<DVec2>, fold_angle: f64) -> Net {
         let p = &mut net.pieces[i];
         (p.outline, p.holes) = (polygon.to_vec(), vec![]);
         p.faces.truncate(1);
-        (p.faces[0].face, p.faces[0].polygon, p.faces[0].vertices) = (i, polygon.to_vec(), vertices);
+        (p.faces[0].face, p.faces[0].polygon, p.faces[0].vertices) =
+            (i, polygon.to_vec(), vertices);
     };
     piece(0, &front, (0..n).collect());
     piece(1, &back, (0..n).map(|i| (n - i) % n).collect());
     net.folds.clear();
-    let side = |piece: usize, a, b| SeamSide { piece: PieceId(piece), face: piece, segment: [a, b] };
+    let side =
+        |piece: usize, a, b| SeamSide { piece: PieceId(piece), face: piece, segment: [a, b] };
     net.seams = (0..n)
         .map(|i| {
             let j = (i + 1) % n;
-            let sides = [side(0, front[i], front[j]), side(1, back[(n - i) % n], back[(n - j) % n])];
+            let sides =
+                [side(0, front[i], front[j]), side(1, back[(n - i) % n], back[(n - j) % n])];
             let length = front[i].distance(front[j]);
             Seam { id: EdgeLabel(i), edge: [i, j], length, fold_angle, sides }
         })

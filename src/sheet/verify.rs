@@ -1,6 +1,8 @@
-//! Measuring a layout once more, by other means than it was made: every cut inside the margin, every two pieces apart.
+//! Measuring a layout once more, by other means than it was made: every cut inside the margin,
+//! every two pieces apart.
 //!
-//! All distances are between the real contours, not between boxes, so that it judges any way of placing.
+//! All distances are between the real contours, not between boxes, so that it judges any way of
+//! placing.
 
 use std::collections::BTreeMap;
 
@@ -18,8 +20,13 @@ use crate::net::PieceId;
 /// Measures a layout against the margin and the spacing of the parameters.
 ///
 /// # Errors
-/// [`SheetError::NotPlacedOnce`], [`SheetError::OverMargin`] and [`SheetError::TooClose`]: the first violation found.
-pub fn verify(shapes: &[CutShape], layout: &Layout, params: &SheetParams) -> Result<(), SheetError> {
+/// [`SheetError::NotPlacedOnce`], [`SheetError::OverMargin`] and [`SheetError::TooClose`]: the
+/// first violation found.
+pub fn verify(
+    shapes: &[CutShape],
+    layout: &Layout,
+    params: &SheetParams,
+) -> Result<(), SheetError> {
     let Some(sheets) = params.sheets()? else { return Ok(()) };
     let mut times: BTreeMap<PieceId, usize> = shapes.iter().map(|s| (s.piece, 0)).collect();
     for placed in layout.sheets.iter().flat_map(|s| &s.placed) {
@@ -83,7 +90,8 @@ fn verify_stock(laid: &[Laid], sheet: &Sheet, stock: &StockSheet) -> Result<(), 
                 return bad("a defect", distance, stock.stock.spacing);
             }
         }
-        // A cut is a segment: no side of the outline may cross it, and none of its ends may lie inside.
+        // A cut is a segment: no side of the outline may cross it, and none of its ends may lie
+        // inside.
         for &[a, b] in &sheet.cuts {
             let is_hit = edges(contour).any(|(p, q)| segments_cross(a, b, p, q))
                 || [a, b, a.midpoint(b)].iter().any(|&p| locate(contour, p) == Location::Inside);
@@ -126,7 +134,9 @@ fn verify_sheet(
 ) -> Result<Vec<Laid>, SheetError> {
     let mut laid: Vec<Laid> = Vec::new();
     for placed in &sheet.placed {
-        let shape = shapes.get(&placed.piece).ok_or(SheetError::NotPlacedOnce { piece: placed.piece, times: 0 })?;
+        let shape = shapes
+            .get(&placed.piece)
+            .ok_or(SheetError::NotPlacedOnce { piece: placed.piece, times: 0 })?;
         let here = Laid::new(shape, placed);
         let low = DVec2::splat(stock.margin) - here.low;
         let high = here.high - (stock.size - DVec2::splat(stock.margin));
@@ -139,7 +149,9 @@ fn verify_sheet(
     let rounding = 6.0 * stock.rounding();
     let least = stock.spacing - rounding;
     let may_touch = |distance: f64, a: &Laid, b: &Laid| {
-        common_line == CommonLine::On && distance <= rounding && !overlap(&a.contours, &b.contours, rounding)
+        common_line == CommonLine::On
+            && distance <= rounding
+            && !overlap(&a.contours, &b.contours, rounding)
     };
     // From left to right, so that only neighbours in x are compared.
     laid.sort_by(|a, b| a.low.x.total_cmp(&b.low.x));
@@ -152,21 +164,29 @@ fn verify_sheet(
             let distance = distance(a, b);
             if (distance < least || distance.is_nan()) && !may_touch(distance, a, b) {
                 let (first, second) = (a.piece.min(b.piece), a.piece.max(b.piece));
-                return Err(SheetError::TooClose { first, second, sheet: sheet.id, distance, spacing: stock.spacing });
+                return Err(SheetError::TooClose {
+                    first,
+                    second,
+                    sheet: sheet.id,
+                    distance,
+                    spacing: stock.spacing,
+                });
             }
         }
     }
     Ok(laid)
 }
 
-/// The distance in mm between two placed pieces; 0 when they touch or overlap. A piece inside a hole of another does not
-/// overlap it.
+/// The distance in mm between two placed pieces; 0 when they touch or overlap. A piece inside a
+/// hole of another does not overlap it.
 pub fn clearance(a: (&CutShape, &Placed), b: (&CutShape, &Placed)) -> f64 {
     distance(&Laid::new(a.0, a.1), &Laid::new(b.0, b.1))
 }
 
 fn distance(a: &Laid, b: &Laid) -> f64 {
-    let one_covers = |x: &Laid, y: &Laid| y.contours.first().and_then(|c| c.first()).is_some_and(|&p| x.covers(p));
+    let one_covers = |x: &Laid, y: &Laid| {
+        y.contours.first().and_then(|c| c.first()).is_some_and(|&p| x.covers(p))
+    };
     if one_covers(a, b) || one_covers(b, a) {
         return 0.0;
     }
@@ -215,7 +235,8 @@ mod tests {
     }
 
     fn layout(placed: Vec<Placed>) -> Layout {
-        let sheet = Sheet { id: SheetId(0), width: 600.0, height: 400.0, placed, ..Sheet::default() };
+        let sheet =
+            Sheet { id: SheetId(0), width: 600.0, height: 400.0, placed, ..Sheet::default() };
         Layout { sheets: vec![sheet], ..Layout::default() }
     }
 
@@ -244,7 +265,10 @@ mod tests {
             "{close:?}"
         );
         let crossing = check([(5.0, 5.0, 0.0), (13.0, 13.0, 0.0), (100.0, 100.0, 0.0)]);
-        assert!(matches!(crossing, Err(SheetError::TooClose { distance: 0.0, .. })), "{crossing:?}");
+        assert!(
+            matches!(crossing, Err(SheetError::TooClose { distance: 0.0, .. })),
+            "{crossing:?}"
+        );
         let inside = check([(5.0, 5.0, 0.0), (108.0, 108.0, 0.0), (100.0, 100.0, 0.0)]);
         assert!(matches!(inside, Err(SheetError::TooClose { distance: 0.0, .. })), "{inside:?}");
     }
@@ -252,12 +276,20 @@ mod tests {
     #[test]
     fn the_margin_and_missing_pieces_are_found() {
         let over = check([(4.9, 5.0, 0.0), (60.0, 60.0, 0.0), (100.0, 100.0, 0.0)]);
-        assert!(matches!(over, Err(SheetError::OverMargin { by, .. }) if (by - 0.1).abs() < 1e-9), "{over:?}");
+        assert!(
+            matches!(over, Err(SheetError::OverMargin { by, .. }) if (by - 0.1).abs() < 1e-9),
+            "{over:?}"
+        );
         let turned = check([(5.0, 5.0, 0.0), (60.0, 60.0, 0.0), (595.0, 360.0, 45.0)]);
         assert!(matches!(turned, Err(SheetError::OverMargin { .. })), "{turned:?}");
-        let missing = verify(&shapes(), &layout(vec![placed(0, 5.0, 5.0, 0.0)]), &SheetParams::default());
+        let missing =
+            verify(&shapes(), &layout(vec![placed(0, 5.0, 5.0, 0.0)]), &SheetParams::default());
         assert_eq!(missing, Err(SheetError::NotPlacedOnce { piece: PieceId(1), times: 0 }));
-        let stranger = verify(&shapes()[..0], &layout(vec![placed(0, 5.0, 5.0, 0.0)]), &SheetParams::default());
+        let stranger = verify(
+            &shapes()[..0],
+            &layout(vec![placed(0, 5.0, 5.0, 0.0)]),
+            &SheetParams::default(),
+        );
         assert_eq!(stranger, Err(SheetError::NotPlacedOnce { piece: PieceId(0), times: 0 }));
     }
 }

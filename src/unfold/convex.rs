@@ -19,7 +19,8 @@ pub(super) struct Parts {
 pub(super) struct NotSimple;
 
 impl Parts {
-    /// Adds the parts of the next face. Corners that stick in by less than `bound` do not make it concave.
+    /// Adds the parts of the next face. Corners that stick in by less than `bound` do not make it
+    /// concave.
     pub fn push(&mut self, corners: &[DVec2], bound: f64) -> Result<(), NotSimple> {
         if self.face_first.is_empty() {
             self.face_first.push(0);
@@ -43,7 +44,8 @@ impl Parts {
 
     /// The parts of a face.
     pub fn of(&self, face: u32) -> impl Iterator<Item = &[u32]> + Clone {
-        let range = self.face_first[face as usize] as usize..self.face_first[face as usize + 1] as usize;
+        let range =
+            self.face_first[face as usize] as usize..self.face_first[face as usize + 1] as usize;
         range.map(|p| &self.corners[self.part_first[p] as usize..self.part_first[p + 1] as usize])
     }
 }
@@ -72,7 +74,8 @@ fn triangulate(corners: &[DVec2]) -> Result<Vec<[u32; 3]>, NotSimple> {
             let [a, b, c] = around(*i).map(|k| corners[k as usize]);
             orient2d(a, b, c) == 0.0 && (b - a).dot(c - b) > 0.0
         };
-        let ear = (0..n).find(|&i| is_ear(corners, &left, around(i))).or_else(|| (0..n).find(straight));
+        let ear =
+            (0..n).find(|&i| is_ear(corners, &left, around(i))).or_else(|| (0..n).find(straight));
         let i = ear.ok_or(NotSimple)?;
         triangles.push(around(i));
         left.remove(i);
@@ -88,7 +91,8 @@ fn is_ear(corners: &[DVec2], left: &[u32], triangle: [u32; 3]) -> bool {
     if orient2d(a, b, c) <= 0.0 {
         return false;
     }
-    let inside = |p: DVec2| orient2d(a, b, p) >= 0.0 && orient2d(b, c, p) >= 0.0 && orient2d(c, a, p) >= 0.0;
+    let inside =
+        |p: DVec2| orient2d(a, b, p) >= 0.0 && orient2d(b, c, p) >= 0.0 && orient2d(c, a, p) >= 0.0;
     left.iter().filter(|k| !triangle.contains(k)).all(|&k| !inside(corners[k as usize]))
 }
 
@@ -114,14 +118,17 @@ mod tests {
         let ell = polygon(&[(0., 0.), (1., 0.), (2., 0.), (2., 1.), (1., 1.), (1., 2.), (0., 2.)]);
         let cut = parts(&ell).expect("simple");
         assert!(cut.len() > 1);
-        assert!((cut.iter().map(|p| signed_area(p)).sum::<f64>() - signed_area(&ell)).abs() < 1e-15);
+        assert!(
+            (cut.iter().map(|p| signed_area(p)).sum::<f64>() - signed_area(&ell)).abs() < 1e-15
+        );
         assert!(cut.iter().all(|p| signed_area(p) >= 0.0));
     }
 
     #[test]
     fn crossing_sides_are_refused() {
         assert!(parts(&polygon(&[(0., 0.), (2., 2.), (2., 0.), (0., 1.)])).is_err());
-        let star: Vec<DVec2> = (0..5).map(|i| DVec2::from_angle(f64::from(i) * 0.8 * std::f64::consts::PI)).collect();
+        let star: Vec<DVec2> =
+            (0..5).map(|i| DVec2::from_angle(f64::from(i) * 0.8 * std::f64::consts::PI)).collect();
         assert!(parts(&star).is_err());
     }
 }

@@ -1,7 +1,8 @@
-//! Seams as D-forms have them: in a closed 3-valent mesh one edge at every vertex folds, the two others are seam.
+//! Seams as D-forms have them: in a closed 3-valent mesh one edge at every vertex folds, the two
+//! others are seam.
 //!
-//! The folds are a perfect matching of the vertices. For strips it is the dullest; for two pieces it leaves one seam through
-//! all vertices (a Hamiltonian cycle). See [`crate::seam`].
+//! The folds are a perfect matching of the vertices. For strips it is the dullest; for two pieces
+//! it leaves one seam through all vertices (a Hamiltonian cycle). See [`crate::seam`].
 
 use super::dual::Dual;
 use super::layout::Layout;
@@ -11,15 +12,17 @@ use crate::mesh::{EdgeId, EdgeMap, Mesh};
 use crate::progress::Progress;
 use crate::seam::{SeamError, TwoPieceSearch, fold_sum, least_matching_by};
 
-/// Seams of two pieces that are laid out for each step of effort before one without overlap is found.
+/// Seams of two pieces that are laid out for each step of effort before one without overlap is
+/// found.
 const CANDIDATES: usize = 200;
 /// Overlaps of one layout from which the search learns, those with the shortest paths.
 const LEARNT: usize = 500;
 /// How much heavier a fold becomes that made faces overlap.
 const HEAVIER: f64 = 1.5;
 
-/// Two pieces whose seam runs through every vertex, of those found the one with the least sum of fold angle × length.
-/// `None` when the mesh or the seams do not allow that kind of search, or the search was given up.
+/// Two pieces whose seam runs through every vertex, of those found the one with the least sum of
+/// fold angle × length. `None` when the mesh or the seams do not allow that kind of search, or the
+/// search was given up.
 pub(super) fn two_pieces<'a>(
     dual: &'a Dual,
     mesh: &Mesh,
@@ -34,7 +37,8 @@ pub(super) fn two_pieces<'a>(
     let Ok(mut search) = TwoPieceSearch::new(mesh, progress) else { return Ok(None) };
     constrain(&mut search, mesh, seams);
     let effort = params.effort.max(1) as usize;
-    let (mut best, mut found, mut overlapping): (Option<(f64, Layout)>, usize, usize) = (None, 0, 0);
+    let (mut best, mut found, mut overlapping): (Option<(f64, Layout)>, usize, usize) =
+        (None, 0, 0);
     while found < effort && (found > 0 || overlapping < CANDIDATES * effort) {
         let Some(folds) = search.next_candidate(progress) else { break };
         let layout = lay(dual, mesh, &folds);
@@ -78,7 +82,8 @@ fn constrain(search: &mut TwoPieceSearch, mesh: &Mesh, seams: &Seams) {
 
 /// The folds on the path between two faces that overlap cannot all be folds.
 fn learn(search: &mut TwoPieceSearch, layout: &Layout) {
-    let mut paths: Vec<Vec<EdgeId>> = layout.overlaps.iter().map(|&pair| path(layout, pair)).collect();
+    let mut paths: Vec<Vec<EdgeId>> =
+        layout.overlaps.iter().map(|&pair| path(layout, pair)).collect();
     paths.sort_by_key(Vec::len);
     paths.truncate(LEARNT);
     paths.iter().for_each(|folds| search.forbid_folds_together(folds));
@@ -91,13 +96,15 @@ fn path(layout: &Layout, (f, g): (u32, u32)) -> Vec<EdgeId> {
     folds.into_iter().map(|c| layout.dual.edge(layout.forest.parent_side[c as usize])).collect()
 }
 
-/// The strips of a closed 3-valent mesh: the folds are the dullest choice of one at every vertex. By angle alone: with the
-/// length as a factor, short sharp edges would be lighter than the long dull folds of a strip (on a carved D-form,
-/// 60° × 1 mm is less than 4° × 85 mm, though a maker folds the latter).
+/// The strips of a closed 3-valent mesh: the folds are the dullest choice of one at every vertex.
+/// By angle alone: with the length as a factor, short sharp edges would be lighter than the long
+/// dull folds of a strip (on a carved D-form, 60° × 1 mm is less than 4° × 85 mm, though a maker
+/// folds the latter).
 ///
-/// A ring of faces opens at its best fold. Where a piece overlaps itself, the sharpest fold between the faces in question
-/// is made heavier and another choice is tried; in the end the one that needs the fewest pieces is divided. `None` when
-/// the mesh is not closed and 3-valent, when it has no such folds, or when the seams are given.
+/// A ring of faces opens at its best fold. Where a piece overlaps itself, the sharpest fold between
+/// the faces in question is made heavier and another choice is tried; in the end the one that needs
+/// the fewest pieces is divided. `None` when the mesh is not closed and 3-valent, when it has no
+/// such folds, or when the seams are given.
 pub(super) fn strips<'a>(
     dual: &'a Dual,
     mesh: &Mesh,
@@ -114,7 +121,8 @@ pub(super) fn strips<'a>(
         let folds = least_matching_by(mesh, |e| weight[e], progress).ok()?;
         let mut layout = lay(dual, mesh, &folds);
         for &pair in &layout.overlaps {
-            let sharpest = path(&layout, pair).into_iter().max_by(|&a, &b| weight[a].total_cmp(&weight[b]));
+            let sharpest =
+                path(&layout, pair).into_iter().max_by(|&a, &b| weight[a].total_cmp(&weight[b]));
             sharpest.into_iter().for_each(|e| weight[e] *= HEAVIER);
         }
         let is_flat = layout.overlaps.is_empty();

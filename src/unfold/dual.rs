@@ -1,7 +1,8 @@
 //! The faces of a mesh laid flat one by one, and how they meet, in flat arrays for the search.
 //!
-//! Faces are numbered densely from 0. Their sides are numbered through: the sides of face f are `first[f]..first[f + 1]`,
-//! and side s starts at the corner with the same number. Seen from outside, sides run counter-clockwise.
+//! Faces are numbered densely from 0. Their sides are numbered through: the sides of face f are
+//! `first[f]..first[f + 1]`, and side s starts at the corner with the same number. Seen from
+//! outside, sides run counter-clockwise.
 
 use glam::{DVec2, DVec3};
 
@@ -16,9 +17,10 @@ pub(super) const NONE: u32 = u32::MAX;
 
 /// How far a corner may lie off its face's least-squares plane, relative to the face's diameter.
 ///
-/// Flattening a side of length L whose ends lie d off on different sides shortens it by (2d)² / 2L. A limit of 1e-5 of the
-/// diameter D, and of 1.5e-5 of √(D·L) where sides are short, keeps mating sides equal to 1e-9 of the diameter, and still
-/// lets files with single-precision coordinates through.
+/// Flattening a side of length L whose ends lie d off on different sides shortens it by (2d)² / 2L.
+/// A limit of 1e-5 of the diameter D, and of 1.5e-5 of √(D·L) where sides are short, keeps mating
+/// sides equal to 1e-9 of the diameter, and still lets files with single-precision coordinates
+/// through.
 const PLANARITY: f64 = 1e-5;
 
 /// Folds flatter than this are flat, in radians: a micrometre on a metre. No tool bends that.
@@ -59,7 +61,8 @@ pub(super) struct Dual {
     pub diameter: Vec<f64>,
     /// The edges that may stay together, ascending.
     pub hinges: Vec<Hinge>,
-    /// How deep two faces may sink into each other and still count as touching; see [`super::overlap`].
+    /// How deep two faces may sink into each other and still count as touching; see
+    /// [`super::overlap`].
     pub bound: f64,
 }
 
@@ -103,7 +106,9 @@ impl Dual {
         self.half_edges.extend(mesh.face_half_edges(f));
         self.owner.resize(self.half_edges.len(), face);
         self.first.push(self.half_edges.len() as u32);
-        self.parts.push(&flat.corners, self.bound).map_err(|_| UnfoldError::FaceNotSimple { face: f.index() })?;
+        self.parts
+            .push(&flat.corners, self.bound)
+            .map_err(|_| UnfoldError::FaceNotSimple { face: f.index() })?;
         self.diameter.push(flat.diameter);
         self.local.extend(flat.corners);
         self.direction.extend(flat.directions);
@@ -125,12 +130,20 @@ impl Dual {
             }
             let [f, g] = sides.map(|s| self.owner[s as usize]);
             if f == g {
-                return Err(UnfoldError::FaceMeetsItself { face: self.faces[f as usize].index(), edge: e.index() });
+                return Err(UnfoldError::FaceMeetsItself {
+                    face: self.faces[f as usize].index(),
+                    edge: e.index(),
+                });
             }
             if may_fold[e] {
                 let fold = measure::fold_angle(mesh, e).map_or(0.0, f64::abs);
                 sides.into_iter().for_each(|s| self.hinge[s as usize] = self.hinges.len() as u32);
-                self.hinges.push(Hinge { sides, length: measure::edge_length(mesh, e), fold, is_kept: must_fold[e] });
+                self.hinges.push(Hinge {
+                    sides,
+                    length: measure::edge_length(mesh, e),
+                    fold,
+                    is_kept: must_fold[e],
+                });
             }
         }
         Ok(())
@@ -175,7 +188,8 @@ impl Dual {
         self.part_count(|s| self.across[s as usize] != NONE)
     }
 
-    /// Number of parts that hang together through edges that may stay together: no net has fewer pieces.
+    /// Number of parts that hang together through edges that may stay together: no net has fewer
+    /// pieces.
     pub fn least_pieces(&self) -> usize {
         self.part_count(|s| self.hinge[s as usize] != NONE)
     }
@@ -238,14 +252,17 @@ impl FlatPolygon {
         let plane = Plane::newell(&points).filter(|_| points.len() >= 3).ok_or(no_area.clone())?;
         let diameter = 2.0 * points.iter().map(|p| p.distance(plane.point())).fold(0.0, f64::max);
         let next = |i: usize| points[(i + 1) % points.len()];
-        let shortest = (0..points.len()).map(|i| points[i].distance(next(i))).fold(diameter, f64::min);
+        let shortest =
+            (0..points.len()).map(|i| points[i].distance(next(i))).fold(diameter, f64::min);
         let limit = PLANARITY * diameter.min(1.5 * (diameter * shortest).sqrt()) + 16.0 * rounding;
         let plane = flat_enough(plane, &points, face, limit)?;
         let longest = (0..points.len()).map(|i| next(i) - points[i]).fold(DVec3::ZERO, longer);
-        // The longest side lies along x: a frame that does not depend on how the face is turned in space.
+        // The longest side lies along x: a frame that does not depend on how the face is turned in
+        // space.
         let frame = Frame::along(plane.point(), longest, plane.normal()).ok_or(no_area.clone())?;
         let corners: Vec<DVec2> = points.iter().map(|&p| frame.flatten(p)).collect();
-        // Directions come from differences of given points, not of flat ones: short sides keep all their digits.
+        // Directions come from differences of given points, not of flat ones: short sides keep all
+        // their digits.
         let direction = |i: usize| {
             let d = next(i) - points[i];
             DVec2::new(d.dot(frame.x), d.dot(frame.y)).try_normalize().ok_or(no_area.clone())
@@ -259,9 +276,16 @@ fn longer(a: DVec3, b: DVec3) -> DVec3 {
     if b.length_squared() > a.length_squared() { b } else { a }
 }
 
-/// The plane itself, or the least-squares plane where that lies nearer to the corners; an error when both are too far off.
-fn flat_enough(plane: Plane, points: &[DVec3], face: usize, limit: f64) -> Result<Plane, UnfoldError> {
-    let deviation = |plane: &Plane| points.iter().map(|&p| plane.signed_distance(p).abs()).fold(0.0, f64::max);
+/// The plane itself, or the least-squares plane where that lies nearer to the corners; an error
+/// when both are too far off.
+fn flat_enough(
+    plane: Plane,
+    points: &[DVec3],
+    face: usize,
+    limit: f64,
+) -> Result<Plane, UnfoldError> {
+    let deviation =
+        |plane: &Plane| points.iter().map(|&p| plane.signed_distance(p).abs()).fold(0.0, f64::max);
     if points.len() == 3 || deviation(&plane) <= limit {
         return Ok(plane);
     }

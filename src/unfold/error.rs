@@ -19,7 +19,8 @@ pub enum UnfoldError {
     },
     /// A face that is not flat enough to be laid flat without changing its edges.
     #[error(
-        "face {face} is not planar: a corner lies {deviation:.3e} mm off its plane, {limit:.3e} mm are allowed; \
+        "face {face} is not planar: a corner lies {deviation:.3e} mm off its plane, {limit:.3e} mm \
+        are allowed; \
          see `check`, then `planarize` the mesh or triangulate the face"
     )]
     NotPlanar {
@@ -31,7 +32,9 @@ pub enum UnfoldError {
         limit: f64,
     },
     /// A face whose sides cross or touch each other.
-    #[error("the sides of face {face} cross each other; divide it into faces that are simple polygons")]
+    #[error(
+        "the sides of face {face} cross each other; divide it into faces that are simple polygons"
+    )]
     FaceNotSimple {
         /// The face.
         face: usize,
@@ -54,7 +57,8 @@ pub enum UnfoldError {
     },
     /// The search ended with more pieces than asked for.
     #[error(
-        "no net of {asked} piece(s) without overlap was found, only one of {found} (components: {components}); tried were \
+        "no net of {asked} piece(s) without overlap was found, only one of {found} (components: \
+        {components}); tried were \
          {starts} first nets, {moves} moves of branches and {joins} joins of pieces; raise --effort, try another --seed, \
          or take --pieces auto"
     )]
@@ -77,7 +81,8 @@ pub enum UnfoldError {
     Seam(#[from] SeamError),
     /// Seams of two pieces exist, but with each of them a piece overlaps itself.
     #[error(
-        "no two-piece seam lies flat without overlap: {overlapping} seams were laid out and overlap, and what was learnt \
+        "no two-piece seam lies flat without overlap: {overlapping} seams were laid out and \
+        overlap, and what was learnt \
          from them leaves no other ({proof}); take --pieces auto"
     )]
     NoFlatTwoPieces {
@@ -88,21 +93,25 @@ pub enum UnfoldError {
     },
     /// Edges to keep that had to open.
     #[error(
-        "edges {edges:?} cannot all stay together: their faces would overlap or surround a vertex that is not flat; keep fewer"
+        "edges {edges:?} cannot all stay together: their faces would overlap or surround a vertex \
+        that is not flat; keep fewer"
     )]
     NotKept {
         /// The edges that opened, ascending.
         edges: Vec<usize>,
     },
     /// Edges to keep and to cut at once.
-    #[error("edges {edges:?} are both to be kept and to be cut; leave them out of one of the two lists")]
+    #[error(
+        "edges {edges:?} are both to be kept and to be cut; leave them out of one of the two lists"
+    )]
     KeptAndCut {
         /// The edges.
         edges: Vec<usize>,
     },
     /// Vertices that no given seam reaches though the faces around them cannot lie flat.
     #[error(
-        "too few seams: the faces around vertices {vertices:?} cannot lie flat together; lead a seam to each of them, or \
+        "too few seams: the faces around vertices {vertices:?} cannot lie flat together; lead a \
+        seam to each of them, or \
          leave the seams to the unfolder"
     )]
     ConePoints {
@@ -117,7 +126,8 @@ pub enum UnfoldError {
         /// Number of faces.
         faces: usize,
     },
-    /// The net that was found did not pass its own proof. This is a fault of kerfold, not of the mesh.
+    /// The net that was found did not pass its own proof. This is a fault of kerfold, not of the
+    /// mesh.
     #[error("the net failed its proof, which is a fault of kerfold, please report it: {0}")]
     NotProven(#[from] ProofError),
 }

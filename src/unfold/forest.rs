@@ -69,13 +69,17 @@ impl Forest {
 
     /// The roots, ascending.
     pub fn roots(&self) -> Vec<u32> {
-        (0..self.parent_side.len() as u32).filter(|&f| self.parent_side[f as usize] == NONE).collect()
+        (0..self.parent_side.len() as u32)
+            .filter(|&f| self.parent_side[f as usize] == NONE)
+            .collect()
     }
 
     /// The faces that hang on `f`.
     fn children(&self, dual: &Dual, f: u32) -> impl Iterator<Item = u32> {
         let below = dual.sides(f).map(|s| dual.across[s as usize]).filter(|&t| t != NONE);
-        below.filter(|&t| self.parent_side[dual.owner[t as usize] as usize] == t).map(|t| dual.owner[t as usize])
+        below
+            .filter(|&t| self.parent_side[dual.owner[t as usize] as usize] == t)
+            .map(|t| dual.owner[t as usize])
     }
 
     /// All faces, parents before children.
@@ -137,7 +141,8 @@ impl Forest {
     pub fn path(&self, dual: &Dual, mut f: u32, mut g: u32, folds: &mut Vec<u32>) {
         folds.clear();
         while f != g {
-            let lower = if self.depth[f as usize] >= self.depth[g as usize] { &mut f } else { &mut g };
+            let lower =
+                if self.depth[f as usize] >= self.depth[g as usize] { &mut f } else { &mut g };
             folds.push(*lower);
             *lower = self.parent(dual, *lower);
         }
@@ -146,7 +151,8 @@ impl Forest {
     /// The lowest face above (or equal to) two faces of one tree.
     pub fn meeting(&self, dual: &Dual, mut f: u32, mut g: u32) -> u32 {
         while f != g {
-            let lower = if self.depth[f as usize] >= self.depth[g as usize] { &mut f } else { &mut g };
+            let lower =
+                if self.depth[f as usize] >= self.depth[g as usize] { &mut f } else { &mut g };
             *lower = self.parent(dual, *lower);
         }
         f
@@ -161,9 +167,10 @@ impl Forest {
         }
     }
 
-    /// Opens the fold above `cut` (unless `NONE`) and joins the part with the face of `s` to the tree beyond `s`. The part is
-    /// the smaller one of the cut, or the whole tree of that face. Touches little more than the part and what lies between
-    /// its old and its new place in the order.
+    /// Opens the fold above `cut` (unless `NONE`) and joins the part with the face of `s` to the
+    /// tree beyond `s`. The part is the smaller one of the cut, or the whole tree of that face.
+    /// Touches little more than the part and what lies between its old and its new place in the
+    /// order.
     pub fn rehang(&mut self, dual: &Dual, cut: u32, s: u32) {
         let (f, g) = (dual.owner[s as usize], dual.neighbour(s));
         let (first, tree_end) = self.tree_run(f);
@@ -224,11 +231,14 @@ impl Forest {
         part
     }
 
-    /// Takes `runs` out of the order and puts `part`, which are the same faces, in before the place `to`.
+    /// Takes `runs` out of the order and puts `part`, which are the same faces, in before the place
+    /// `to`.
     fn splice(&mut self, part: &[u32], runs: [std::ops::Range<usize>; 2], to: usize) {
         let low = runs[0].start.min(runs[1].start).min(to);
         let high = runs[0].end.max(runs[1].end).max(to);
-        let stays = |range: std::ops::Range<usize>| range.filter(|i| !runs.iter().any(|run| run.contains(i)));
+        let stays = |range: std::ops::Range<usize>| {
+            range.filter(|i| !runs.iter().any(|run| run.contains(i)))
+        };
         let mut window = Vec::with_capacity(high - low);
         window.extend(stays(low..to).map(|i| self.order[i]));
         window.extend_from_slice(part);
@@ -247,7 +257,8 @@ impl Forest {
                 || self.parent_side[dual.owner[t as usize] as usize] == t)
     }
 
-    /// Hangs every tree from its middle (no branch larger than half of it), so that paths are short and lose few digits.
+    /// Hangs every tree from its middle (no branch larger than half of it), so that paths are short
+    /// and lose few digits.
     pub fn hang_from_middles(&mut self, dual: &Dual) {
         for root in self.roots() {
             let half = self.size(root) / 2;
@@ -284,8 +295,10 @@ mod tests {
             } else {
                 forest.smaller_part(cut, &mut part);
             }
-            let leads_out = |&s: &u32| dual.across[s as usize] != NONE && !part.contains(&dual.neighbour(s));
-            let sides: Vec<u32> = part.iter().flat_map(|&f| dual.sides(f)).filter(leads_out).collect();
+            let leads_out =
+                |&s: &u32| dual.across[s as usize] != NONE && !part.contains(&dual.neighbour(s));
+            let sides: Vec<u32> =
+                part.iter().flat_map(|&f| dual.sides(f)).filter(leads_out).collect();
             if sides.is_empty() {
                 continue;
             }
@@ -301,7 +314,9 @@ mod tests {
                 assert_eq!(forest.subtree(f)[0], f);
                 assert_eq!(sorted(&forest), sorted(&fresh), "{turn}");
                 let above = forest.parent(&dual, f);
-                assert!(above == NONE || forest.depth[f as usize] == forest.depth[above as usize] + 1);
+                assert!(
+                    above == NONE || forest.depth[f as usize] == forest.depth[above as usize] + 1
+                );
             }
         }
         assert_eq!(forest.roots().len(), 1);

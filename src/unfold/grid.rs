@@ -1,7 +1,8 @@
 //! A hash grid of boxes in several sizes: which laid-out faces may touch a given box.
 //!
-//! Every face lives on the level whose cells are as large as the face, so its box covers at most four cells however much
-//! the sizes of the faces differ. All storage is flat; moving a face costs a few links.
+//! Every face lives on the level whose cells are as large as the face, so its box covers at most
+//! four cells however much the sizes of the faces differ. All storage is flat; moving a face costs
+//! a few links.
 
 use glam::DVec2;
 
@@ -38,7 +39,8 @@ struct Cell {
 impl Cell {
     fn hash(self) -> u64 {
         let place = (self.x as u32 as u64) << 32 | self.y as u32 as u64;
-        let kind = (u64::from(self.piece) << 8 | u64::from(self.level)).wrapping_mul(0xd6e8_feb8_6659_fd93);
+        let kind = (u64::from(self.piece) << 8 | u64::from(self.level))
+            .wrapping_mul(0xd6e8_feb8_6659_fd93);
         let mixed = (place ^ kind).wrapping_mul(0x9e37_79b9_7f4a_7c15);
         mixed ^ mixed >> 29
     }
@@ -53,8 +55,10 @@ impl Grid {
         let largest = diameters.iter().copied().fold(0.0, f64::max);
         let base = diameters.iter().copied().fold(largest, f64::min).max(largest * 1e-3);
         // A little room, so that rounding cannot make a box wider than a cell.
-        let level: Vec<u8> = diameters.iter().map(|d| (d * 1.001 / base).log2().ceil().max(0.0) as u8).collect();
-        let mut members = vec![Vec::new(); level.iter().copied().max().map_or(0, |l| l as usize + 1)];
+        let level: Vec<u8> =
+            diameters.iter().map(|d| (d * 1.001 / base).log2().ceil().max(0.0) as u8).collect();
+        let mut members =
+            vec![Vec::new(); level.iter().copied().max().map_or(0, |l| l as usize + 1)];
         level.iter().enumerate().for_each(|(f, &l)| members[l as usize].push(f as u32));
         let buckets = (diameters.len() * 4).next_power_of_two();
         let nodes = vec![Node { cell: NOWHERE, next: NONE, prev: NONE }; diameters.len() * 4];
@@ -109,8 +113,8 @@ impl Grid {
         }
     }
 
-    /// Calls `visit` once for every face of `piece` whose box, given by `boxes`, may meet `bounds`, until it returns false.
-    /// Returns whether all were visited.
+    /// Calls `visit` once for every face of `piece` whose box, given by `boxes`, may meet `bounds`,
+    /// until it returns false. Returns whether all were visited.
     pub fn visit(
         &self,
         piece: u32,
@@ -118,16 +122,22 @@ impl Grid {
         boxes: &[[DVec2; 2]],
         mut visit: impl FnMut(u32) -> bool,
     ) -> bool {
-        for (level, members) in self.members.iter().enumerate().filter(|(_, members)| !members.is_empty()) {
+        for (level, members) in
+            self.members.iter().enumerate().filter(|(_, members)| !members.is_empty())
+        {
             let size = self.cell_size(level);
             let [low, high] = cells(bounds, size);
-            let count = (i64::from(high.0) - i64::from(low.0) + 1) * (i64::from(high.1) - i64::from(low.1) + 1);
+            let count = (i64::from(high.0) - i64::from(low.0) + 1)
+                * (i64::from(high.1) - i64::from(low.1) + 1);
             let go_on = if count > members.len() as i64 {
-                members.iter().all(|&f| !self.is_in(f, piece) || !touch(bounds, boxes[f as usize]) || visit(f))
+                members.iter().all(|&f| {
+                    !self.is_in(f, piece) || !touch(bounds, boxes[f as usize]) || visit(f)
+                })
             } else {
                 self.visit_cells(piece, level as u8, [low, high], |f, x, y| {
                     let other = boxes[f as usize];
-                    // A face lies in up to four cells: it counts in the one that holds the lower corner of the common box.
+                    // A face lies in up to four cells: it counts in the one that holds the lower
+                    // corner of the common box.
                     let corner = bounds[0].max(other[0]);
                     !touch(bounds, other) || cells([corner, corner], size)[0] != (x, y) || visit(f)
                 })

@@ -1,4 +1,5 @@
-//! Fewer pieces: a small piece is hung on another although a few faces overlap there, and the overlaps are repaired.
+//! Fewer pieces: a small piece is hung on another although a few faces overlap there, and the
+//! overlaps are repaired.
 
 use super::dual::NONE;
 use super::layout::Layout;
@@ -33,8 +34,9 @@ impl<'a> Joiner<'a> {
         Self { layout, joins: 0, moves: 0, random: Random::new(random.bits()), budget }
     }
 
-    /// Joins pieces until there are as few as can be, every one was tried `TURNS` times in vain, or the budget is
-    /// spent. Small pieces come first, then by turns. Returns how many faces were laid.
+    /// Joins pieces until there are as few as can be, every one was tried `TURNS` times in vain, or
+    /// the budget is spent. Small pieces come first, then by turns. Returns how many faces were
+    /// laid.
     pub fn run(&mut self, progress: &dyn Progress) -> u64 {
         let least = self.layout.dual.least_pieces();
         let (start, mut turn) = (self.budget, 0);
@@ -79,8 +81,10 @@ impl<'a> Joiner<'a> {
         let dual = layout.dual;
         let faces = layout.forest.subtree(root).to_vec();
         layout.mark(&faces);
-        let leads_out = |&s: &u32| dual.hinge[s as usize] != NONE && !layout.is_marked(dual.neighbour(s));
-        let mut hinges: Vec<u32> = faces.iter().flat_map(|&f| dual.sides(f)).filter(leads_out).collect();
+        let leads_out =
+            |&s: &u32| dual.hinge[s as usize] != NONE && !layout.is_marked(dual.neighbour(s));
+        let mut hinges: Vec<u32> =
+            faces.iter().flat_map(|&f| dual.sides(f)).filter(leads_out).collect();
         self.random.shuffle_front(&mut hinges, HINGES);
         let (mut best, mut limit, mut found) = (None, OVERLAPS, Vec::new());
         for &s in hinges.iter().take(HINGES) {

@@ -1,4 +1,5 @@
-//! The faces of a forest laid out in the plane, with all pairs that overlap, kept up to date move by move.
+//! The faces of a forest laid out in the plane, with all pairs that overlap, kept up to date move
+//! by move.
 
 use glam::DVec2;
 
@@ -71,7 +72,11 @@ impl<'a> Layout<'a> {
         for i in 0..self.forest.order().len() {
             let f = self.forest.order()[i];
             let s = self.forest.parent_side[f as usize];
-            let motion = if s == NONE { Motion { rotation: DVec2::X, shift: DVec2::ZERO } } else { self.placement(s) };
+            let motion = if s == NONE {
+                Motion { rotation: DVec2::X, shift: DVec2::ZERO }
+            } else {
+                self.placement(s)
+            };
             self.rotation[f as usize] = motion.rotation;
             let corners = self.dual.corners(f);
             for c in corners.clone() {
@@ -81,8 +86,9 @@ impl<'a> Layout<'a> {
         }
     }
 
-    /// Where the face of `s` comes to lie when it hangs on its neighbour across `s`: directions are composed (and kept at
-    /// unit length), and the middles of the two sides meet, so that nothing drifts along a chain.
+    /// Where the face of `s` comes to lie when it hangs on its neighbour across `s`: directions are
+    /// composed (and kept at unit length), and the middles of the two sides meet, so that nothing
+    /// drifts along a chain.
     fn placement(&self, s: u32) -> Motion {
         let dual = self.dual;
         let t = dual.across[s as usize];
@@ -116,7 +122,8 @@ impl<'a> Layout<'a> {
         true
     }
 
-    /// Whether face `f` with its corners at `corners` and its box at `own` overlaps face `g` where it lies.
+    /// Whether face `f` with its corners at `corners` and its box at `own` overlaps face `g` where
+    /// it lies.
     fn meets(&self, f: u32, corners: &[DVec2], own: [DVec2; 2], g: u32) -> bool {
         boxes_overlap(own, self.bounds[g as usize], self.dual.bound)
             && overlap(self.dual, f, corners, g, &self.flat[self.dual.corners(g)])
@@ -141,14 +148,20 @@ impl<'a> Layout<'a> {
         self.moved[f as usize] == self.moves
     }
 
-    /// Chooses the faces that the next moves are about. Returns how many overlaps they have with the rest.
+    /// Chooses the faces that the next moves are about. Returns how many overlaps they have with
+    /// the rest.
     pub fn mark(&mut self, faces: &[u32]) -> usize {
         self.moves += 1;
         faces.iter().for_each(|&f| self.moved[f as usize] = self.moves);
-        faces.iter().flat_map(|&f| &self.partners[f as usize]).filter(|&&g| !self.is_marked(g)).count()
+        faces
+            .iter()
+            .flat_map(|&f| &self.partners[f as usize])
+            .filter(|&&g| !self.is_marked(g))
+            .count()
     }
 
-    /// How the marked faces would move when the face of `s`, one of them, were hung on its neighbour across `s`.
+    /// How the marked faces would move when the face of `s`, one of them, were hung on its
+    /// neighbour across `s`.
     pub fn motion(&self, s: u32) -> Motion {
         let goal = self.placement(s);
         let f = self.dual.owner[s as usize];
@@ -159,8 +172,8 @@ impl<'a> Layout<'a> {
         Motion { rotation, shift: goal.apply(own) - rotation.rotate(middle) }
     }
 
-    /// The overlaps that the marked faces would have with the others of `piece` after a motion, into `found`; stops when
-    /// there are more than `limit`. Returns how many faces were tried.
+    /// The overlaps that the marked faces would have with the others of `piece` after a motion,
+    /// into `found`; stops when there are more than `limit`. Returns how many faces were tried.
     pub fn try_motion(
         &self,
         faces: &[u32],
@@ -188,9 +201,16 @@ impl<'a> Layout<'a> {
         faces.len()
     }
 
-    /// Carries out a motion: the fold above `cut` opens (unless `NONE`), the marked `faces` move to `piece` and hang on by
-    /// `s`, and `found` are their overlaps with the rest.
-    pub fn carry_out(&mut self, faces: &[u32], cut: u32, s: u32, motion: Motion, found: &[(u32, u32)]) {
+    /// Carries out a motion: the fold above `cut` opens (unless `NONE`), the marked `faces` move to
+    /// `piece` and hang on by `s`, and `found` are their overlaps with the rest.
+    pub fn carry_out(
+        &mut self,
+        faces: &[u32],
+        cut: u32,
+        s: u32,
+        motion: Motion,
+        found: &[(u32, u32)],
+    ) {
         let piece = self.piece[self.dual.neighbour(s) as usize];
         let kept = self.overlaps.iter().filter(|&&pair| !self.is_crossing(pair));
         let overlaps = kept.chain(found).copied().collect();
@@ -225,7 +245,8 @@ impl<'a> Layout<'a> {
         self.set_overlaps(overlaps);
     }
 
-    /// The same forest laid out afresh, each piece from its middle, free of what the moves have lost to rounding.
+    /// The same forest laid out afresh, each piece from its middle, free of what the moves have
+    /// lost to rounding.
     pub fn fresh(mut self) -> Self {
         self.forest.hang_from_middles(self.dual);
         Layout::new(self.dual, self.forest, usize::MAX).expect("no limit, no giving up")

@@ -1,7 +1,8 @@
 //! Mesh to pieces: seams, flattening, overlap, proof by refolding.
 //!
-//! [`unfold`] lays every face flat, keeps a forest of folds, moves branches until nothing overlaps, opens more folds where
-//! moving does not help, and lets [`prove`], which shares none of that code, measure the result against the mesh.
+//! [`unfold`] lays every face flat, keeps a forest of folds, moves branches until nothing overlaps,
+//! opens more folds where moving does not help, and lets [`prove`], which shares none of that code,
+//! measure the result against the mesh.
 
 mod convex;
 mod d_form;
@@ -25,7 +26,9 @@ mod start;
 pub use error::UnfoldError;
 pub use given::{check_folded, check_seams, seams_by_angle};
 pub use params::{PiecesMode, PiecesModeError, Seams, Source, UnfoldParams};
-pub use proof::{EdgeFault, LENGTH as LENGTH_LIMIT, ProofError, REFOLD as REFOLD_LIMIT, prove, renumbered};
+pub use proof::{
+    EdgeFault, LENGTH as LENGTH_LIMIT, ProofError, REFOLD as REFOLD_LIMIT, prove, renumbered,
+};
 
 use crate::mesh::Mesh;
 use crate::net::Net;
@@ -40,33 +43,38 @@ use start::Rule;
 /// Spanning forests to choose the first start from, and that of later attempts.
 const STARTS: usize = 30;
 const LATER_STARTS: usize = 8;
-/// Faces laid for each step of effort, in times that every face is laid; of a small mesh as if it had so many faces.
+/// Faces laid for each step of effort, in times that every face is laid; of a small mesh as if it
+/// had so many faces.
 const STEP: u64 = 150;
 const LEAST_SIZE: usize = 2000;
 /// The same for one attempt.
 const LEAST_ATTEMPT: usize = 100;
 /// What making the seams shorter may take, in the same unit.
 const POLISH: u64 = 20;
-/// The most that one attempt may take, in the same unit, and the share of it for moving branches before pieces are joined.
+/// The most that one attempt may take, in the same unit, and the share of it for moving branches
+/// before pieces are joined.
 const ATTEMPT: u64 = 750;
 const REPAIR_SHARE: u64 = 3;
 
 /// Unfolds a mesh into flat pieces that do not overlap themselves.
 ///
-/// The mesh is in millimetres and its faces are planar (to 1e-5 of their diameter; see [`UnfoldError::NotPlanar`]) simple
-/// polygons, convex or not; it may have rims (they are cuts), handles and several components. Faces stay whole.
+/// The mesh is in millimetres and its faces are planar (to 1e-5 of their diameter; see
+/// [`UnfoldError::NotPlanar`]) simple polygons, convex or not; it may have rims (they are cuts),
+/// handles and several components. Faces stay whole.
 ///
-/// Which edges fold: a forest over the faces, within what `seams` allows. Two faces of a piece whose common edge comes to lie
-/// on itself fold there too (around a flat vertex, for instance), so no slit of zero width is ever cut. With
-/// [`Seams::Free`] the forest is the best of several rules, then repaired; the piece count is as low as the search finds, and
-/// the seams are then made shorter where nothing overlaps.
-/// [`Seams::Within`] holds that search to edges that stay and edges that open. [`PiecesMode::Strips`], and two pieces of a
-/// closed 3-valent mesh, choose seams as D-forms do: the folds meet every vertex once.
-/// With given seams or folds every ring of faces opens at the fold with the least fold angle × length, flat ones last.
-/// Where faces overlap and no other allowed edge helps, a further fold opens. So given seams always open; a given fold may.
+/// Which edges fold: a forest over the faces, within what `seams` allows. Two faces of a piece
+/// whose common edge comes to lie on itself fold there too (around a flat vertex, for instance), so
+/// no slit of zero width is ever cut. With [`Seams::Free`] the forest is the best of several rules,
+/// then repaired; the piece count is as low as the search finds, and the seams are then made
+/// shorter where nothing overlaps. [`Seams::Within`] holds that search to edges that stay and edges
+/// that open. [`PiecesMode::Strips`], and two pieces of a closed 3-valent mesh, choose seams as
+/// D-forms do: the folds meet every vertex once. With given seams or folds every ring of faces
+/// opens at the fold with the least fold angle × length, flat ones last. Where faces overlap and no
+/// other allowed edge helps, a further fold opens. So given seams always open; a given fold may.
 ///
-/// Pieces come with the most faces first, of equal ones the one with the lowest face; the first face laid, in the middle of
-/// the piece, has its longest side along x, and the piece's box starts at (0, 0).
+/// Pieces come with the most faces first, of equal ones the one with the lowest face; the first
+/// face laid, in the middle of the piece, has its longest side along x, and the piece's box starts
+/// at (0, 0).
 ///
 /// # Errors
 /// See [`UnfoldError`]. A net that does not pass [`prove`] is never returned.
@@ -113,8 +121,9 @@ struct Tried {
     joins: usize,
 }
 
-/// The layout with the fewest pieces that the search finds: attempts from other starts, at most one more than there are
-/// steps of effort, until there are as few pieces as can be or the budget is spent; then seams of its own choice are made shorter.
+/// The layout with the fewest pieces that the search finds: attempts from other starts, at most one
+/// more than there are steps of effort, until there are as few pieces as can be or the budget is
+/// spent; then seams of its own choice are made shorter.
 fn fewest<'a>(
     dual: &'a Dual,
     mesh: &Mesh,
@@ -130,10 +139,18 @@ fn fewest<'a>(
     let mut best: Option<Layout> = None;
     for _ in 0..=params.effort {
         let starts = if best.is_none() { STARTS } else { LATER_STARTS };
-        let (start, starts) = best_start(dual, mesh, seams, (starts, tried.starts), &mut random, progress);
+        let (start, starts) =
+            best_start(dual, mesh, seams, (starts, tried.starts), &mut random, progress);
         tried.starts += starts;
-        let layout = attempt(start, budget.min(ATTEMPT * size), (&mut budget, &mut tried), &mut random, progress);
-        if best.as_ref().is_none_or(|best| layout.forest.roots().len() < best.forest.roots().len()) {
+        let layout = attempt(
+            start,
+            budget.min(ATTEMPT * size),
+            (&mut budget, &mut tried),
+            &mut random,
+            progress,
+        );
+        if best.as_ref().is_none_or(|best| layout.forest.roots().len() < best.forest.roots().len())
+        {
             best = Some(layout);
         }
         let pieces = best.as_ref().map_or(0, |best| best.forest.roots().len());
@@ -149,7 +166,8 @@ fn fewest<'a>(
     (settled(layout), tried)
 }
 
-/// One way from a start to pieces without overlaps: branches are moved, what still overlaps is parted, pieces are joined.
+/// One way from a start to pieces without overlaps: branches are moved, what still overlaps is
+/// parted, pieces are joined.
 fn attempt<'a>(
     start: Layout<'a>,
     share: u64,
@@ -176,7 +194,8 @@ fn attempt<'a>(
     layout
 }
 
-/// The start with the fewest overlaps, the first without any, and how many were tried: `count` rules from turn `first` on.
+/// The start with the fewest overlaps, the first without any, and how many were tried: `count`
+/// rules from turn `first` on.
 fn best_start<'a>(
     dual: &'a Dual,
     mesh: &Mesh,
@@ -189,7 +208,9 @@ fn best_start<'a>(
         0 if !seams.is_searched() => Rule::Sharpest,
         turn => Rule::of_turn(turn, random),
     };
-    let lay = |rule, limit, random: &mut Random| Layout::new(dual, start::forest(dual, mesh, rule, random), limit);
+    let lay = |rule, limit, random: &mut Random| {
+        Layout::new(dual, start::forest(dual, mesh, rule, random), limit)
+    };
     let first = rule(0, random);
     let mut best = lay(first, usize::MAX, random).expect("no limit, no giving up");
     for turn in 1..count {
@@ -205,7 +226,8 @@ fn best_start<'a>(
     (best, count)
 }
 
-/// Laid out afresh until that shows no overlap: what the moves have lost to rounding may hide one at the bound.
+/// Laid out afresh until that shows no overlap: what the moves have lost to rounding may hide one
+/// at the bound.
 fn settled(layout: Layout) -> Layout {
     let mut layout = layout.fresh();
     while !layout.overlaps.is_empty() {
@@ -216,7 +238,10 @@ fn settled(layout: Layout) -> Layout {
 }
 
 /// Holds the layout to the number of pieces that was asked for.
-fn counted<'a>((mut layout, tried): (Layout<'a>, Tried), mode: PiecesMode) -> Result<Layout<'a>, UnfoldError> {
+fn counted<'a>(
+    (mut layout, tried): (Layout<'a>, Tried),
+    mode: PiecesMode,
+) -> Result<Layout<'a>, UnfoldError> {
     let components = layout.dual.component_count();
     let asked = match mode {
         PiecesMode::One => components,

@@ -1,12 +1,13 @@
 //! When two laid-out faces overlap.
 //!
-//! Laid-out coordinates carry rounding: two faces that share a fold, or that merely touch, may sink into each other by some
-//! 1e-15 of the model's size. So an overlap is said to be *deeper than a bound*: two convex polygons overlap when no line
-//! through a side of one of them leaves the other on its outer side up to `bound`. Touching at sides and corners, whether
-//! between neighbours or strangers, is then no overlap, without special cases. The bound is 1e-11 of the model's size
-//! (ten times the rounding bound of constructed points, [`crate::geom::RoundingBound`]), a hundred times what laying out
-//! a chain of a thousand faces loses; an overlap that is let through has an area below bound × perimeter.
-//! Concave faces are compared part by part ([`super::convex`]).
+//! Laid-out coordinates carry rounding: two faces that share a fold, or that merely touch, may sink
+//! into each other by some 1e-15 of the model's size. So an overlap is said to be *deeper than a
+//! bound*: two convex polygons overlap when no line through a side of one of them leaves the other
+//! on its outer side up to `bound`. Touching at sides and corners, whether between neighbours or
+//! strangers, is then no overlap, without special cases. The bound is 1e-11 of the model's size
+//! (ten times the rounding bound of constructed points, [`crate::geom::RoundingBound`]), a hundred
+//! times what laying out a chain of a thousand faces loses; an overlap that is let through has an
+//! area below bound × perimeter. Concave faces are compared part by part ([`super::convex`]).
 
 use glam::DVec2;
 
@@ -21,7 +22,8 @@ pub(super) fn overlap(dual: &Dual, f: u32, p: &[DVec2], g: u32, q: &[DVec2]) -> 
     dual.parts.of(f).any(|a| others.clone().any(|b| convex_overlap(a, p, b, q, dual.bound)))
 }
 
-/// The same for two convex parts, given by their corner numbers. Separating axes of convex polygons are their sides.
+/// The same for two convex parts, given by their corner numbers. Separating axes of convex polygons
+/// are their sides.
 fn convex_overlap(a: &[u32], p: &[DVec2], b: &[u32], q: &[DVec2], bound: f64) -> bool {
     !separated(a, p, b, q, bound) && !separated(b, q, a, p, bound)
 }

@@ -26,7 +26,9 @@ pub enum PiecesMode {
 
 /// A piece mode that could not be read.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("`{text}` is not a way to divide a model; write auto, one, strips, faces, or a number from 1")]
+#[error(
+    "`{text}` is not a way to divide a model; write auto, one, strips, faces, or a number from 1"
+)]
 pub struct PiecesModeError {
     /// What was typed.
     pub text: String,
@@ -82,12 +84,14 @@ impl<'de> Deserialize<'de> for PiecesMode {
 /// How to unfold.
 #[derive(Debug, Clone, PartialEq, Eq, clap::Args, Deserialize)]
 pub struct UnfoldParams {
-    /// Pieces: auto (as few as can be found), one (for each component), strips, faces, or their exact number
+    /// Pieces: auto (as few as can be found), one (for each component), strips, faces, or their
+    /// exact number
     #[arg(long, default_value = "auto", value_name = "MODE")]
     #[serde(default)]
     pub pieces: PiecesMode,
 
-    /// How long to search before a net is divided, 0 or more; each step lays every face about 150 times
+    /// How long to search before a net is divided, 0 or more; each step lays every face about 150
+    /// times
     #[arg(long, default_value_t = DEFAULT_EFFORT, value_name = "N")]
     #[serde(default = "default_effort")]
     pub effort: u32,
@@ -116,9 +120,11 @@ pub enum Seams {
     /// Any edge may be opened or kept.
     #[default]
     Free,
-    /// These edges open; of the others only those that keep a piece from lying flat without overlap.
+    /// These edges open; of the others only those that keep a piece from lying flat without
+    /// overlap.
     Open(Vec<EdgeId>),
-    /// The unfolder chooses, but these edges stay together and those open. An edge that cannot stay is an error.
+    /// The unfolder chooses, but these edges stay together and those open. An edge that cannot stay
+    /// is an error.
     Within {
         /// Edges that stay together.
         keep: Vec<EdgeId>,
@@ -145,7 +151,8 @@ impl Seams {
 /// How the mesh in memory relates to the file that it came from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Source<'a> {
-    /// Factor from the file's unit to millimetres. The mesh is in millimetres already; the factor is only recorded.
+    /// Factor from the file's unit to millimetres. The mesh is in millimetres already; the factor
+    /// is only recorded.
     pub scale: f64,
     /// Vertices that reading added; the net names the vertex of the file instead.
     pub split_vertices: &'a [SplitVertex],

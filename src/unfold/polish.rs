@@ -1,8 +1,9 @@
 //! Shorter seams: folds are exchanged for longer ones that do no harm.
 //!
-//! Closing an open edge of a piece makes a ring of folds, of which another must open. Where that one is shorter, the part
-//! that it sets free is laid along the longer edge, if nothing overlaps there: the exchange step of spanning trees, by
-//! length, under the condition that the net stays flat. Fewer and longer glued edges are what a maker wants.
+//! Closing an open edge of a piece makes a ring of folds, of which another must open. Where that
+//! one is shorter, the part that it sets free is laid along the longer edge, if nothing overlaps
+//! there: the exchange step of spanning trees, by length, under the condition that the net stays
+//! flat. Fewer and longer glued edges are what a maker wants.
 
 use super::dual::{Dual, FLAT, NONE};
 use super::layout::Layout;
@@ -37,7 +38,8 @@ fn worth(dual: &Dual, hinge: usize) -> f64 {
     if hinge.fold <= FLAT { f64::INFINITY } else { hinge.length }
 }
 
-/// Folds an open edge instead of the least one of the ring that it closes, if that one is shorter and nothing overlaps.
+/// Folds an open edge instead of the least one of the ring that it closes, if that one is shorter
+/// and nothing overlaps.
 fn exchange(layout: &mut Layout, hinge: usize, budget: &mut u64) -> bool {
     let dual = layout.dual;
     let sides = dual.hinges[hinge].sides;
@@ -49,14 +51,17 @@ fn exchange(layout: &mut Layout, hinge: usize, budget: &mut u64) -> bool {
     let mut ring = Vec::new();
     forest.path(dual, f, g, &mut ring);
     *budget = budget.saturating_sub(1 + ring.len() as u64 / 16);
-    let of_fold = |c: u32| worth(dual, dual.hinge[forest.parent_side[c as usize] as usize] as usize);
+    let of_fold =
+        |c: u32| worth(dual, dual.hinge[forest.parent_side[c as usize] as usize] as usize);
     let free = ring.into_iter().filter(|&c| !forest.must_keep(dual, c));
     let least = free.min_by(|&a, &b| of_fold(a).total_cmp(&of_fold(b)).then(a.cmp(&b)));
     let Some(cut) = least.filter(|&c| of_fold(c) < worth(dual, hinge)) else { return false };
     let mut faces = Vec::new();
     forest.smaller_part(cut, &mut faces);
     layout.mark(&faces);
-    let Some(side) = sides.into_iter().find(|&s| layout.is_marked(dual.owner[s as usize])) else { return false };
+    let Some(side) = sides.into_iter().find(|&s| layout.is_marked(dual.owner[s as usize])) else {
+        return false;
+    };
     debug_assert!(dual.across[side as usize] != NONE, "hinges have two sides");
     let (motion, piece) = (layout.motion(side), layout.piece[f as usize]);
     let mut found = Vec::new();

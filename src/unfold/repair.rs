@@ -1,9 +1,10 @@
 //! One net without overlaps, by moving branches.
 //!
-//! For a pair of faces that overlap, one of the folds on the path between them must go. Cutting one leaves two parts; the
-//! smaller is hung on again by another edge of its boundary, and a move that lessens the overlaps is kept. An edge that was
-//! cut may not fold again for a while (tabu list). After Zawallich 2024 ("Unfolding polyhedra via tabu search"); here only
-//! the moved part is laid and tested again, and it may also move to another piece.
+//! For a pair of faces that overlap, one of the folds on the path between them must go. Cutting one
+//! leaves two parts; the smaller is hung on again by another edge of its boundary, and a move that
+//! lessens the overlaps is kept. An edge that was cut may not fold again for a while (tabu list).
+//! After Zawallich 2024 ("Unfolding polyhedra via tabu search"); here only the moved part is laid
+//! and tested again, and it may also move to another piece.
 
 use super::dual::NONE;
 use super::forest::Forest;
@@ -17,7 +18,8 @@ const FOLDS: usize = 8;
 const HINGES: usize = 8;
 /// Sides of a part that one step looks at for such edges: of a larger part a random choice.
 const LOOKS: usize = 192;
-/// What other work costs, as a share of laying a face: gathering a face of a part, keeping one of the forest in order.
+/// What other work costs, as a share of laying a face: gathering a face of a part, keeping one of
+/// the forest in order.
 const GATHER: u64 = 16;
 const REFRESH: u64 = 64;
 /// Steps for which an edge that was cut stays open.
@@ -43,7 +45,8 @@ pub(super) struct Repair<'a> {
     /// Side → first step in which its edge may fold again.
     tabu: Vec<u32>,
     step: u32,
-    /// Faces laid so far, in moves that were tried: the measure of effort, since time would not be repeatable.
+    /// Faces laid so far, in moves that were tried: the measure of effort, since time would not be
+    /// repeatable.
     work: u64,
     path: Vec<u32>,
     faces: Vec<u32>,
@@ -73,14 +76,17 @@ impl<'a> Repair<'a> {
         (self.step, self.work)
     }
 
-    /// Moves branches until no overlap is left, `budget` faces have been laid, or a quarter of that brought nothing better.
-    /// Returns the best layout on the way.
+    /// Moves branches until no overlap is left, `budget` faces have been laid, or a quarter of that
+    /// brought nothing better. Returns the best layout on the way.
     pub fn run(&mut self, budget: u64, progress: &dyn Progress) -> Layout<'a> {
         let start = self.layout.overlaps.len();
         let (mut low, mut low_work) = (start, 0);
         let mut best = self.layout.forest.parent_side.clone();
         let is_worth = |work: u64, low_work: u64| work < budget && work - low_work <= budget / 4;
-        while !self.layout.overlaps.is_empty() && is_worth(self.work, low_work) && !progress.is_cancelled() {
+        while !self.layout.overlaps.is_empty()
+            && is_worth(self.work, low_work)
+            && !progress.is_cancelled()
+        {
             self.step();
             let overlaps = self.layout.overlaps.len();
             if overlaps < low {
@@ -91,7 +97,8 @@ impl<'a> Repair<'a> {
         }
         if self.layout.overlaps.len() > low {
             let forest = Forest::new(self.layout.dual, best);
-            return Layout::new(self.layout.dual, forest, usize::MAX).expect("no limit, no giving up");
+            return Layout::new(self.layout.dual, forest, usize::MAX)
+                .expect("no limit, no giving up");
         }
         self.layout.clone()
     }
@@ -118,7 +125,8 @@ impl<'a> Repair<'a> {
         }
     }
 
-    /// Tries to hang on the smaller part of the cut above `cut` by other edges; better moves replace `best`.
+    /// Tries to hang on the smaller part of the cut above `cut` by other edges; better moves
+    /// replace `best`.
     fn try_cut(&mut self, cut: u32, best: &mut Option<Move>) {
         self.layout.forest.smaller_part(cut, &mut self.faces);
         self.work += self.faces.len() as u64 / GATHER;
@@ -126,15 +134,26 @@ impl<'a> Repair<'a> {
         self.gather_hinges(cut);
         for &side in &self.hinges {
             // One worse than now is worth a thought, after that only what beats the best so far.
-            let Ok(limit) = usize::try_from(before - best.as_ref().map_or(-1, |m| m.gain + 1)) else { return };
+            let Ok(limit) = usize::try_from(before - best.as_ref().map_or(-1, |m| m.gain + 1))
+            else {
+                return;
+            };
             let motion = self.layout.motion(side);
             let piece = self.layout.piece[self.layout.dual.neighbour(side) as usize];
-            self.work += self.layout.try_motion(&self.faces, motion, piece, limit, &mut self.found) as u64;
+            self.work +=
+                self.layout.try_motion(&self.faces, motion, piece, limit, &mut self.found) as u64;
             if self.found.len() > limit {
                 continue;
             }
             let gain = before - self.found.len() as i64;
-            *best = Some(Move { cut, side, motion, faces: self.faces.clone(), found: self.found.clone(), gain });
+            *best = Some(Move {
+                cut,
+                side,
+                motion,
+                faces: self.faces.clone(),
+                found: self.found.clone(),
+                gain,
+            });
             if gain > 0 {
                 return;
             }

@@ -9,7 +9,8 @@ use crate::geom::polygon::signed_area;
 use crate::measure;
 use crate::mesh::{EdgeId, HalfEdgeMap, Mesh, VertexId, VertexMap};
 use crate::net::{
-    EdgeLabel, FlatFace, Fold, FoldKind, MeshCounts, Net, Piece, PieceId, Proof, Rim, Seam, SeamSide, Segment,
+    EdgeLabel, FlatFace, Fold, FoldKind, MeshCounts, Net, Piece, PieceId, Proof, Rim, Seam,
+    SeamSide, Segment,
 };
 
 /// The net of a layout without overlaps; its proof is still empty.
@@ -50,8 +51,11 @@ struct Writer<'a> {
 impl<'a> Writer<'a> {
     fn new(mesh: &'a Mesh, layout: &'a Layout, source: &Source) -> Self {
         let (dual, forest) = (layout.dual, &layout.forest);
-        let mut trees: Vec<&[u32]> = forest.roots().into_iter().map(|root| forest.subtree(root)).collect();
-        trees.sort_by_cached_key(|faces| (std::cmp::Reverse(faces.len()), faces.iter().min().copied()));
+        let mut trees: Vec<&[u32]> =
+            forest.roots().into_iter().map(|root| forest.subtree(root)).collect();
+        trees.sort_by_cached_key(|faces| {
+            (std::cmp::Reverse(faces.len()), faces.iter().min().copied())
+        });
         let mut piece = vec![PieceId(0); dual.face_count()];
         let mut flat = layout.flat.clone();
         for (i, faces) in trees.iter().enumerate() {
@@ -65,16 +69,24 @@ impl<'a> Writer<'a> {
         source.split_vertices.iter().for_each(|split| name[split.added] = split.given.index());
         let mut side_of = HalfEdgeMap::filled(mesh.half_edge_slots(), NONE);
         dual.half_edges.iter().enumerate().for_each(|(s, &h)| side_of[h] = s as u32);
-        let folds = (0..dual.across.len() as u32).map(|s| forest.is_fold(dual, s) || closes(layout, s)).collect();
+        let folds = (0..dual.across.len() as u32)
+            .map(|s| forest.is_fold(dual, s) || closes(layout, s))
+            .collect();
         Self { mesh, dual, trees, piece, flat, folds, side_of, name }
     }
 
     fn piece(&self, index: usize) -> Piece {
         let faces = self.trees[index];
         let mut loops = self.boundary(faces);
-        let outer = (0..loops.len()).max_by(|&a, &b| signed_area(&loops[a]).total_cmp(&signed_area(&loops[b])));
+        let outer = (0..loops.len())
+            .max_by(|&a, &b| signed_area(&loops[a]).total_cmp(&signed_area(&loops[b])));
         let outline = loops.swap_remove(outer.expect("a flat piece has a boundary"));
-        Piece { id: PieceId(index), outline, holes: loops, faces: faces.iter().map(|&f| self.face(f)).collect() }
+        Piece {
+            id: PieceId(index),
+            outline,
+            holes: loops,
+            faces: faces.iter().map(|&f| self.face(f)).collect(),
+        }
     }
 
     fn face(&self, f: u32) -> FlatFace {
@@ -92,8 +104,11 @@ impl<'a> Writer<'a> {
 
     /// The boundaries of a piece, with the material on their left.
     fn boundary(&self, faces: &[u32]) -> Vec<Vec<DVec2>> {
-        let mut open: Vec<u32> =
-            faces.iter().flat_map(|&f| self.dual.sides(f)).filter(|&s| !self.folds[s as usize]).collect();
+        let mut open: Vec<u32> = faces
+            .iter()
+            .flat_map(|&f| self.dual.sides(f))
+            .filter(|&s| !self.folds[s as usize])
+            .collect();
         open.sort_unstable();
         let mut seen = vec![false; open.len()];
         let mut loops = Vec::new();
@@ -102,7 +117,9 @@ impl<'a> Writer<'a> {
             let mut at = start;
             while !std::mem::replace(&mut seen[at], true) {
                 corners.push(self.flat[open[at] as usize]);
-                at = open.binary_search(&self.next_open(open[at])).expect("the boundary stays in its piece");
+                at = open
+                    .binary_search(&self.next_open(open[at]))
+                    .expect("the boundary stays in its piece");
             }
             if !corners.is_empty() {
                 loops.push(corners);
@@ -120,10 +137,12 @@ impl<'a> Writer<'a> {
         next
     }
 
-    /// Where an edge lies on the face of one of its sides, from the edge's first vertex to its second.
+    /// Where an edge lies on the face of one of its sides, from the edge's first vertex to its
+    /// second.
     fn segment(&self, s: u32) -> Segment {
         let ends = [s, self.dual.next(s)].map(|c| self.flat[c as usize]);
-        let is_first = self.dual.half_edges[s as usize].edge().half_edge() == self.dual.half_edges[s as usize];
+        let is_first =
+            self.dual.half_edges[s as usize].edge().half_edge() == self.dual.half_edges[s as usize];
         if is_first { ends } else { [ends[1], ends[0]] }
     }
 
@@ -171,7 +190,11 @@ impl<'a> Writer<'a> {
     }
 
     fn seam(&self, e: EdgeId, sides: [u32; 2]) -> Seam {
-        let side = |s| SeamSide { piece: self.piece_of(s), face: self.face_number(s), segment: self.segment(s) };
+        let side = |s| SeamSide {
+            piece: self.piece_of(s),
+            face: self.face_number(s),
+            segment: self.segment(s),
+        };
         Seam {
             id: EdgeLabel(e.index()),
             edge: self.ends(e),
@@ -182,19 +205,27 @@ impl<'a> Writer<'a> {
     }
 
     fn rim(&self, e: EdgeId, s: u32) -> Rim {
-        Rim { edge: self.ends(e), piece: self.piece_of(s), face: self.face_number(s), segment: self.segment(s) }
+        Rim {
+            edge: self.ends(e),
+            piece: self.piece_of(s),
+            face: self.face_number(s),
+            segment: self.segment(s),
+        }
     }
 }
 
-/// Whether the two sides of an edge that may fold lie on each other without being a fold of the forest.
+/// Whether the two sides of an edge that may fold lie on each other without being a fold of the
+/// forest.
 fn closes(layout: &Layout, s: u32) -> bool {
     let dual = layout.dual;
     let t = dual.across[s as usize];
     if dual.hinge[s as usize] == NONE
-        || layout.piece[dual.owner[s as usize] as usize] != layout.piece[dual.owner[t as usize] as usize]
+        || layout.piece[dual.owner[s as usize] as usize]
+            != layout.piece[dual.owner[t as usize] as usize]
     {
         return false;
     }
-    let near = |a: u32, b: u32| layout.flat[a as usize].distance(layout.flat[b as usize]) <= dual.bound;
+    let near =
+        |a: u32, b: u32| layout.flat[a as usize].distance(layout.flat[b as usize]) <= dual.bound;
     near(s, dual.next(t)) && near(dual.next(s), t)
 }

@@ -4,8 +4,8 @@ use super::dual::{Dual, NONE};
 use super::forest::Forest;
 use super::layout::Layout;
 
-/// Opens folds until nothing overlaps: each time the fold that parts the most overlapping pairs, of equal ones the
-/// cheapest to open (least fold angle × length), then the lowest.
+/// Opens folds until nothing overlaps: each time the fold that parts the most overlapping pairs, of
+/// equal ones the cheapest to open (least fold angle × length), then the lowest.
 pub(super) fn split_overlaps(layout: &mut Layout) {
     let mut parted = vec![0_i64; layout.dual.face_count()];
     while !layout.overlaps.is_empty() {
@@ -13,11 +13,16 @@ pub(super) fn split_overlaps(layout: &mut Layout) {
         let dual = layout.dual;
         let forest = &layout.forest;
         let cost = |c: u32| fold_cost(dual, forest, c);
-        let folds = (0..dual.face_count() as u32).filter(|&c| forest.parent_side[c as usize] != NONE);
+        let folds =
+            (0..dual.face_count() as u32).filter(|&c| forest.parent_side[c as usize] != NONE);
         let best = folds.min_by(|&a, &b| {
             let by_count = parted[b as usize].cmp(&parted[a as usize]);
             let keeps = |c: u32| parted[c as usize] == 0 || forest.must_keep(dual, c);
-            keeps(a).cmp(&keeps(b)).then(by_count).then_with(|| cost(a).total_cmp(&cost(b))).then(a.cmp(&b))
+            keeps(a)
+                .cmp(&keeps(b))
+                .then(by_count)
+                .then_with(|| cost(a).total_cmp(&cost(b)))
+                .then(a.cmp(&b))
         });
         layout.split(best.expect("two faces that overlap hang together by folds"));
     }
@@ -45,8 +50,8 @@ fn fold_cost(dual: &Dual, forest: &Forest, c: u32) -> f64 {
     hinge.fold * hinge.length
 }
 
-/// Hangs pieces on each other by any edge between them that makes no overlap, until no edge will do. `keep_going` is asked
-/// before each piece is tried.
+/// Hangs pieces on each other by any edge between them that makes no overlap, until no edge will
+/// do. `keep_going` is asked before each piece is tried.
 pub(super) fn join_pieces(layout: &mut Layout, keep_going: impl Fn() -> bool) {
     let dual = layout.dual;
     let mut found = Vec::new();
@@ -75,14 +80,17 @@ pub(super) fn join_pieces(layout: &mut Layout, keep_going: impl Fn() -> bool) {
     }
 }
 
-/// Opens folds until there are `count` pieces: each time the one that halves the largest piece best.
+/// Opens folds until there are `count` pieces: each time the one that halves the largest piece
+/// best.
 pub(super) fn split_to_count(layout: &mut Layout, count: usize) {
     while layout.forest.roots().len() < count {
         let forest = &layout.forest;
-        let folds = (0..layout.dual.face_count() as u32).filter(|&c| forest.parent_side[c as usize] != NONE);
+        let folds = (0..layout.dual.face_count() as u32)
+            .filter(|&c| forest.parent_side[c as usize] != NONE);
         let keeps = |c: u32| forest.must_keep(layout.dual, c);
-        let best = folds
-            .max_by_key(|&c| (!keeps(c), forest.size(forest.root(c)), forest.smaller_size(c), std::cmp::Reverse(c)));
+        let best = folds.max_by_key(|&c| {
+            (!keeps(c), forest.size(forest.root(c)), forest.smaller_size(c), std::cmp::Reverse(c))
+        });
         layout.split(best.expect("fewer pieces than faces leave a fold"));
     }
 }

@@ -1,9 +1,10 @@
 //! Forests to start the search from: spanning trees of the faces by several rules.
 //!
-//! Every rule gives each edge a weight, and a least spanning forest (Kruskal 1956) keeps the light ones as folds. Flat edges
-//! come first whatever the rule, so that plane regions stay whole. Sources: steepest edge by Schlickenrieder 1997
-//! ("Nets of polyhedra", 4.3: for one direction, every vertex opens its steepest edge upwards; on a convex mesh these are
-//! a spanning tree of the vertices), longest edges and edges along a direction in the same thesis, 4.2.
+//! Every rule gives each edge a weight, and a least spanning forest (Kruskal 1956) keeps the light
+//! ones as folds. Flat edges come first whatever the rule, so that plane regions stay whole.
+//! Sources: steepest edge by Schlickenrieder 1997 ("Nets of polyhedra", 4.3: for one direction,
+//! every vertex opens its steepest edge upwards; on a convex mesh these are a spanning tree of the
+//! vertices), longest edges and edges along a direction in the same thesis, 4.2.
 
 use std::collections::VecDeque;
 
@@ -71,7 +72,8 @@ pub(super) fn forest(dual: &Dual, mesh: &Mesh, rule: Rule, random: &mut Random) 
     spanning(dual, by_weight(dual, &weights))
 }
 
-/// The forest of given folds. A ring of them opens at the least fold angle × length, flat ones last.
+/// The forest of given folds. A ring of them opens at the least fold angle × length, flat ones
+/// last.
 pub(super) fn folded(dual: &Dual, is_fold: &EdgeMap<bool>) -> Forest {
     let weights: Vec<f64> = dual.hinges.iter().map(|h| -h.fold * h.length).collect();
     let order = by_weight(dual, &weights);
@@ -92,13 +94,16 @@ fn spanning(dual: &Dual, order: impl IntoIterator<Item = usize>) -> Forest {
     hang(dual, &kept)
 }
 
-/// Chains: every face keeps two folds at most, the dullest first and of nearly equal ones the longest. Every vertex inside
-/// the mesh ends up on a seam, since a ring of folds around one would be no chain.
+/// Chains: every face keeps two folds at most, the dullest first and of nearly equal ones the
+/// longest. Every vertex inside the mesh ends up on a seam, since a ring of folds around one would
+/// be no chain.
 pub(super) fn strips(dual: &Dual) -> Forest {
-    /// How much duller a fold must be to come before one that is as much longer as any two edges can be, in radians.
+    /// How much duller a fold must be to come before one that is as much longer as any two edges
+    /// can be, in radians.
     const STEP: f64 = 0.02;
     let longest = dual.hinges.iter().map(|h| h.length).fold(f64::MIN_POSITIVE, f64::max);
-    let weights: Vec<f64> = dual.hinges.iter().map(|h| h.fold - STEP * h.length / longest).collect();
+    let weights: Vec<f64> =
+        dual.hinges.iter().map(|h| h.fold - STEP * h.length / longest).collect();
     let mut sets = Sets::new(dual.face_count());
     let mut folds = vec![0_u8; dual.face_count()];
     let mut kept = vec![false; dual.across.len()];
@@ -150,7 +155,9 @@ fn weights(dual: &Dual, mesh: &Mesh, rule: Rule, random: &mut Random) -> Vec<f64
     let edge = |sides: [u32; 2]| dual.half_edges[sides[0] as usize].edge();
     match rule {
         Rule::Sharpest => dual.hinges.iter().map(|h| -h.fold * h.length).collect(),
-        Rule::Longest => dual.hinges.iter().map(|h| -h.length / longest + 0.2 * random.unit()).collect(),
+        Rule::Longest => {
+            dual.hinges.iter().map(|h| -h.length / longest + 0.2 * random.unit()).collect()
+        }
         Rule::Along(direction) => {
             let slope = |e: EdgeId| {
                 let [a, b] = mesh.edge_positions(e);
@@ -160,7 +167,10 @@ fn weights(dual: &Dual, mesh: &Mesh, rule: Rule, random: &mut Random) -> Vec<f64
         }
         Rule::Steepest(direction) => {
             let opened = steepest(mesh, direction);
-            dual.hinges.iter().map(|h| f64::from(u8::from(opened[edge(h.sides)])) - 0.5 * h.length / longest).collect()
+            dual.hinges
+                .iter()
+                .map(|h| f64::from(u8::from(opened[edge(h.sides)])) - 0.5 * h.length / longest)
+                .collect()
         }
     }
 }
@@ -180,7 +190,8 @@ fn steepest(mesh: &Mesh, direction: DVec3) -> EdgeMap<bool> {
     opened
 }
 
-/// The unit vector with a height and an angle around the vertical; uniform on the sphere when both are uniform.
+/// The unit vector with a height and an angle around the vertical; uniform on the sphere when both
+/// are uniform.
 pub(super) fn unit_vector(height: f64, angle: f64) -> DVec3 {
     let flat = DVec2::from_angle(angle) * (1.0 - height * height).max(0.0).sqrt();
     flat.extend(height)

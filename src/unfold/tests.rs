@@ -16,8 +16,10 @@ fn at(x: f64, y: f64, z: f64) -> DVec3 {
 }
 
 fn cube(size: f64, at: DVec3) -> (Vec<DVec3>, Vec<Vec<usize>>) {
-    let corner = |i: usize| at + DVec3::new((i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2) as f64) * size;
-    let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let corner =
+        |i: usize| at + DVec3::new((i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2) as f64) * size;
+    let faces =
+        [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
     ((0..8).map(corner).collect(), faces.map(Vec::from).to_vec())
 }
 
@@ -49,10 +51,14 @@ fn torus(around: usize, across: usize) -> Mesh {
     let id = |i: usize, j: usize| i % around * across + j % across;
     let points = (0..around * across).map(|k| point(k / across, k % across)).collect();
     let cells = (0..around * across).map(|k| (k / across, k % across));
-    build((points, cells.map(|(i, j)| vec![id(i, j), id(i + 1, j), id(i + 1, j + 1), id(i, j + 1)]).collect()))
+    build((
+        points,
+        cells.map(|(i, j)| vec![id(i, j), id(i + 1, j), id(i + 1, j + 1), id(i, j + 1)]).collect(),
+    ))
 }
 
-/// The dodecahedron: a cube's corners and three golden rectangles, faces found as the corners farthest along a direction.
+/// The dodecahedron: a cube's corners and three golden rectangles, faces found as the corners
+/// farthest along a direction.
 fn dodecahedron() -> Mesh {
     let g = (1.0 + 5f64.sqrt()) / 2.0;
     let signs = [1.0, -1.0];
@@ -63,7 +69,8 @@ fn dodecahedron() -> Mesh {
     let normals = pairs().flat_map(|(a, b)| cyclic(a * g, b));
     let face = |normal: DVec3| {
         let most = points.iter().map(|p| p.dot(normal)).fold(f64::MIN, f64::max);
-        let mut corners: Vec<usize> = (0..20).filter(|&i| points[i].dot(normal) > most - 1e-9).collect();
+        let mut corners: Vec<usize> =
+            (0..20).filter(|&i| points[i].dot(normal) > most - 1e-9).collect();
         let x = normal.any_orthogonal_vector().normalize();
         let y = normal.normalize().cross(x);
         corners.sort_by(|&a, &b| {
@@ -98,8 +105,9 @@ fn net(mesh: &Mesh, seams: &Seams, pieces: PiecesMode) -> Net {
     for (i, piece) in net.pieces.iter().enumerate() {
         assert_eq!(piece.id.0, i);
         let sides: usize = piece.holes.iter().map(Vec::len).sum::<usize>() + piece.outline.len();
-        let listed = net.seams.iter().flat_map(|s| &s.sides).filter(|s| s.piece == piece.id).count()
-            + net.rims.iter().filter(|r| r.piece == piece.id).count();
+        let listed =
+            net.seams.iter().flat_map(|s| &s.sides).filter(|s| s.piece == piece.id).count()
+                + net.rims.iter().filter(|r| r.piece == piece.id).count();
         assert_eq!(sides, listed);
     }
     net
@@ -124,9 +132,9 @@ fn platonic_solids_come_apart_in_one_piece() {
         let net = free(&mesh);
         assert_eq!((net.pieces.len(), net.folds.len()), (1, faces - 1));
         assert_eq!(net.pieces[0].outline.len(), 2 * net.seams.len());
-        assert!(
-            net.folds.iter().all(|f| f.kind == FoldKind::Mountain && (f.fold_angle - fold.to_degrees()).abs() < 1e-9)
-        );
+        assert!(net.folds.iter().all(
+            |f| f.kind == FoldKind::Mountain && (f.fold_angle - fold.to_degrees()).abs() < 1e-9
+        ));
         let low = net.pieces[0].outline.iter().fold(glam::DVec2::INFINITY, |low, &p| low.min(p));
         assert_eq!(low, glam::DVec2::ZERO);
     }
@@ -173,7 +181,10 @@ fn components_come_apart_by_themselves() {
     let mesh = build((points, faces));
     assert_eq!(free(&mesh).pieces.len(), 2);
     let error = try_unfold(&mesh, &Seams::Free, PiecesMode::Count(1)).expect_err("two components");
-    assert!(matches!(error, UnfoldError::MorePieces { asked: 1, found: 2, components: 2, .. }), "{error}");
+    assert!(
+        matches!(error, UnfoldError::MorePieces { asked: 1, found: 2, components: 2, .. }),
+        "{error}"
+    );
 }
 
 #[test]
@@ -181,8 +192,10 @@ fn concave_faces_and_valleys() {
     let ell = prism(&[(0., 0.), (2., 0.), (2., 1.), (1., 1.), (1., 2.), (0., 2.)]);
     let net = free(&ell);
     assert_eq!(net.pieces.len(), 1);
-    let valley: Vec<_> = net.folds.iter().filter(|f| f.kind == FoldKind::Valley).map(|f| f.fold_angle).collect();
-    let open: Vec<_> = net.seams.iter().filter(|s| s.fold_angle < 0.0).map(|s| s.fold_angle).collect();
+    let valley: Vec<_> =
+        net.folds.iter().filter(|f| f.kind == FoldKind::Valley).map(|f| f.fold_angle).collect();
+    let open: Vec<_> =
+        net.seams.iter().filter(|s| s.fold_angle < 0.0).map(|s| s.fold_angle).collect();
     assert_eq!(valley.len() + open.len(), 1);
     assert!((valley.iter().chain(&open).sum::<f64>() + 90.0).abs() < 1e-9);
     // A comb whose teeth are too narrow for what folds out between them.
@@ -208,7 +221,8 @@ fn a_torus_opens_both_ways_around() {
     let mesh = torus(12, 7);
     let bent = net(&mesh, &Seams::Free, PiecesMode::One);
     assert_eq!(bent.folds.len(), 84 - 1);
-    // With eight sides the vertices on top and at the bottom are flat though their faces are not: rings close around some.
+    // With eight sides the vertices on top and at the bottom are flat though their faces are not:
+    // rings close around some.
     let mesh = torus(12, 8);
     let flat = net(&mesh, &Seams::Free, PiecesMode::One);
     assert!(flat.folds.len() > 96 - 1);
@@ -240,12 +254,15 @@ fn sorted(edges: &[EdgeId]) -> Vec<usize> {
 
 #[test]
 fn the_ring_opens_at_its_least_fold_but_not_across_a_plane() {
-    // Six sides of a flat hexagon, one of them halved: 0° there, 40° and 80° at the others; the lids are seams.
+    // Six sides of a flat hexagon, one of them halved: 0° there, 40° and 80° at the others; the
+    // lids are seams.
     let corners = [(0., 0.), (2., 0.), (4., 0.), (5., 1.), (4., 2.), (0., 2.)];
     let mesh = prism(&corners);
     let lids: Vec<EdgeId> = mesh
         .edges()
-        .filter(|&e| mesh.edge_faces(e).iter().any(|f| *f == FaceId::new(0) || *f == FaceId::new(1)))
+        .filter(|&e| {
+            mesh.edge_faces(e).iter().any(|f| *f == FaceId::new(0) || *f == FaceId::new(1))
+        })
         .collect();
     let net = net(&mesh, &Seams::Open(lids.clone()), PiecesMode::Auto);
     let more: Vec<_> = net.seams.iter().filter(|s| !lids.contains(&EdgeId::new(s.id.0))).collect();
@@ -294,7 +311,8 @@ fn given_folds_that_overlap_are_opened() {
 fn faults_are_named() {
     let (mut points, faces) = cube(40.0, DVec3::ZERO);
     points[7].x += 0.01;
-    let error = try_unfold(&build((points.clone(), faces.clone())), &Seams::Free, PiecesMode::Auto).expect_err("bent");
+    let error = try_unfold(&build((points.clone(), faces.clone())), &Seams::Free, PiecesMode::Auto)
+        .expect_err("bent");
     match error {
         UnfoldError::NotPlanar { face, deviation, limit } => {
             assert_eq!(face, 5);
@@ -325,18 +343,30 @@ fn split_vertices_go_by_their_number_in_the_file() {
     }
     let far = [at(2., 1., 1.), at(1., 2., 1.), at(1., 1., 2.)].map(|p| builder.vertex(p));
     // A tetrahedron that touches the cube in corner 7 only.
-    faces.extend([vec![7, far[1], far[0]], vec![7, far[0], far[2]], vec![7, far[2], far[1]], far.to_vec()]);
+    faces.extend([
+        vec![7, far[1], far[0]],
+        vec![7, far[0], far[2]],
+        vec![7, far[2], far[1]],
+        far.to_vec(),
+    ]);
     for face in faces {
         builder.face(face);
     }
     let (mesh, split_vertices) = builder.build().expect("two solids at a point");
     assert_eq!(split_vertices.len(), 1);
     let source = Source { scale: 25.4, split_vertices: &split_vertices };
-    let net = unfold(&mesh, &Seams::Free, &UnfoldParams::default(), &source, &Silent).expect("a net");
+    let net =
+        unfold(&mesh, &Seams::Free, &UnfoldParams::default(), &source, &Silent).expect("a net");
     assert_eq!((net.scale, net.counts.vertices, net.pieces.len()), (25.4, 11, 2));
     let flat = net.pieces[1].faces.iter().chain(&net.pieces[0].faces).flat_map(|f| &f.vertices);
     assert_eq!(flat.filter(|&&v| v == 7).count(), 6);
-    assert!(net.seams.iter().flat_map(|s| s.edge).chain(net.folds.iter().flat_map(|f| f.edge)).all(|v| v < 11));
+    assert!(
+        net.seams
+            .iter()
+            .flat_map(|s| s.edge)
+            .chain(net.folds.iter().flat_map(|f| f.edge))
+            .all(|v| v < 11)
+    );
 }
 
 /// A ball of triangles whose points lie nearer to or farther from the middle by chance.
@@ -346,12 +376,16 @@ fn rough_ball(seed: u64, around: usize, rings: usize) -> Mesh {
     let mut points = vec![at(0., 0., 1.0), at(0., 0., -1.0)];
     for k in 0..rings * around {
         let height = ((k / around + 1) as f64 * PI / (rings + 1) as f64).cos();
-        points.push(start::unit_vector(height, (k % around) as f64 * TAU / around as f64) * radius());
+        points
+            .push(start::unit_vector(height, (k % around) as f64 * TAU / around as f64) * radius());
     }
     let id = |ring: usize, i: usize| 2 + ring * around + i % around;
     let mut faces = Vec::new();
     for i in 0..around {
-        faces.extend([vec![0, id(0, i), id(0, i + 1)], vec![1, id(rings - 1, i + 1), id(rings - 1, i)]]);
+        faces.extend([
+            vec![0, id(0, i), id(0, i + 1)],
+            vec![1, id(rings - 1, i + 1), id(rings - 1, i)],
+        ]);
         for ring in 1..rings {
             faces.push(vec![id(ring - 1, i), id(ring, i), id(ring, i + 1)]);
             faces.push(vec![id(ring - 1, i), id(ring, i + 1), id(ring - 1, i + 1)]);
@@ -388,13 +422,17 @@ fn a_cancelled_search_still_returns_a_net() {
         }
     }
     let mesh = rough_ball(1, 20, 12);
-    unfold(&mesh, &Seams::Free, &UnfoldParams::default(), &Source::default(), &Stopped).expect("a net");
+    unfold(&mesh, &Seams::Free, &UnfoldParams::default(), &Source::default(), &Stopped)
+        .expect("a net");
 }
 
 #[test]
 fn the_same_seed_gives_the_same_net() {
     let mesh = torus(16, 10);
-    let again = || unfold(&mesh, &Seams::Free, &UnfoldParams::default(), &Source::default(), &Silent).expect("a net");
+    let again = || {
+        unfold(&mesh, &Seams::Free, &UnfoldParams::default(), &Source::default(), &Silent)
+            .expect("a net")
+    };
     assert_eq!(again(), again());
 }
 
@@ -407,7 +445,8 @@ fn long_chains_do_not_drift() {
     for i in 0..=n {
         builder.vertex(at(x, 0.0, z));
         builder.vertex(at(x, 3.3, z));
-        let (step, angle) = (0.37 + 0.1 * (i as f64).sin(), if i % 2 == 0 { 1.1 } else { -0.7_f64 });
+        let (step, angle) =
+            (0.37 + 0.1 * (i as f64).sin(), if i % 2 == 0 { 1.1 } else { -0.7_f64 });
         (x, z) = (x + step * angle.cos(), z + step * angle.sin());
         length += if i < n { step } else { 0.0 };
     }
@@ -463,7 +502,8 @@ fn edges_to_keep_and_to_cut_are_obeyed_or_named() {
     let both = Seams::Within { keep: vec![all[3]], cut: vec![all[3]] };
     let error = try_unfold(&mesh, &both, PiecesMode::Auto).expect_err("kept and cut");
     assert_eq!(error, UnfoldError::KeptAndCut { edges: vec![3] });
-    let around: Vec<EdgeId> = mesh.outgoing(crate::mesh::VertexId::new(0)).map(|h| h.edge()).collect();
+    let around: Vec<EdgeId> =
+        mesh.outgoing(crate::mesh::VertexId::new(0)).map(|h| h.edge()).collect();
     let ring = Seams::Within { keep: around.clone(), cut: Vec::new() };
     let error = try_unfold(&mesh, &ring, PiecesMode::Auto).expect_err("a cone point");
     assert!(matches!(&error, UnfoldError::NotKept { edges } if edges.len() == 1), "{error}");
@@ -484,7 +524,11 @@ fn too_few_seams_name_the_vertices() {
 fn two_pieces_for_every_random_convex_mesh() {
     for n in [100, 200, 500, 1000] {
         for seed in 0..20 {
-            assert_eq!(net(&polytope(n, seed), &Seams::Free, PiecesMode::Count(2)).pieces.len(), 2, "{n} {seed}");
+            assert_eq!(
+                net(&polytope(n, seed), &Seams::Free, PiecesMode::Count(2)).pieces.len(),
+                2,
+                "{n} {seed}"
+            );
         }
     }
 }

@@ -10,7 +10,8 @@ use std::str::FromStr;
 use crate::code::codes;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// A length in millimetres. Typed as `3`, `3mm`, `0.5cm`, `1m`, `1/8in`, `2ft`, `0.2um`; without a unit it is millimetres.
+/// A length in millimetres. Typed as `3`, `3mm`, `0.5cm`, `1m`, `1/8in`, `2ft`, `0.2um`; without a
+/// unit it is millimetres.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default)]
 pub struct Length {
     mm: f64,
@@ -109,20 +110,28 @@ impl FromStr for Angle {
 /// # Errors
 /// [`UnitError`] when the text is anything else.
 pub fn parse_number(text: &str) -> Result<f64, UnitError> {
-    fraction(text.trim()).ok_or_else(|| UnitError { text: text.to_owned(), wanted: "a number", example: "0.25 or 1/3" })
+    fraction(text.trim()).ok_or_else(|| UnitError {
+        text: text.to_owned(),
+        wanted: "a number",
+        example: "0.25 or 1/3",
+    })
 }
 
 fn quantity(text: &str, units: &[(&str, f64)]) -> Option<f64> {
     let text = text.trim();
     // The longest unit that fits wins, so that `3mm` is not 3m of metres.
-    let unit = units.iter().filter(|(name, _)| text.ends_with(name)).max_by_key(|(name, _)| name.len());
-    let (number, size) = unit.map_or((text, 1.0), |&(name, size)| (&text[..text.len() - name.len()], size));
+    let unit =
+        units.iter().filter(|(name, _)| text.ends_with(name)).max_by_key(|(name, _)| name.len());
+    let (number, size) =
+        unit.map_or((text, 1.0), |&(name, size)| (&text[..text.len() - name.len()], size));
     fraction(number.trim()).map(|n| n * size).filter(|n| n.is_finite())
 }
 
 fn fraction(text: &str) -> Option<f64> {
     let is_numeric = |t: &str| t.bytes().all(|b| b.is_ascii_digit() || b"+-.eE".contains(&b));
-    let number = |t: &str| Some(t.trim()).filter(|t| is_numeric(t))?.parse::<f64>().ok().filter(|n| n.is_finite());
+    let number = |t: &str| {
+        Some(t.trim()).filter(|t| is_numeric(t))?.parse::<f64>().ok().filter(|n| n.is_finite())
+    };
     match text.split_once('/') {
         Some((above, below)) => Some(number(above)? / number(below).filter(|&d| d != 0.0)?),
         None => number(text),
@@ -162,7 +171,10 @@ enum Typed {
 }
 
 impl Typed {
-    fn read<T: FromStr<Err = UnitError>, E: serde::de::Error>(self, from_number: fn(f64) -> T) -> Result<T, E> {
+    fn read<T: FromStr<Err = UnitError>, E: serde::de::Error>(
+        self,
+        from_number: fn(f64) -> T,
+    ) -> Result<T, E> {
         match self {
             Self::Number(n) => Ok(from_number(n)),
             Self::Text(text) => text.parse().map_err(E::custom),
@@ -204,7 +216,10 @@ mod tests {
             assert!(mm(bad).is_err(), "{bad}");
         }
         let error = mm("3 apples").expect_err("no length");
-        assert_eq!(error.to_string(), "`3 apples` is not a length; write it like 3mm, 0.5cm or 1/8in");
+        assert_eq!(
+            error.to_string(),
+            "`3 apples` is not a length; write it like 3mm, 0.5cm or 1/8in"
+        );
     }
 
     #[test]

@@ -2,11 +2,13 @@
 
 /// The word of `known` that takes the fewest typing slips to become `typed`; the first of equals.
 ///
-/// A slip is a letter missing, too many, wrong, or swapped with its neighbour (Damerau 1964). `None` when every word is more
-/// than a third of its letters (but at least one slip) away: then a guess would only mislead.
+/// A slip is a letter missing, too many, wrong, or swapped with its neighbour (Damerau 1964).
+/// `None` when every word is more than a third of its letters (but at least one slip) away: then a
+/// guess would only mislead.
 pub fn nearest_word<'a>(typed: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let typed: Vec<char> = typed.to_lowercase().chars().collect();
-    let scored = known.into_iter().map(|word| (slips(&typed, &word.chars().collect::<Vec<_>>()), word));
+    let scored =
+        known.into_iter().map(|word| (slips(&typed, &word.chars().collect::<Vec<_>>()), word));
     let (slips, word) = scored.min_by_key(|&(slips, _)| slips)?;
     (slips <= (word.chars().count() / 3).max(1)).then_some(word)
 }

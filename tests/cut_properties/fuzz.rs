@@ -6,7 +6,8 @@
 //! KERFOLD_FUZZ_MINUTES=10 cargo test --release --test cut_properties fuzz -- --nocapture
 //! ```
 //!
-//! A finding prints its seed; `KERFOLD_FUZZ_SEED=<seed>` begins there. What was found becomes a plain test.
+//! A finding prints its seed; `KERFOLD_FUZZ_SEED=<seed>` begins there. What was found becomes a
+//! plain test.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
@@ -14,8 +15,8 @@ use std::time::{Duration, Instant};
 use kerfold::geom::Plane;
 use kerfold::mesh::VertexId;
 use kerfold::op::{
-    CutChain, Disjoint, Reach, ResolveParams, Scope, TruncateEdge, TruncateFace, TruncateVertex, resolve,
-    truncate_edges, truncate_faces, truncate_vertices,
+    CutChain, Disjoint, Reach, ResolveParams, Scope, TruncateEdge, TruncateFace, TruncateVertex,
+    resolve, truncate_edges, truncate_faces, truncate_vertices,
 };
 use kerfold::select::Selection;
 
@@ -32,7 +33,8 @@ fn number(name: &str) -> Option<f64> {
 #[allow(clippy::print_stdout)] // The seeds, for those who run it with --nocapture.
 fn fuzz() {
     let first = number("KERFOLD_FUZZ_SEED").map_or(0, |seed| seed as u64);
-    let time = number("KERFOLD_FUZZ_MINUTES").map(|minutes| Duration::from_secs_f64(60.0 * minutes));
+    let time =
+        number("KERFOLD_FUZZ_MINUTES").map(|minutes| Duration::from_secs_f64(60.0 * minutes));
     let start = Instant::now();
     let mut seed = first;
     while time.map_or(seed < first + USUAL, |time| start.elapsed() < time) {
@@ -43,14 +45,16 @@ fn fuzz() {
     println!("{} chains of cuts, from seed {first}, no finding", seed - first);
 }
 
-/// Needles and thin rings, whose volume was measured wrong by some per cent or more, and what is so thin, or so small and far from the
-/// origin, that the spacing of the coordinates is seen in its volume.
+/// Needles and thin rings, whose volume was measured wrong by some per cent or more, and what is so
+/// thin, or so small and far from the origin, that the spacing of the coordinates is seen in its
+/// volume.
 #[test]
 fn what_the_fuzz_found() {
     let seeds = [
-        410, 14_213, 20_015, 23_014, 29_130, 30_180, 39_933, 54_661, 54_773, 55_996, 58_587, 65_039, 74_717, 101_637,
-        104_133, 109_321, 144_115, 150_413, 152_298, 158_973, 162_559, 174_767, 175_411, 176_788, 182_761, 210_171,
-        232_510, 242_767, 563_149, 563_600, 678_337, 1_910_006,
+        410, 14_213, 20_015, 23_014, 29_130, 30_180, 39_933, 54_661, 54_773, 55_996, 58_587,
+        65_039, 74_717, 101_637, 104_133, 109_321, 144_115, 150_413, 152_298, 158_973, 162_559,
+        174_767, 175_411, 176_788, 182_761, 210_171, 232_510, 242_767, 563_149, 563_600, 678_337,
+        1_910_006,
     ];
     seeds.into_iter().for_each(chain);
 }
@@ -71,7 +75,8 @@ fn some_mesh(random: &mut Random, seed: u64) -> Option<Mesh> {
     } else {
         one(random)?
     };
-    // Powers of two are exact: what lay on a plane still does, from a thousandth of a millimetre to a kilometre.
+    // Powers of two are exact: what lay on a plane still does, from a thousandth of a millimetre to
+    // a kilometre.
     let scale = 2.0_f64.powi(random.below(41) as i32 - 20);
     mesh.clear_planes();
     let vertices: Vec<VertexId> = mesh.vertices().collect();
@@ -114,7 +119,8 @@ fn slice_somewhere(mesh: &Mesh, random: &mut Random, title: &str) -> Option<Mesh
     first.or(second).map(|half| half.0)
 }
 
-/// A few local cuts in one chain, some through several corners at once. No cut adds volume to a convex corner's side.
+/// A few local cuts in one chain, some through several corners at once. No cut adds volume to a
+/// convex corner's side.
 fn cut_locally(mesh: &Mesh, random: &mut Random) -> Option<Mesh> {
     let mut chain = CutChain::new(mesh.clone());
     for _ in 0..1 + random.below(4) {
@@ -125,9 +131,14 @@ fn cut_locally(mesh: &Mesh, random: &mut Random) -> Option<Mesh> {
         let v = *random.pick(&vertices);
         let here = chain.mesh().position(v);
         let t = *random.pick(&[0.25, 1.0 / 3.0, 0.5, 1.0]);
-        let points: Vec<DVec3> = chain.mesh().neighbours(v).map(|u| here.lerp(chain.mesh().position(u), t)).collect();
-        let normals: Vec<DVec3> =
-            chain.mesh().vertex_faces(v).filter_map(|f| chain.mesh().plane(f)).map(|p| p.normal()).collect();
+        let points: Vec<DVec3> =
+            chain.mesh().neighbours(v).map(|u| here.lerp(chain.mesh().position(u), t)).collect();
+        let normals: Vec<DVec3> = chain
+            .mesh()
+            .vertex_faces(v)
+            .filter_map(|f| chain.mesh().plane(f))
+            .map(|p| p.normal())
+            .collect();
         let Some(plane) = Plane::through_mean(&points, &normals) else { continue };
         let others = [v, *random.pick(&vertices)];
         let seeds = &others[..1 + random.below(2)];
@@ -145,7 +156,8 @@ fn cut_locally(mesh: &Mesh, random: &mut Random) -> Option<Mesh> {
 fn truncate_some(mesh: &Mesh, random: &mut Random) -> Option<Mesh> {
     let count = |n: usize| 1 + n / 4;
     let ids = |n: usize, random: &mut Random| -> Option<Selection> {
-        let chosen: Vec<String> = (0..count(n).min(12)).map(|_| random.below(n).to_string()).collect();
+        let chosen: Vec<String> =
+            (0..count(n).min(12)).map(|_| random.below(n).to_string()).collect();
         chosen.join(",").parse().ok()
     };
     let offset = *random.pick(&[0.2, 0.25, 1.0 / 3.0, 0.5, 0.75, 1.0, 1.5]);
@@ -163,11 +175,19 @@ fn truncate_some(mesh: &Mesh, random: &mut Random) -> Option<Mesh> {
         }
         1 => {
             let select = ids(mesh.edge_count(), random)?;
-            truncate_edges(mesh, &TruncateEdge { scope, disjoint, ..TruncateEdge::new(select, offset) }, &context)
+            truncate_edges(
+                mesh,
+                &TruncateEdge { scope, disjoint, ..TruncateEdge::new(select, offset) },
+                &context,
+            )
         }
         _ => {
             let select = ids(mesh.face_count(), random)?;
-            truncate_faces(mesh, &TruncateFace { scope, disjoint, ..TruncateFace::new(select, offset) }, &context)
+            truncate_faces(
+                mesh,
+                &TruncateFace { scope, disjoint, ..TruncateFace::new(select, offset) },
+                &context,
+            )
         }
     };
     result.ok().map(|r| r.0)

@@ -1,4 +1,5 @@
-//! What every cut keeps: soundness, volume, area, the sides of the plane; on solids that make it hard.
+//! What every cut keeps: soundness, volume, area, the sides of the plane; on solids that make it
+//! hard.
 
 mod fuzz;
 mod random;
@@ -24,9 +25,10 @@ struct Given {
 
 type Halves = [Option<(Mesh, CutReport)>; 2];
 
-// ---- planes that aim at trouble --------------------------------------------------------------------------------------
+// ---- planes that aim at trouble -----------------------------------------------------------------
 
-/// Through three vertices, along an edge, equal to a face, through one vertex, or through none; sometimes a few ulps off.
+/// Through three vertices, along an edge, equal to a face, through one vertex, or through none;
+/// sometimes a few ulps off.
 fn aimed_plane(mesh: &Mesh, random: &mut Random) -> Option<Given> {
     let points: Vec<DVec3> = mesh.vertices().map(|v| mesh.position(v)).collect();
     let edges: Vec<_> = mesh.edges().collect();
@@ -85,7 +87,7 @@ fn newell(corners: &[DVec3]) -> DVec3 {
     corners.iter().zip(next).map(|(&a, &b)| (a - corners[0]).cross(b - corners[0])).sum()
 }
 
-// ---- what must hold --------------------------------------------------------------------------------------------------
+// ---- what must hold -----------------------------------------------------------------------------
 
 fn cut_in_two(mesh: &Mesh, plane: Given) -> Result<Halves, OpError> {
     slice_both(mesh, &SliceParams::new(plane.normal, plane.point), &OpContext::default())
@@ -101,13 +103,17 @@ fn is_simple(mesh: &Mesh, f: FaceId) -> bool {
 
 /// A mesh as text, every digit of it.
 fn bytes(mesh: &Mesh) -> String {
-    let positions: Vec<_> = mesh.vertices().map(|v| (v, mesh.position(v).to_array().map(f64::to_bits))).collect();
-    let faces: Vec<_> =
-        mesh.faces_and_holes().map(|f| (f, mesh.is_hole(f), mesh.face_vertices(f).collect::<Vec<_>>())).collect();
+    let positions: Vec<_> =
+        mesh.vertices().map(|v| (v, mesh.position(v).to_array().map(f64::to_bits))).collect();
+    let faces: Vec<_> = mesh
+        .faces_and_holes()
+        .map(|f| (f, mesh.is_hole(f), mesh.face_vertices(f).collect::<Vec<_>>()))
+        .collect();
     format!("{positions:?} {faces:?}")
 }
 
-/// Sound, no face visits a vertex twice, no edge without length, nothing on the wrong side, misses change nothing.
+/// Sound, no face visits a vertex twice, no edge without length, nothing on the wrong side, misses
+/// change nothing.
 fn check_halves(mesh: &Mesh, plane: Given, halves: &Halves, title: &str) {
     let size = kerfold::measure::size(mesh).length();
     let unit = plane.normal.normalize();
@@ -137,10 +143,14 @@ fn check_volume(mesh: &Mesh, halves: &Halves, title: &str) {
     // Constructed vertices within 1e-12 of the size count as on the plane: needles feel that.
     let is_given = mesh.vertices().all(|v| mesh.is_given(v));
     let near = if is_given { 0.0 } else { 1e-12 * kerfold::measure::size(mesh).length() };
-    // No vertex can lie nearer to where it should than its coordinates are fine: what is thin, or small and far from the origin, feels that.
+    // No vertex can lie nearer to where it should than its coordinates are fine: what is thin, or
+    // small and far from the origin, feels that.
     let largest = mesh.vertices().map(|v| mesh.position(v).abs().max_element()).fold(0.0, f64::max);
     let slack = surface_area(mesh) * near.max(4.0 * (largest.next_up() - largest));
-    assert!((after - before).abs() <= slack.max(1e-12 * before.abs()), "{title}: volume {after} for {before}");
+    assert!(
+        (after - before).abs() <= slack.max(1e-12 * before.abs()),
+        "{title}: volume {after} for {before}"
+    );
 }
 
 fn cap_area((mesh, report): &(Mesh, CutReport)) -> f64 {
@@ -152,7 +162,8 @@ fn has_flat_face(mesh: &Mesh, plane: Given) -> bool {
     mesh.faces().any(|f| mesh.face_positions(f).into_iter().all(is_near))
 }
 
-/// Without faces in the plane: both halves show the same section, and the surface is what it was plus two sections.
+/// Without faces in the plane: both halves show the same section, and the surface is what it was
+/// plus two sections.
 fn check_area(mesh: &Mesh, plane: Given, halves: &Halves, title: &str) {
     let [Some(low), Some(high)] = halves else { return };
     if has_flat_face(mesh, plane) || !mesh.is_closed() {
@@ -162,7 +173,10 @@ fn check_area(mesh: &Mesh, plane: Given, halves: &Halves, title: &str) {
     let total = surface_area(mesh);
     assert!((below - above).abs() <= 1e-9 * total, "{title}: caps of {below} and {above}");
     let after = surface_area(&low.0) + surface_area(&high.0);
-    assert!((after - total - 2.0 * below).abs() <= 1e-9 * total, "{title}: area {after} for {total} and {below}");
+    assert!(
+        (after - total - 2.0 * below).abs() <= 1e-9 * total,
+        "{title}: area {after} for {total} and {below}"
+    );
 }
 
 fn check_all(mesh: &Mesh, plane: Given, title: &str) -> Halves {
@@ -174,7 +188,7 @@ fn check_all(mesh: &Mesh, plane: Given, title: &str) -> Halves {
     halves
 }
 
-// ---- convex and not --------------------------------------------------------------------------------------------------
+// ---- convex and not -----------------------------------------------------------------------------
 
 #[test]
 fn random_convex_solids() {
@@ -226,14 +240,15 @@ fn several_components() {
     }
 }
 
-// ---- unit cubes: exact volumes and areas -----------------------------------------------------------------------------
+// ---- unit cubes: exact volumes and areas --------------------------------------------------------
 
 fn check_voxels(voxels: &Voxels, touch: Touch, mesh: &Mesh, plane: Given, title: &str) {
     let halves = check_all(mesh, plane, title);
     let Given { normal, point } = plane;
     let title = format!("{title}, {plane:?}");
     for (half, n) in halves.iter().zip([normal, -normal]) {
-        let expected: f64 = voxels.cubes().map(|c| reference::cube_volume_behind(c.as_dvec3(), n, point)).sum();
+        let expected: f64 =
+            voxels.cubes().map(|c| reference::cube_volume_behind(c.as_dvec3(), n, point)).sum();
         let found = half.as_ref().map_or(0.0, |(part, _)| volume(part));
         assert!((found - expected).abs() <= 1e-9, "{title}: volume {found} for {expected}");
     }
@@ -241,13 +256,15 @@ fn check_voxels(voxels: &Voxels, touch: Touch, mesh: &Mesh, plane: Given, title:
     if is_axial {
         check_axial(voxels, touch, plane, &halves, &title);
     } else if let [Some(low), Some(_)] = &halves {
-        let expected: f64 = voxels.cubes().map(|c| reference::cube_section(c.as_dvec3(), normal, point)).sum();
+        let expected: f64 =
+            voxels.cubes().map(|c| reference::cube_section(c.as_dvec3(), normal, point)).sum();
         let found = cap_area(low);
         assert!((found - expected).abs() <= 1e-7, "{title}: caps of {found} for {expected}");
     }
 }
 
-/// A cut between two layers of cubes leaves just the surface of the cubes of the half, no membrane and no pit.
+/// A cut between two layers of cubes leaves just the surface of the cubes of the half, no membrane
+/// and no pit.
 fn check_axial(voxels: &Voxels, touch: Touch, plane: Given, halves: &Halves, title: &str) {
     let direction = plane.normal.normalize();
     let height = direction.dot(plane.point);
@@ -258,8 +275,8 @@ fn check_axial(voxels: &Voxels, touch: Touch, plane: Given, halves: &Halves, tit
     for (i, half) in halves.iter().enumerate() {
         let expected = voxels.exposed(|c| is_behind(c) == (i == 0)) as f64;
         let found = half.as_ref().map_or(0.0, |(part, _)| surface_area(part));
-        // A cube that hangs on the edges around a hollow leaves a lid of no thickness there: edges that lie on each other
-        // without being joined do not tell which is which.
+        // A cube that hangs on the edges around a hollow leaves a lid of no thickness there: edges
+        // that lie on each other without being joined do not tell which is which.
         let surplus = if touch == Touch::Through { (found - expected).max(0.0) } else { 0.0 };
         assert!(
             (found - expected - surplus).abs() <= 1e-9,
@@ -279,7 +296,8 @@ fn cubes_in_any_arrangement() {
         let Some(mesh) = voxels.mesh(touch, merge, &mut random) else { continue };
         let Some(plane) = aimed_plane(&mesh, &mut random) else { continue };
         // Cubes that touch along edges make holes that touch their outer walk at every corner.
-        let halves = cut_in_two(&mesh, plane).unwrap_or_else(|error| panic!("cubes {seed}: {error}"));
+        let halves =
+            cut_in_two(&mesh, plane).unwrap_or_else(|error| panic!("cubes {seed}: {error}"));
         if halves.iter().flatten().any(|(_, report)| report.lids > 0) {
             with_lids += 1;
             halves.iter().flatten().for_each(|(part, _)| assert_sound(part));
@@ -291,11 +309,14 @@ fn cubes_in_any_arrangement() {
     assert!(with_lids <= seeds(4000).end / 2000, "{with_lids} with lids");
 }
 
-/// A plate with many holes: one bridge more than holes where the search finds one chain, never a stack overflow.
+/// A plate with many holes: one bridge more than holes where the search finds one chain, never a
+/// stack overflow.
 #[test]
 fn a_plate_with_many_holes() {
     for (holes, most) in [(3_i32, 8 * 8), (30, 30 * 30 + 200)] {
-        let voxels = Voxels::new(IVec3::new(2 * holes + 1, 2 * holes + 1, 1), |c| c.x % 2 == 0 || c.y % 2 == 0);
+        let voxels = Voxels::new(IVec3::new(2 * holes + 1, 2 * holes + 1, 1), |c| {
+            c.x % 2 == 0 || c.y % 2 == 0
+        });
         let mesh = voxels.mesh(Touch::Apart, 0, &mut Random::new(1)).expect("a plate");
         let plane = Given { normal: DVec3::Z, point: DVec3::splat(0.5) };
         let halves = check_all(&mesh, plane, "plate");
@@ -314,7 +335,8 @@ fn tunnels_and_cavities() {
             2 => Voxels::with_cavity(false),
             _ => Voxels::with_cavity(true),
         };
-        let mesh = voxels.mesh(Touch::Apart, [0, 50, 100][random.below(3)], &mut random).expect("a block");
+        let mesh =
+            voxels.mesh(Touch::Apart, [0, 50, 100][random.below(3)], &mut random).expect("a block");
         if let Some(plane) = aimed_plane(&mesh, &mut random) {
             check_voxels(&voxels, Touch::Apart, &mesh, plane, &format!("hollow {seed}"));
         }
@@ -331,7 +353,7 @@ fn a_cut_at_the_ceiling_of_a_hollow_opens_it() {
     }
 }
 
-// ---- open meshes -----------------------------------------------------------------------------------------------------
+// ---- open meshes --------------------------------------------------------------------------------
 
 #[test]
 fn open_meshes_stay_open_and_lose_no_area() {
@@ -351,13 +373,17 @@ fn open_meshes_stay_open_and_lose_no_area() {
         let caps: f64 = halves.iter().flatten().map(cap_area).sum();
         let after: f64 = halves.iter().flatten().map(|(part, _)| surface_area(part)).sum();
         let before = surface_area(&mesh);
-        assert!(has_flat || (after - caps - before).abs() <= 1e-9 * before, "{title}: {after} for {before} and {caps}");
+        assert!(
+            has_flat || (after - caps - before).abs() <= 1e-9 * before,
+            "{title}: {after} for {before} and {caps}"
+        );
     }
 }
 
 /// A cup: a block with a pit, without the lid's ring, so that walls inside and outside end in rims.
 fn pipe() -> Mesh {
-    let ring = |s: f64, z: f64| [(-s, -s), (s, -s), (s, s), (-s, s)].map(|(x, y)| DVec3::new(x, y, z));
+    let ring =
+        |s: f64, z: f64| [(-s, -s), (s, -s), (s, s), (-s, s)].map(|(x, y)| DVec3::new(x, y, z));
     let points = [ring(2.0, 0.0), ring(2.0, 4.0)].concat();
     let sides = (0..4).map(|i| [i, (i + 1) % 4, 4 + (i + 1) % 4, 4 + i]);
     Mesh::from_faces(points, sides).expect("a pipe without ends")
@@ -371,7 +397,8 @@ fn caps_are_offered_not_forced() {
         let params = SliceParams { cap, ..SliceParams::new(normal, DVec3::new(0.1, 0.2, 1.0)) };
         slice(mesh, &params, &OpContext::default()).expect("a part").0
     };
-    // Across the pipe: a whole loop. Along the pipe: the section runs from rim to rim and cannot be capped.
+    // Across the pipe: a whole loop. Along the pipe: the section runs from rim to rim and cannot be
+    // capped.
     for (normal, cap, holes, faces) in [
         (DVec3::Z, Capping::Auto, 2, 4),
         (DVec3::Z, Capping::Always, 1, 5),
@@ -388,7 +415,7 @@ fn caps_are_offered_not_forced() {
     assert_eq!((part.hole_count(), part.face_count()), (1, 5));
 }
 
-// ---- the same again --------------------------------------------------------------------------------------------------
+// ---- the same again -----------------------------------------------------------------------------
 
 #[test]
 fn the_same_input_twice_gives_the_same_bytes() {
@@ -396,7 +423,9 @@ fn the_same_input_twice_gives_the_same_bytes() {
         let mut random = Random::new(seed);
         let mesh = solids::landscape(&mut random);
         let Some(plane) = aimed_plane(&mesh, &mut random) else { continue };
-        let run = || cut_in_two(&mesh, plane).expect("halves").map(|half| half.map(|(part, _)| bytes(&part)));
+        let run = || {
+            cut_in_two(&mesh, plane).expect("halves").map(|half| half.map(|(part, _)| bytes(&part)))
+        };
         assert_eq!(run(), run(), "landscape {seed}");
     }
 }
@@ -408,25 +437,34 @@ fn size_and_place_do_not_change_the_topology() {
         let mesh = if seed % 2 == 0 {
             solids::landscape(&mut random)
         } else {
-            let Some(mesh) = Voxels::random(&mut random).mesh(Touch::Apart, 50, &mut random) else { continue };
+            let Some(mesh) = Voxels::random(&mut random).mesh(Touch::Apart, 50, &mut random) else {
+                continue;
+            };
             mesh
         };
         let Some(plane) = aimed_plane(&mesh, &mut random) else { continue };
         let is_whole = |p: DVec3| p == p.round();
-        // Numbers that scaling rounds no longer lie on one plane exactly: aimed planes need whole numbers and exact factors.
+        // Numbers that scaling rounds no longer lie on one plane exactly: aimed planes need whole
+        // numbers and exact factors.
         let is_exact = is_whole(plane.normal) && is_whole(plane.point);
-        let factors: &[(f64, f64)] =
-            if is_exact { &[(1e3, 0.0), (1.0, 1e6), (1.0 / 1024.0, 0.0), (1e3, 1e6)] } else { &[(1.0 / 1024.0, 0.0)] };
-        let counts =
-            |halves: Halves| halves.map(|half| half.map(|(m, _)| (m.vertex_count(), m.edge_count(), m.face_count())));
+        let factors: &[(f64, f64)] = if is_exact {
+            &[(1e3, 0.0), (1.0, 1e6), (1.0 / 1024.0, 0.0), (1e3, 1e6)]
+        } else {
+            &[(1.0 / 1024.0, 0.0)]
+        };
+        let counts = |halves: Halves| {
+            halves.map(|half| half.map(|(m, _)| (m.vertex_count(), m.edge_count(), m.face_count())))
+        };
         let expected = counts(cut_in_two(&mesh, plane).expect("halves"));
         for &(scale, shift) in factors {
             let place = |p: DVec3| p * scale + DVec3::new(shift, -shift, 2.0 * shift);
             let mut moved = mesh.clone();
             moved.clear_planes();
             mesh.vertices().for_each(|v| moved.set_position(v, place(mesh.position(v)), true));
-            let found =
-                counts(cut_in_two(&moved, Given { normal: plane.normal, point: place(plane.point) }).expect("halves"));
+            let found = counts(
+                cut_in_two(&moved, Given { normal: plane.normal, point: place(plane.point) })
+                    .expect("halves"),
+            );
             assert_eq!(found, expected, "{seed}: times {scale}, moved by {shift}, {plane:?}");
         }
     }
@@ -438,15 +476,22 @@ fn a_millionth_and_a_thousandfold_of_a_general_cut() {
         let mut random = Random::new(seed);
         let mesh = solids::star_prism(&mut random);
         let mut number = || random.between(-1.0, 1.0);
-        let plane = Given { normal: DVec3::new(number(), number(), number()), point: DVec3::new(0.1, 0.2, 0.4) };
-        let counts = |halves: Halves| halves.map(|half| half.map(|(m, _)| (m.vertex_count(), m.edge_count())));
+        let plane = Given {
+            normal: DVec3::new(number(), number(), number()),
+            point: DVec3::new(0.1, 0.2, 0.4),
+        };
+        let counts = |halves: Halves| {
+            halves.map(|half| half.map(|(m, _)| (m.vertex_count(), m.edge_count())))
+        };
         let expected = counts(cut_in_two(&mesh, plane).expect("halves"));
         for (scale, shift) in [(1e-3, 0.0), (1e3, 0.0), (1.0, 1e6), (1e-6, 0.0)] {
             let place = |p: DVec3| p * scale + DVec3::splat(shift);
             let mut moved = mesh.clone();
             mesh.vertices().for_each(|v| moved.set_position(v, place(mesh.position(v)), true));
-            let found =
-                counts(cut_in_two(&moved, Given { normal: plane.normal, point: place(plane.point) }).expect("halves"));
+            let found = counts(
+                cut_in_two(&moved, Given { normal: plane.normal, point: place(plane.point) })
+                    .expect("halves"),
+            );
             assert_eq!(found, expected, "{seed}: times {scale}, moved by {shift}");
         }
     }
@@ -460,6 +505,7 @@ fn keeping_both_is_refused_where_one_mesh_is_wanted() {
     let halves = slice_both(&shape::cube(1.0), &params, &OpContext::default()).expect("two parts");
     assert!(halves.iter().all(Option::is_some));
     let above = SliceParams::new(DVec3::Z, DVec3::splat(9.0));
-    let [low, high] = slice_both(&shape::cube(1.0), &above, &OpContext::default()).expect("one part");
+    let [low, high] =
+        slice_both(&shape::cube(1.0), &above, &OpContext::default()).expect("one part");
     assert!(low.is_some() && high.is_none());
 }

@@ -4,7 +4,8 @@ use glam::DVec3;
 
 /// The volume of the part of the unit cube at `low` that lies behind the plane n · (x − p) = 0.
 pub fn cube_volume_behind(low: DVec3, n: DVec3, p: DVec3) -> f64 {
-    // Six tetrahedra around the diagonal: one for each way to walk from the low to the high corner along the axes.
+    // Six tetrahedra around the diagonal: one for each way to walk from the low to the high corner
+    // along the axes.
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
     let orders = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
     let at = |x: DVec3| (x, n.dot(x - p));
@@ -45,8 +46,10 @@ pub fn cube_section(low: DVec3, n: DVec3, p: DVec3) -> f64 {
     let middle = centre - n * n.dot(centre - p);
     let u = n.any_orthonormal_vector();
     let v = n.cross(u);
-    let mut polygon: Vec<DVec3> =
-        [(-4.0, -4.0), (4.0, -4.0), (4.0, 4.0), (-4.0, 4.0)].iter().map(|&(a, b)| middle + u * a + v * b).collect();
+    let mut polygon: Vec<DVec3> = [(-4.0, -4.0), (4.0, -4.0), (4.0, 4.0), (-4.0, 4.0)]
+        .iter()
+        .map(|&(a, b)| middle + u * a + v * b)
+        .collect();
     for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
         polygon = clip(&polygon, axis, axis.dot(low) + 1.0);
         polygon = clip(&polygon, -axis, -axis.dot(low));

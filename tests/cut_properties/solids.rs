@@ -30,8 +30,8 @@ pub fn star_prism(random: &mut Random) -> Mesh {
     builder.build().expect("a prism").0
 }
 
-/// A landscape of triangles over a grid with heights in whole numbers, on a flat bottom: full of saddles, flats and ridges
-/// at equal heights.
+/// A landscape of triangles over a grid with heights in whole numbers, on a flat bottom: full of
+/// saddles, flats and ridges at equal heights.
 pub fn landscape(random: &mut Random) -> Mesh {
     let (n, m) = (2 + random.below(4), 2 + random.below(4));
     let highest = 2 + random.below(3);
@@ -46,7 +46,8 @@ pub fn landscape(random: &mut Random) -> Mesh {
     for y in 0..m {
         for x in 0..n {
             let [a, b, c, d] = [top(x, y), top(x + 1, y), top(x + 1, y + 1), top(x, y + 1)];
-            let halves = if random.below(2) == 0 { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] };
+            let halves =
+                if random.below(2) == 0 { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] };
             for half in halves {
                 builder.face(half);
             }
@@ -58,7 +59,8 @@ pub fn landscape(random: &mut Random) -> Mesh {
     let north = (1..=n).rev().map(|x| (x, m));
     let west = (1..=m).rev().map(|y| (0, y));
     let rim: Vec<(usize, usize)> = south.chain(east).chain(north).chain(west).collect();
-    let foot: Vec<usize> = rim.iter().map(|&(x, y)| builder.vertex(DVec3::new(x as f64, y as f64, 0.0))).collect();
+    let foot: Vec<usize> =
+        rim.iter().map(|&(x, y)| builder.vertex(DVec3::new(x as f64, y as f64, 0.0))).collect();
     for (i, &(x, y)) in rim.iter().enumerate() {
         let j = (i + 1) % rim.len();
         let (u, v) = rim[j];
@@ -74,7 +76,8 @@ pub fn side_by_side(first: &Mesh, second: &Mesh) -> Mesh {
     let left = second.bounds().map_or(0.0, |(low, _)| low.x);
     let mut builder = MeshBuilder::new();
     for (mesh, shift) in [(first, 0.0), (second, (right - left).ceil() + 1.0)] {
-        let number: Vec<usize> = mesh.vertices().map(|v| builder.vertex(mesh.position(v) + DVec3::X * shift)).collect();
+        let number: Vec<usize> =
+            mesh.vertices().map(|v| builder.vertex(mesh.position(v) + DVec3::X * shift)).collect();
         for f in mesh.faces() {
             builder.face(mesh.face_vertices(f).map(|v| number[v.index()]));
         }

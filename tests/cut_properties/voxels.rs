@@ -48,7 +48,8 @@ impl Voxels {
         Self::new(IVec3::new(2 * tunnels + 1, 3, 2), |c| !(c.y == 1 && c.x % 2 == 1))
     }
 
-    /// A block with a hollow that has no way out, wide enough for a pillar that hangs from its ceiling.
+    /// A block with a hollow that has no way out, wide enough for a pillar that hangs from its
+    /// ceiling.
     pub fn with_cavity(has_pillar: bool) -> Self {
         let is_hollow = |c: IVec3| c.cmpge(IVec3::ONE).all() && c.cmple(IVec3::new(3, 3, 2)).all();
         let is_pillar = |c: IVec3| has_pillar && c == IVec3::new(2, 2, 2);
@@ -88,8 +89,8 @@ impl Voxels {
         quads
     }
 
-    /// The surface. `merge` joins about that percentage of the neighbours that lie in one plane. `None` when there is no
-    /// cube, or when an edge would have four faces all the same.
+    /// The surface. `merge` joins about that percentage of the neighbours that lie in one plane.
+    /// `None` when there is no cube, or when an edge would have four faces all the same.
     pub fn mesh(&self, touch: Touch, merge: usize, random: &mut Random) -> Option<Mesh> {
         let mut mesh = self.builder(touch, |_| true)?.build().ok()?.0;
         merge_flat(&mut mesh, merge, random);
@@ -99,7 +100,8 @@ impl Voxels {
 
     /// The surface without about `percent` of its squares.
     pub fn open_mesh(&self, percent: usize, random: &mut Random) -> Option<Mesh> {
-        let left_out: Vec<bool> = (0..self.quads().len()).map(|_| random.below(100) < percent).collect();
+        let left_out: Vec<bool> =
+            (0..self.quads().len()).map(|_| random.below(100) < percent).collect();
         let mut mesh = self.builder(Touch::Apart, |q| !left_out[q])?.build().ok()?.0;
         mesh.compact();
         Some(mesh)
@@ -123,10 +125,13 @@ impl Voxels {
 }
 
 fn cells(size: IVec3) -> impl Iterator<Item = IVec3> {
-    (0..size.x).flat_map(move |x| (0..size.y).flat_map(move |y| (0..size.z).map(move |z| IVec3::new(x, y, z))))
+    (0..size.x).flat_map(move |x| {
+        (0..size.y).flat_map(move |y| (0..size.z).map(move |z| IVec3::new(x, y, z)))
+    })
 }
 
-/// For each corner of each quad the vertex that it is: corners hang together across the edges that their quads share.
+/// For each corner of each quad the vertex that it is: corners hang together across the edges that
+/// their quads share.
 fn corner_classes(quads: &[Quad], touch: Touch) -> Option<Vec<usize>> {
     let mut at_edge: BTreeMap<[[i32; 3]; 2], Vec<usize>> = BTreeMap::new();
     for (q, quad) in quads.iter().enumerate() {
@@ -140,7 +145,8 @@ fn corner_classes(quads: &[Quad], touch: Touch) -> Option<Vec<usize>> {
     for (ends, around) in &at_edge {
         for (a, b) in partners(quads, around, touch)? {
             for end in ends.map(IVec3::from_array) {
-                let corner = |q: usize| 4 * q + quads[q].corners.iter().position(|&c| c == end).unwrap_or(0);
+                let corner =
+                    |q: usize| 4 * q + quads[q].corners.iter().position(|&c| c == end).unwrap_or(0);
                 let (x, y) = (root(&parent, corner(a)), root(&parent, corner(b)));
                 parent[x] = y;
             }
@@ -155,7 +161,8 @@ fn partners(quads: &[Quad], around: &[usize], touch: Touch) -> Option<Vec<(usize
         [a, ref rest @ ..] if rest.len() == 3 => {
             let partner = |&&b: &&usize| {
                 let is_one_cube = quads[a].cube == quads[b].cube;
-                // Through the edge: the quad of the other cube that bounds the same empty cell looks across it.
+                // Through the edge: the quad of the other cube that bounds the same empty cell
+                // looks across it.
                 let is_across = !is_one_cube && shares_empty_cell(&quads[a], &quads[b]);
                 if touch == Touch::Apart { is_one_cube } else { is_across }
             };
@@ -183,7 +190,8 @@ fn root(parent: &[usize], mut i: usize) -> usize {
     i
 }
 
-/// Deletes edges between faces in one plane as long as the face that results visits every vertex once.
+/// Deletes edges between faces in one plane as long as the face that results visits every vertex
+/// once.
 fn merge_flat(mesh: &mut Mesh, percent: usize, random: &mut Random) {
     let edges: Vec<EdgeId> = mesh.edges().collect();
     for e in edges {

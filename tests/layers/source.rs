@@ -1,4 +1,5 @@
-//! Reads Rust source far enough for the house rules: words and signs, without comments, strings and test items.
+//! Reads Rust source far enough for the house rules: words and signs, without comments, strings and
+//! test items.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -19,21 +20,29 @@ pub fn sources() -> Vec<Source> {
     let mut files = Vec::new();
     collect(&root().join("src"), &mut files);
     let read_one = |file: &PathBuf| {
-        let path = file.strip_prefix(root()).expect("a file of this package").to_string_lossy().replace('\\', "/");
+        let path = file
+            .strip_prefix(root())
+            .expect("a file of this package")
+            .to_string_lossy()
+            .replace('\\', "/");
         let text = read(file);
         (test_only_files(&path, &text), Source::new(&path, &text))
     };
     let (test_only, sources): (Vec<Vec<String>>, Vec<Source>) = files.iter().map(read_one).unzip();
     let test_only: BTreeSet<String> = test_only.into_iter().flatten().collect();
     let is_test = |path: &str| {
-        path.ends_with("/tests.rs") || test_only.contains(path) || path.rsplit('/').skip(1).any(|dir| dir == "tests")
+        path.ends_with("/tests.rs")
+            || test_only.contains(path)
+            || path.rsplit('/').skip(1).any(|dir| dir == "tests")
     };
     sources.into_iter().filter(|source| !is_test(&source.path)).collect()
 }
 
 fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
-    let entries = fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
-    let mut entries: Vec<PathBuf> = entries.map(|entry| entry.expect("a readable entry").path()).collect();
+    let entries =
+        fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    let mut entries: Vec<PathBuf> =
+        entries.map(|entry| entry.expect("a readable entry").path()).collect();
     entries.sort();
     for entry in entries {
         if entry.is_dir() {
@@ -53,7 +62,8 @@ fn test_only_files(path: &str, text: &str) -> Vec<String> {
     for i in (0..tokens.len()).filter(|&i| reads(&tokens, i, CFG_TEST)) {
         let end = end_of_item(&tokens, i + CFG_TEST.len());
         let item = &tokens[i + CFG_TEST.len()..end];
-        if item.len() >= 3 && item[item.len() - 3].text == "mod" && item[item.len() - 1].text == ";" {
+        if item.len() >= 3 && item[item.len() - 3].text == "mod" && item[item.len() - 1].text == ";"
+        {
             names.push(format!("{folder}/{}.rs", item[item.len() - 2].text));
         }
     }
@@ -114,11 +124,13 @@ impl Source {
 
     /// How many modules deep the file stands: 1 for `src/mesh/mod.rs`, 2 for `src/mesh/walk.rs`.
     fn depth(&self) -> usize {
-        let parts = self.path.trim_start_matches("src/").trim_end_matches(".rs").trim_end_matches("/mod");
+        let parts =
+            self.path.trim_start_matches("src/").trim_end_matches(".rs").trim_end_matches("/mod");
         parts.split('/').count()
     }
 
-    /// The module of the crate that a path begins with, be it by `crate::` or by climbing up with `super::`.
+    /// The module of the crate that a path begins with, be it by `crate::` or by climbing up with
+    /// `super::`.
     pub fn inner_module(&self, path: &UsedPath) -> Option<String> {
         let first = path.segments.first()?;
         let climbs = path.segments.iter().take_while(|s| *s == "super").count();
@@ -141,7 +153,10 @@ impl Source {
             // `impl Trait + use<'_>` names lifetimes, not modules.
             if self.tokens[i].text == "use" && !self.reads(i + 1, &["<"]) {
                 i = self.spread(i + 1, &[], &mut paths);
-            } else if self.is_word(i) && self.reads(i + 1, &["::"]) && (i == 0 || !self.reads(i - 1, &["::"])) {
+            } else if self.is_word(i)
+                && self.reads(i + 1, &["::"])
+                && (i == 0 || !self.reads(i - 1, &["::"]))
+            {
                 i = self.plain_path(i, &mut paths);
             } else {
                 i += 1;
@@ -151,7 +166,9 @@ impl Source {
     }
 
     fn is_word(&self, i: usize) -> bool {
-        self.tokens.get(i).is_some_and(|t| t.text.starts_with(|c: char| c.is_alphabetic() || c == '_'))
+        self.tokens
+            .get(i)
+            .is_some_and(|t| t.text.starts_with(|c: char| c.is_alphabetic() || c == '_'))
     }
 
     fn plain_path(&self, start: usize, paths: &mut Vec<UsedPath>) -> usize {
@@ -173,8 +190,10 @@ impl Source {
             match token.text.as_str() {
                 "{" => {
                     i += 1;
-                    // A semicolon cannot stand in a group; stopping there keeps text that is no Rust from going on for ever.
-                    while i < self.tokens.len() && !self.reads(i, &["}"]) && !self.reads(i, &[";"]) {
+                    // A semicolon cannot stand in a group; stopping there keeps text that is no
+                    // Rust from going on for ever.
+                    while i < self.tokens.len() && !self.reads(i, &["}"]) && !self.reads(i, &[";"])
+                    {
                         i = self.spread(i, &segments, paths);
                         i += usize::from(self.reads(i, &[","]));
                     }
@@ -198,10 +217,13 @@ impl Source {
 }
 
 fn reads(tokens: &[Token], at: usize, wanted: &[&str]) -> bool {
-    tokens.get(at..at + wanted.len()).is_some_and(|found| found.iter().zip(wanted).all(|(t, w)| t.text == *w))
+    tokens
+        .get(at..at + wanted.len())
+        .is_some_and(|found| found.iter().zip(wanted).all(|(t, w)| t.text == *w))
 }
 
-/// The place after the item that begins at `start`: after its closing brace, or after its semicolon.
+/// The place after the item that begins at `start`: after its closing brace, or after its
+/// semicolon.
 fn end_of_item(tokens: &[Token], start: usize) -> usize {
     let mut depth = 0_usize;
     for (i, token) in tokens.iter().enumerate().skip(start) {
@@ -216,7 +238,8 @@ fn end_of_item(tokens: &[Token], start: usize) -> usize {
     tokens.len()
 }
 
-/// Divides a text into words, `::` and single signs; comments, strings, characters and lifetimes are dropped.
+/// Divides a text into words, `::` and single signs; comments, strings, characters and lifetimes
+/// are dropped.
 fn tokenize(text: &str) -> Vec<Token> {
     let chars: Vec<char> = text.chars().collect();
     let mut tokens = Vec::new();
@@ -229,7 +252,9 @@ fn tokenize(text: &str) -> Vec<Token> {
             '/' if chars.get(i + 1) == Some(&'*') => i = comment_end(&chars, i),
             '"' => i = string_end(&chars, i),
             '\'' => i = character_end(&chars, i),
-            'r' | 'b' if raw_string_end(&chars, i).is_some() => i = raw_string_end(&chars, i).unwrap_or(i + 1),
+            'r' | 'b' if raw_string_end(&chars, i).is_some() => {
+                i = raw_string_end(&chars, i).unwrap_or(i + 1)
+            }
             c if c.is_alphanumeric() || c == '_' => {
                 i += chars[i..].iter().take_while(|c| c.is_alphanumeric() || **c == '_').count();
                 word = chars[start..i].iter().collect();
@@ -302,8 +327,10 @@ fn raw_string_end(chars: &[char], start: usize) -> Option<usize> {
         return Some(string_end(chars, i));
     }
     let body = i + hashes + 1;
-    let closes =
-        |n: usize| chars[n] == '"' && chars[n + 1..].iter().take(hashes).filter(|c| **c == '#').count() == hashes;
+    let closes = |n: usize| {
+        chars[n] == '"'
+            && chars[n + 1..].iter().take(hashes).filter(|c| **c == '#').count() == hashes
+    };
     Some((body..chars.len()).find(|&n| closes(n)).map_or(chars.len(), |n| n + 1 + hashes))
 }
 

@@ -1,4 +1,5 @@
-//! The files that the program writes by names of its own. Files whose names the user gives are not here.
+//! The files that the program writes by names of its own. Files whose names the user gives are not
+//! here.
 
 use std::fmt::Write;
 
@@ -16,10 +17,18 @@ const fn file(name: &'static str, by: &'static str, what: &'static str) -> File 
 const FILES: [File; 29] = [
     file("model.obj", "`run`, `dform`", "the model as it is at the end"),
     file("model.png", "`run`, `dform`", "its picture"),
-    file("model-after-NN.png", "`run` with `steps` of a `hull`", "a picture of the dual hull after so many planes"),
+    file(
+        "model-after-NN.png",
+        "`run` with `steps` of a `hull`",
+        "a picture of the dual hull after so many planes",
+    ),
     file("report.json", "`run`, `dform`", "the report of the check"),
     file("report.html", "`run` with a step `check`", "the same as a page with pictures"),
-    file("pieces.json", "`unfold`, `dform`, `nest`, `panels`, `run`", "the pieces with folds, seams and the proof"),
+    file(
+        "pieces.json",
+        "`unfold`, `dform`, `nest`, `panels`, `run`",
+        "the pieces with folds, seams and the proof",
+    ),
     file("layout.json", "with sheets", "where each piece lies"),
     file("assembly.txt", "with sheets", "the order in which seams are closed"),
     file("assembly-NN.png", "`--assembly pictures`", "the same as pictures"),
@@ -33,7 +42,11 @@ const FILES: [File; 29] = [
         "with sheets, `--tile PAPER`",
         "the sheet at true size on several pages of `a4`, `a3` or `letter`",
     ),
-    file("PNN.svg", "`--part-files on`", "one part, in each of the formats: `.svg`, `.dxf`, `.pdf`, `.lbrn2`"),
+    file(
+        "PNN.svg",
+        "`--part-files on`",
+        "one part, in each of the formats: `.svg`, `.dxf`, `.pdf`, `.lbrn2`",
+    ),
     file("panels.json", "`panels`", "panels, groups, edges, nodes, totals, findings"),
     file("panels.csv", "`panels`", "a row for each panel"),
     file("edges.csv", "`panels`", "a row for each edge"),
@@ -50,7 +63,8 @@ const FILES: [File; 29] = [
 ];
 
 pub(super) fn written(page: &mut String) {
-    *page += "\n## Files\n\nThese names do not change. `NN` is a number. Verbs that take `-o FILE` write what they are told and are not listed.\n\n\
+    *page += "\n## Files\n\nThese names do not change. `NN` is a number. Verbs that take `-o FILE` \
+    write what they are told and are not listed.\n\n\
               | file | written by | what it is |\n|---|---|---|\n";
     for File { name, by, what } in &FILES {
         let _ = writeln!(page, "| `{name}` | {by} | {what} |");

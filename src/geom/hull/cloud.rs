@@ -7,13 +7,15 @@ use super::half_space::HalfSpace;
 use crate::geom::Side;
 use crate::geom::predicate::orient3d;
 
-/// Exact signs of the points behind a cloud. Points are named by their place in the order of insertion.
+/// Exact signs of the points behind a cloud. Points are named by their place in the order of
+/// insertion.
 pub(super) trait Signs: Sync {
-    /// The side of `p` with respect to the plane through a, b, c: [`Side::Normal`] where they run counter-clockwise.
+    /// The side of `p` with respect to the plane through a, b, c: [`Side::Normal`] where they run
+    /// counter-clockwise.
     fn height(&self, corners: [u32; 3], p: u32) -> Side;
 
-    /// The side of `p` with respect to the plane through the centre, a and b: [`Side::Normal`] when a, b, p run
-    /// counter-clockwise seen from outside.
+    /// The side of `p` with respect to the plane through the centre, a and b: [`Side::Normal`] when
+    /// a, b, p run counter-clockwise seen from outside.
     fn turn(&self, a: u32, b: u32, p: u32) -> Side;
 
     /// Whether the three points lie on one line.
@@ -31,13 +33,15 @@ pub(super) struct Cloud<S> {
 }
 
 impl<S: Signs> Cloud<S> {
-    /// `points` carry a relative error of at most `roundings` half ulps in each coordinate. They are scaled by a power of two.
+    /// `points` carry a relative error of at most `roundings` half ulps in each coordinate. They
+    /// are scaled by a power of two.
     pub(super) fn new(points: Vec<DVec3>, roundings: f64, signs: S) -> (Self, f64) {
         let scale = inverse_power_of_two(reach(&points).max_element()) * 0.5;
         (Self::scaled(points, DVec3::splat(scale), roundings, signs), scale)
     }
 
-    /// The same with a power of two for each axis, so that the points fill the cube however flat they lie: no sign depends on that.
+    /// The same with a power of two for each axis, so that the points fill the cube however flat
+    /// they lie: no sign depends on that.
     pub(super) fn stretched(points: Vec<DVec3>, roundings: f64, signs: S) -> (Self, DVec3) {
         let scale = DVec3::from_array(reach(&points).to_array().map(inverse_power_of_two)) * 0.5;
         (Self::scaled(points, scale, roundings, signs), scale)
@@ -68,7 +72,8 @@ impl<S: Signs> Cloud<S> {
         self.noise
     }
 
-    /// On which side of the plane through three points, counter-clockwise from its normal side, p lies; exact.
+    /// On which side of the plane through three points, counter-clockwise from its normal side, p
+    /// lies; exact.
     #[inline]
     pub(super) fn height(&self, corners: [u32; 3], p: u32) -> Side {
         let o = self.point(p);
@@ -76,10 +81,15 @@ impl<S: Signs> Cloud<S> {
         self.settled_height(corners, p, a.dot(b.cross(c)))
     }
 
-    /// The same for who has the rounded volume a·(b × c) of the corners seen from p, in whatever order it was computed.
+    /// The same for who has the rounded volume a·(b × c) of the corners seen from p, in whatever
+    /// order it was computed.
     #[inline]
     pub(super) fn settled_height(&self, corners: [u32; 3], p: u32, below: f64) -> Side {
-        if below.abs() > self.height_bound { Side::of(-below) } else { self.small_height(corners, p, below) }
+        if below.abs() > self.height_bound {
+            Side::of(-below)
+        } else {
+            self.small_height(corners, p, below)
+        }
     }
 
     /// The same for a volume that only a closer look can tell from zero.
@@ -108,8 +118,9 @@ fn reach(points: &[DVec3]) -> DVec3 {
     points.iter().fold(DVec3::ZERO, |reach, p| reach.max(p.abs()))
 }
 
-/// The most that the rounded volume of three differences of points can be wrong by, with no entry above `m`: each entry is off
-/// by at most 2·noise + ε/2·m; six products of three entries, then the roundings of the sums.
+/// The most that the rounded volume of three differences of points can be wrong by, with no entry
+/// above `m`: each entry is off by at most 2·noise + ε/2·m; six products of three entries, then the
+/// roundings of the sums.
 fn height_bound(m: f64, noise: f64) -> f64 {
     m * m * (37.0 * noise + 6.5e-15 * m)
 }
@@ -152,8 +163,9 @@ pub(super) fn are_collinear(points: [DVec3; 3]) -> bool {
 
 /// Planes as points of the dual: n·x ≤ d about a centre c is the point n / (d − n·c).
 ///
-/// With slacks d − n·c above zero, which is checked before, the sign of four dual points is the sign of the determinant of
-/// their rows (n, d): the centre drops out, so the signs are those of the given numbers.
+/// With slacks d − n·c above zero, which is checked before, the sign of four dual points is the
+/// sign of the determinant of their rows (n, d): the centre drops out, so the signs are those of
+/// the given numbers.
 pub(super) struct PlaneSigns<'a> {
     half_spaces: &'a [HalfSpace],
     order: &'a [u32],

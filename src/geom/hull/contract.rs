@@ -7,10 +7,11 @@ use super::meeting::{meeting_point, widest_triple};
 use super::polytope::{Polygons, Polytope};
 use crate::geom::RoundingBound;
 
-/// Contracts all edges shorter than the rounding bound of the solid. Faces that lose their area go, and vertices that lie on an
-/// edge with them.
+/// Contracts all edges shorter than the rounding bound of the solid. Faces that lose their area go,
+/// and vertices that lie on an edge with them.
 ///
-/// Also returns the half-spaces whose face is still there but narrower than the bound: slivers, which cannot be contracted.
+/// Also returns the half-spaces whose face is still there but narrower than the bound: slivers,
+/// which cannot be contracted.
 pub(super) fn contract(polytope: &Polytope, half_spaces: &[HalfSpace]) -> (Polytope, Vec<u32>) {
     let bound = bound(&polytope.vertices);
     let heads = short_edges_joined(polytope, bound);
@@ -68,7 +69,8 @@ fn mapped(run: &[u32], heads: &[u32]) -> Vec<u32> {
     if mapped.len() < 3 { Vec::new() } else { mapped }
 }
 
-/// Takes out vertices at which only two faces are left, and then faces with fewer than three; whether there was any.
+/// Takes out vertices at which only two faces are left, and then faces with fewer than three;
+/// whether there was any.
 fn drop_flat_parts(runs: &mut [Vec<u32>], vertices: usize) -> bool {
     let mut valence = vec![0_u32; vertices];
     runs.iter().flatten().for_each(|&v| valence[v as usize] += 1);
@@ -92,13 +94,20 @@ fn width(run: &[u32], vertices: &[DVec3]) -> f64 {
         (0..run.len()).map(|j| along.cross(at(j) - at(i)).length()).fold(0.0, f64::max)
     };
     // Short polygons only: a sliver's long edge is its longest.
-    let longest =
-        (0..run.len()).max_by(|&i, &j| at(i).distance_squared(at(i + 1)).total_cmp(&at(j).distance_squared(at(j + 1))));
+    let longest = (0..run.len()).max_by(|&i, &j| {
+        at(i).distance_squared(at(i + 1)).total_cmp(&at(j).distance_squared(at(j + 1)))
+    });
     longest.map_or(0.0, across)
 }
 
-/// The solid of the runs that are left, with the positions of joined vertices solved from planes that meet there steeply.
-fn compacted(polytope: &Polytope, half_spaces: &[HalfSpace], heads: &[u32], runs: &[Vec<u32>]) -> Polytope {
+/// The solid of the runs that are left, with the positions of joined vertices solved from planes
+/// that meet there steeply.
+fn compacted(
+    polytope: &Polytope,
+    half_spaces: &[HalfSpace],
+    heads: &[u32],
+    runs: &[Vec<u32>],
+) -> Polytope {
     let mut is_joined = vec![false; heads.len()];
     for (v, &head) in heads.iter().enumerate() {
         is_joined[head as usize] |= head as usize != v;
@@ -124,7 +133,9 @@ fn compacted(polytope: &Polytope, half_spaces: &[HalfSpace], heads: &[u32], runs
         kept.push(i);
         faces.push(run.iter().map(|&v| number[v as usize]));
     }
-    for (position, planes) in vertices.iter_mut().zip(&planes).filter(|(_, planes)| planes.len() > 2) {
+    for (position, planes) in
+        vertices.iter_mut().zip(&planes).filter(|(_, planes)| planes.len() > 2)
+    {
         let solved = polytope.interior + meeting_point(widest_triple(planes));
         if solved.is_finite() {
             *position = solved;

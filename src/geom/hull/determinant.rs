@@ -1,7 +1,9 @@
-//! The exact sign of a 4×4 determinant: on which side of three others a fourth plane passes their meeting point.
+//! The exact sign of a 4×4 determinant: on which side of three others a fourth plane passes their
+//! meeting point.
 //!
-//! Source: Shewchuk 1997, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates": sums and
-//! products of doubles are kept as expansions, unevaluated sums of doubles that do not overlap, smallest first.
+//! Source: Shewchuk 1997, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
+//! Predicates": sums and products of doubles are kept as expansions, unevaluated sums of doubles
+//! that do not overlap, smallest first.
 
 use crate::geom::Side;
 
@@ -10,16 +12,20 @@ pub(super) fn sign_of_determinant(rows: [[f64; 4]; 4]) -> Side {
     // Laplace expansion by the 2×2 minors of the upper two and the lower two rows.
     let upper = |i, j| minor(rows[0], rows[1], i, j);
     let lower = |i, j| minor(rows[2], rows[3], i, j);
-    let first: Expansion<64> = product(&upper(0, 1), &lower(2, 3)).plus(&product(&upper(2, 0), &lower(1, 3)));
-    let second: Expansion<64> = product(&upper(0, 3), &lower(1, 2)).plus(&product(&upper(1, 2), &lower(0, 3)));
-    let third: Expansion<64> = product(&upper(3, 1), &lower(0, 2)).plus(&product(&upper(2, 3), &lower(0, 1)));
+    let first: Expansion<64> =
+        product(&upper(0, 1), &lower(2, 3)).plus(&product(&upper(2, 0), &lower(1, 3)));
+    let second: Expansion<64> =
+        product(&upper(0, 3), &lower(1, 2)).plus(&product(&upper(1, 2), &lower(0, 3)));
+    let third: Expansion<64> =
+        product(&upper(3, 1), &lower(0, 2)).plus(&product(&upper(2, 3), &lower(0, 1)));
     let most: Expansion<128> = first.plus(&second);
     let all: Expansion<192> = most.plus(&third);
     Side::of(all.leading())
 }
 
-/// n·x − d with the rounding errors of products and sums added up in a second double: right to about an ulp even where the
-/// terms cancel (Ogita, Rump and Oishi 2005, "Accurate Sum and Dot Product").
+/// n·x − d with the rounding errors of products and sums added up in a second double: right to
+/// about an ulp even where the terms cancel (Ogita, Rump and Oishi 2005, "Accurate Sum and Dot
+/// Product").
 pub(super) fn excess(n: [f64; 3], x: [f64; 3], d: f64) -> f64 {
     let (mut sum, mut errors) = (-d, 0.0);
     for i in 0..3 {
@@ -85,7 +91,8 @@ impl<const N: usize> Expansion<N> {
         self.terms().last().copied().unwrap_or(0.0)
     }
 
-    /// Fast-Expansion-Sum (Shewchuk 1997, figure 8): both are merged by size and added up. M must hold both.
+    /// Fast-Expansion-Sum (Shewchuk 1997, figure 8): both are merged by size and added up. M must
+    /// hold both.
     fn plus<const K: usize, const M: usize>(&self, other: &Expansion<K>) -> Expansion<M> {
         let (a, b) = (self.terms(), other.terms());
         let mut sum = Expansion::default();
@@ -130,8 +137,8 @@ fn two_sum(a: f64, b: f64) -> (f64, f64) {
     (sum, (a - a_part) + (b - b_part))
 }
 
-/// Product and its rounding error after Dekker and Veltkamp: without a fused multiply-add, which is slow where the
-/// processor has none.
+/// Product and its rounding error after Dekker and Veltkamp: without a fused multiply-add, which is
+/// slow where the processor has none.
 fn two_product(a: f64, b: f64) -> (f64, f64) {
     let product = a * b;
     let (a_high, a_low) = split(a);
@@ -154,11 +161,19 @@ mod tests {
 
     fn by_integers(rows: [[i64; 4]; 4]) -> Side {
         let m = |a: usize, b: usize, i: usize, j: usize| {
-            i128::from(rows[a][i]) * i128::from(rows[b][j]) - i128::from(rows[a][j]) * i128::from(rows[b][i])
+            i128::from(rows[a][i]) * i128::from(rows[b][j])
+                - i128::from(rows[a][j]) * i128::from(rows[b][i])
         };
-        let pairs =
-            [(0, 1, 2, 3, 1), (0, 2, 1, 3, -1), (0, 3, 1, 2, 1), (1, 2, 0, 3, 1), (1, 3, 0, 2, -1), (2, 3, 0, 1, 1)];
-        let sum: i128 = pairs.iter().map(|&(i, j, k, l, sign)| sign * m(0, 1, i, j) * m(2, 3, k, l)).sum();
+        let pairs = [
+            (0, 1, 2, 3, 1),
+            (0, 2, 1, 3, -1),
+            (0, 3, 1, 2, 1),
+            (1, 2, 0, 3, 1),
+            (1, 3, 0, 2, -1),
+            (2, 3, 0, 1, 1),
+        ];
+        let sum: i128 =
+            pairs.iter().map(|&(i, j, k, l, sign)| sign * m(0, 1, i, j) * m(2, 3, k, l)).sum();
         Side::of(sum.signum() as f64)
     }
 
@@ -169,7 +184,8 @@ mod tests {
             weights in prop::array::uniform3(-2_i64..3),
             nudge in -1_i64..=1,
         ) {
-            // The last row is a combination of the others up to a nudge: no filter could tell the sign.
+            // The last row is a combination of the others up to a nudge: no filter could tell the
+            // sign.
             let mut last = std::array::from_fn(|i| (0..3).map(|r| weights[r] * rows[r][i]).sum::<i64>());
             last[3] += nudge;
             let all = [rows[0], rows[1], rows[2], last];

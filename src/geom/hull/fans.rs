@@ -1,8 +1,10 @@
-//! From the dual hull to the faces of the solid: around each corner of the dual the faces there, in order.
+//! From the dual hull to the faces of the solid: around each corner of the dual the faces there, in
+//! order.
 //!
-//! Corners lie in memory as they were inserted, along the curve, the faces of the solid as the half-spaces were given. So fans are
-//! walked in the order of the corners, where all they touch is near, and the runs are carried to their places afterwards in one
-//! go. Far reads do not wait for each other, far writes would.
+//! Corners lie in memory as they were inserted, along the curve, the faces of the solid as the
+//! half-spaces were given. So fans are walked in the order of the corners, where all they touch is
+//! near, and the runs are carried to their places afterwards in one go. Far reads do not wait for
+//! each other, far writes would.
 
 use std::ops::Range;
 
@@ -13,20 +15,23 @@ use super::surface::{NONE, Surface, link};
 
 /// So many fans are walked at the same time, since each step waits for the one before.
 const LANES: usize = 4;
-/// So many corners are copied at once, whether a face has that many or fewer: what is too much the next face overwrites.
+/// So many corners are copied at once, whether a face has that many or fewer: what is too much the
+/// next face overwrites.
 const BLOCK: usize = 12;
 
 /// The dual faces around a point.
 #[derive(Clone, Copy)]
 struct Fan {
-    /// A facet that has the point for a corner, as four times the facet plus which of its corners that is; `NONE` if there is none.
+    /// A facet that has the point for a corner, as four times the facet plus which of its corners
+    /// that is; `NONE` if there is none.
     start: u32,
-    /// How many faces there are; none around a point that is no corner of the dual hull, inside a dual face or edge: its plane only
-    /// touches the solid. Later where the run ends.
+    /// How many faces there are; none around a point that is no corner of the dual hull, inside a
+    /// dual face or edge: its plane only touches the solid. Later where the run ends.
     size: u32,
 }
 
-/// The faces of the solid in the order of the dual points, as a step on the way: it is all that is needed of the dual hull.
+/// The faces of the solid in the order of the dual points, as a step on the way: it is all that is
+/// needed of the dual hull.
 pub(super) struct Runs {
     /// For each half-space the size of its run and where that begins.
     sources: Vec<[u32; 2]>,
@@ -46,14 +51,20 @@ impl Runs {
         }
         let walks = Walks { surface, faces, fans };
         let mut runs = vec![0; total as usize];
-        fill_runs(&mut runs, order.len(), |place| walks.begin(place), |places, out| walks.write(places, out));
+        fill_runs(
+            &mut runs,
+            order.len(),
+            |place| walks.begin(place),
+            |places, out| walks.write(places, out),
+        );
         Self { sources, runs }
     }
 
     /// The faces in the order of the half-spaces, and which half-spaces they are of.
     pub(super) fn into_polygons(self) -> (Vec<u32>, Polygons) {
         let Self { sources, runs } = self;
-        let (mut half_spaces, mut ends) = (Vec::with_capacity(sources.len()), Vec::with_capacity(sources.len()));
+        let (mut half_spaces, mut ends) =
+            (Vec::with_capacity(sources.len()), Vec::with_capacity(sources.len()));
         let mut end = 0;
         for (i, &[size, _]) in (0..).zip(&sources).filter(|(_, source)| source[0] > 0) {
             end += size;
@@ -74,7 +85,11 @@ fn collect(sources: impl Iterator<Item = [u32; 2]>, runs: &[u32], out: &mut [u32
     let mut to = 0;
     for [size, from] in sources {
         let (size, from) = (size as usize, from as usize);
-        let block = if size <= BLOCK && to + BLOCK <= out.len() && from + BLOCK <= runs.len() { BLOCK } else { size };
+        let block = if size <= BLOCK && to + BLOCK <= out.len() && from + BLOCK <= runs.len() {
+            BLOCK
+        } else {
+            size
+        };
         if block == BLOCK {
             out[to..to + BLOCK].copy_from_slice(&runs[from..from + BLOCK]);
         } else {
@@ -125,12 +140,19 @@ impl Walks<'_> {
         if place == 0 { 0 } else { self.fans[place - 1].size as usize }
     }
 
-    /// Writes the runs of a share of the points: where nothing was merged, each facet around a point is a face.
+    /// Writes the runs of a share of the points: where nothing was merged, each facet around a
+    /// point is a face.
     fn write(&self, places: Range<usize>, out: &mut [u32]) {
         let base = self.begin(places.start);
         let lane = |place: usize| {
             let (begin, Fan { start, size: end }) = (self.begin(place), self.fans[place]);
-            Lane { point: place as u32, at: start, begin: begin - base, size: end as usize - begin, step: 0 }
+            Lane {
+                point: place as u32,
+                at: start,
+                begin: begin - base,
+                size: end as usize - begin,
+                step: 0,
+            }
         };
         if self.faces.has_merged() {
             places.for_each(|place| self.write_merged(lane(place), out));
@@ -145,13 +167,15 @@ impl Walks<'_> {
                 let steps = lanes.iter().fold(0, |most, lane| lane.size.max(most));
                 (0..steps).for_each(|_| lanes.iter_mut().for_each(|lane| self.step(lane, out)));
             } else {
-                lanes[..count].iter_mut().for_each(|lane| (0..lane.size).for_each(|_| self.step(lane, out)));
+                lanes[..count]
+                    .iter_mut()
+                    .for_each(|lane| (0..lane.size).for_each(|_| self.step(lane, out)));
             }
         }
     }
 
-    /// Writes a face and goes to the next. After the last the first comes again, and is written again where it is: so fans of different
-    /// sizes can be walked together without a branch.
+    /// Writes a face and goes to the next. After the last the first comes again, and is written
+    /// again where it is: so fans of different sizes can be walked together without a branch.
     #[inline(always)]
     fn step(&self, lane: &mut Lane, out: &mut [u32]) {
         out[lane.begin + lane.step] = self.faces.of_facet(lane.at >> 2);

@@ -1,8 +1,9 @@
-//! From the first corners to the hull of all points: seeds first, then cell by cell, parts of the surface side by side.
+//! From the first corners to the hull of all points: seeds first, then cell by cell, parts of the
+//! surface side by side.
 //!
-//! What is done depends on the points alone, never on the number of processors: the surface is divided along the cells of the
-//! order, each part grows for itself, and the few points that concern the border between two are inserted when they are
-//! together again.
+//! What is done depends on the points alone, never on the number of processors: the surface is
+//! divided along the cells of the order, each part grows for itself, and the few points that
+//! concern the border between two are inserted when they are together again.
 
 use std::ops::Range;
 
@@ -14,14 +15,21 @@ use super::surface::{Division, Growth, Surface};
 /// From so many points on the surface is divided into so many parts.
 const PARTS: [(usize, usize); 2] = [(1 << 21, 4), (1 << 15, 2)];
 
-/// So many points in a row may lie beyond a border as seen from where the last one was inserted; then the next is sought from elsewhere.
+/// So many points in a row may lie beyond a border as seen from where the last one was inserted;
+/// then the next is sought from elsewhere.
 const TRIES: usize = 16;
 
 /// Inserts all points but those that are corners already, `inserted` (ascending).
-pub(super) fn grow<S: Signs>(cloud: &Cloud<S>, surface: &mut Surface<'_>, order: &Order, inserted: &[u32]) {
+pub(super) fn grow<S: Signs>(
+    cloud: &Cloud<S>,
+    surface: &mut Surface<'_>,
+    order: &Order,
+    inserted: &[u32],
+) {
     let (seeds, count) = (order.seed_cells.len() as u32, cloud.len());
     without(0..seeds, inserted).for_each(|p| surface.insert(cloud, p));
-    let parts = PARTS.iter().find(|&&(least, _)| count as usize >= least).map_or(1, |&(_, parts)| parts);
+    let parts =
+        PARTS.iter().find(|&&(least, _)| count as usize >= least).map_or(1, |&(_, parts)| parts);
     // A walk from a corner of the hull may have to try all facets.
     if parts == 1 || surface.has_apex() {
         without(seeds..count, inserted).for_each(|p| surface.insert(cloud, p));
@@ -82,12 +90,19 @@ impl<'a> Borders<'a> {
         self.cells.iter().position(|cells| cell < cells.end).unwrap_or(0)
     }
 
-    /// Divides the surface by its facets' first corners, lets the parts grow, and joins them; returns the points that are left.
-    fn grow<S: Signs>(&self, cloud: &Cloud<S>, surface: &mut Surface<'_>, inserted: &[u32]) -> Vec<u32> {
+    /// Divides the surface by its facets' first corners, lets the parts grow, and joins them;
+    /// returns the points that are left.
+    fn grow<S: Signs>(
+        &self,
+        cloud: &Cloud<S>,
+        surface: &mut Surface<'_>,
+        inserted: &[u32],
+    ) -> Vec<u32> {
         let mut near: Vec<(u32, u32)> =
             surface.live().map(|f| (self.cell_of(surface.facet(f).corners[0]), f)).collect();
         near.sort_unstable();
-        let room = |cells: &Range<usize>| 2 * without(places(self.order, cells.clone()), inserted).count();
+        let room =
+            |cells: &Range<usize>| 2 * without(places(self.order, cells.clone()), inserted).count();
         let room: Vec<usize> = self.cells.iter().map(room).collect();
         let (surfaces, division) = surface.divide(&room, |corner| self.part_of(corner));
         let part = |(k, surface)| Part {
@@ -110,14 +125,15 @@ impl<'a> Borders<'a> {
         left
     }
 
-    /// For each cell of part `k` a facet of that part in it or before it along the curve. `near` holds cells and facets of the
-    /// whole surface, ascending.
+    /// For each cell of part `k` a facet of that part in it or before it along the curve. `near`
+    /// holds cells and facets of the whole surface, ascending.
     fn hints(&self, k: usize, near: &[(u32, u32)], division: &Division) -> Vec<u32> {
         let mut last = 0;
         let hint = |cell: usize| {
             let start = near.partition_point(|n| (n.0 as usize) < cell);
             let facets = near[start..].iter().take_while(|n| n.0 as usize == cell);
-            let here = facets.filter_map(|&(_, f)| division.place_of(f)).find(|&(part, _)| part == k);
+            let here =
+                facets.filter_map(|&(_, f)| division.place_of(f)).find(|&(part, _)| part == k);
             last = here.map_or(last, |(_, slot)| slot);
             last
         };
@@ -138,7 +154,8 @@ impl Part<'_> {
             let mut in_a_row = 0;
             for p in late {
                 // Of equal points the first comes first, wherever it is inserted.
-                let is_repeated = self.left.last().is_some_and(|&q| cloud.point(q) == cloud.point(p));
+                let is_repeated =
+                    self.left.last().is_some_and(|&q| cloud.point(q) == cloud.point(p));
                 if !is_repeated && surface.insert_within(cloud, p) {
                     in_a_row = 0;
                     continue;

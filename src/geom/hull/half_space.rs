@@ -14,8 +14,13 @@ pub struct HalfSpace {
 }
 
 impl HalfSpace {
-    /// How far inside `x` lies, in units of the normal's length: right to an ulp even where the terms cancel.
+    /// How far inside `x` lies, in units of the normal's length: right to an ulp even where the
+    /// terms cancel.
     pub fn slack(&self, x: DVec3) -> f64 {
-        if x == DVec3::ZERO { self.offset } else { -excess(self.normal.to_array(), x.to_array(), self.offset) }
+        if x == DVec3::ZERO {
+            self.offset
+        } else {
+            -excess(self.normal.to_array(), x.to_array(), self.offset)
+        }
     }
 }

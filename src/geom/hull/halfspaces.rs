@@ -24,8 +24,8 @@ pub enum Form {
     /// One vertex, with as many edges as faces meet there.
     #[default]
     Merged,
-    /// Vertices of valence 3 only, as if the planes had been moved by infinitely little: n faces, 3n − 6 edges and 2n − 4
-    /// vertices, some of them at one point.
+    /// Vertices of valence 3 only, as if the planes had been moved by infinitely little: n faces,
+    /// 3n − 6 edges and 2n − 4 vertices, some of them at one point.
     Simple,
 }
 
@@ -35,8 +35,8 @@ pub enum Numbers {
     /// As given: exact signs alone decide where planes meet.
     #[default]
     Given,
-    /// Computed, with rounding: vertices nearer to each other than [`crate::geom::RoundingBound`] are one, and planes that cut off
-    /// less than that only touch.
+    /// Computed, with rounding: vertices nearer to each other than [`crate::geom::RoundingBound`]
+    /// are one, and planes that cut off less than that only touch.
     Constructed,
 }
 
@@ -75,7 +75,8 @@ pub enum HalfSpaceError {
     },
     /// Nothing lies in all half-spaces.
     #[error(
-        "the half-spaces have no point in common: {} exclude each other, by {gap:.6e}; move one of them outwards",
+        "the half-spaces have no point in common: {} exclude each other, by {gap:.6e}; move one of \
+        them outwards",
         list(half_spaces)
     )]
     Infeasible {
@@ -86,7 +87,8 @@ pub enum HalfSpaceError {
     },
     /// The common part has no thickness, or one below the rounding of its coordinates.
     #[error(
-        "the half-spaces leave nothing with a volume: between {} there is no room; move one of them outwards",
+        "the half-spaces leave nothing with a volume: between {} there is no room; move one of \
+        them outwards",
         list(half_spaces)
     )]
     NoVolume {
@@ -95,7 +97,8 @@ pub enum HalfSpaceError {
     },
     /// The common part reaches to infinity.
     #[error(
-        "the half-spaces leave the direction ({:.4}, {:.4}, {:.4}) open; add a half-space that closes it, or a box",
+        "the half-spaces leave the direction ({:.4}, {:.4}, {:.4}) open; add a half-space that \
+        closes it, or a box",
         direction.x, direction.y, direction.z
     )]
     Unbounded {
@@ -117,7 +120,9 @@ impl HalfSpaceError {
     /// The half-spaces concerned, where there are some to name.
     pub fn half_spaces(&self) -> &[usize] {
         match self {
-            Self::NotFinite { half_space } | Self::NoDirection { half_space } => std::slice::from_ref(half_space),
+            Self::NotFinite { half_space } | Self::NoDirection { half_space } => {
+                std::slice::from_ref(half_space)
+            }
             Self::Infeasible { half_spaces, .. } | Self::NoVolume { half_spaces } => half_spaces,
             Self::TooMany { .. } | Self::Unbounded { .. } => &[],
         }
@@ -127,20 +132,25 @@ impl HalfSpaceError {
 fn list(half_spaces: &[usize]) -> String {
     let numbers: Vec<String> = half_spaces.iter().map(usize::to_string).collect();
     match numbers.split_last() {
-        Some((last, rest)) if !rest.is_empty() => format!("half-spaces {} and {last}", rest.join(", ")),
+        Some((last, rest)) if !rest.is_empty() => {
+            format!("half-spaces {} and {last}", rest.join(", "))
+        }
         _ => format!("half-space {}", numbers.join("")),
     }
 }
 
 /// Intersects half-spaces to a solid.
 ///
-/// Planes that contribute no face (redundant ones, those that touch at a vertex or along an edge, repeated ones but for the
-/// first inserted) are left out. Vertices are solved on residuals about a point inside, so that they lie on their planes to
-/// rounding at any scale and anywhere.
+/// Planes that contribute no face (redundant ones, those that touch at a vertex or along an edge,
+/// repeated ones but for the first inserted) are left out. Vertices are solved on residuals about a
+/// point inside, so that they lie on their planes to rounding at any scale and anywhere.
 ///
 /// # Errors
 /// [`HalfSpaceError`]: nothing in common, no volume, an open direction, or numbers that are none.
-pub fn intersect(half_spaces: &[HalfSpace], options: &Intersect) -> Result<Polytope, HalfSpaceError> {
+pub fn intersect(
+    half_spaces: &[HalfSpace],
+    options: &Intersect,
+) -> Result<Polytope, HalfSpaceError> {
     check(half_spaces)?;
     let centre = inside(half_spaces, options.interior)?;
     let polytope = exact_intersection(half_spaces, centre, options.form == Form::Simple)?;
@@ -159,7 +169,9 @@ fn check(half_spaces: &[HalfSpace]) -> Result<(), HalfSpaceError> {
     if count >= MOST_POINTS {
         return Err(HalfSpaceError::TooMany { count });
     }
-    if let Some(half_space) = half_spaces.iter().position(|h| !(h.normal.is_finite() && h.offset.is_finite())) {
+    if let Some(half_space) =
+        half_spaces.iter().position(|h| !(h.normal.is_finite() && h.offset.is_finite()))
+    {
         return Err(HalfSpaceError::NotFinite { half_space });
     }
     match half_spaces.iter().position(|h| h.normal == DVec3::ZERO) {
@@ -177,14 +189,16 @@ fn is_well_inside(h: &HalfSpace, x: DVec3) -> bool {
     h.slack(x) > 1e-14 * (terms.x + terms.y + terms.z + h.offset.abs())
 }
 
-/// A point strictly inside: the one that was named, the origin where that is well inside, else the centre of a largest ball.
+/// A point strictly inside: the one that was named, the origin where that is well inside, else the
+/// centre of a largest ball.
 fn inside(half_spaces: &[HalfSpace], named: Option<DVec3>) -> Result<DVec3, HalfSpaceError> {
     let is_inside = |x: DVec3| half_spaces.iter().all(|h| is_well_inside(h, x));
     if let Some(x) = named.filter(|&x| x.is_finite() && is_inside(x)) {
         return Ok(x);
     }
     let distances = half_spaces.iter().map(|h| h.offset / h.normal.length());
-    let (least, most) = distances.fold((f64::INFINITY, 0.0), |(l, m): (f64, f64), d| (l.min(d), m.max(d)));
+    let (least, most) =
+        distances.fold((f64::INFINITY, 0.0), |(l, m): (f64, f64), d| (l.min(d), m.max(d)));
     // Dual points of very different size would leave much to exact arithmetic.
     if least > most / 64.0 && is_inside(DVec3::ZERO) {
         return Ok(DVec3::ZERO);
@@ -199,9 +213,14 @@ fn inside(half_spaces: &[HalfSpace], named: Option<DVec3>) -> Result<DVec3, Half
     }
 }
 
-/// The intersection by exact signs alone, vertices where more than three planes meet merged. When only the simple form is
-/// wanted, nothing needs to be merged unless exact zeros came up on the way.
-fn exact_intersection(half_spaces: &[HalfSpace], centre: DVec3, simple: bool) -> Result<Polytope, HalfSpaceError> {
+/// The intersection by exact signs alone, vertices where more than three planes meet merged. When
+/// only the simple form is wanted, nothing needs to be merged unless exact zeros came up on the
+/// way.
+fn exact_intersection(
+    half_spaces: &[HalfSpace],
+    centre: DVec3,
+    simple: bool,
+) -> Result<Polytope, HalfSpaceError> {
     let count = half_spaces.len();
     let order = insertion_order(count, |i| half_spaces[i].normal);
     let mut near = vec![DVec3::ZERO; count];
@@ -209,7 +228,8 @@ fn exact_intersection(half_spaces: &[HalfSpace], centre: DVec3, simple: bool) ->
         let h = &half_spaces[order.points[place] as usize];
         h.normal * (1.0 / h.slack(centre))
     });
-    // A dual point carries the rounding of the slack, one ulp, and of the division and the product, half an ulp each.
+    // A dual point carries the rounding of the slack, one ulp, and of the division and the product,
+    // half an ulp each.
     let (cloud, scale) = Cloud::stretched(near, 4.0, PlaneSigns::new(half_spaces, &order.points));
     let mut room = Room::new(count);
     let mut surface = dual_hull(&cloud, scale, &order, &mut room)?;
@@ -228,7 +248,8 @@ fn exact_intersection(half_spaces: &[HalfSpace], centre: DVec3, simple: bool) ->
             let lies_on = |v: u32| (1.0 - cloud.point(v).dot(y)).abs() <= SETTLED;
             // A pole that is no number lies on nothing.
             let is_settled = lies_on(a) & lies_on(b) & lies_on(c);
-            place(if is_settled { y } else { meeting_point([a, b, c].map(|v| cloud.point(v))) }).to_array()
+            place(if is_settled { y } else { meeting_point([a, b, c].map(|v| cloud.point(v))) })
+                .to_array()
         });
         None
     };
@@ -249,7 +270,8 @@ fn dual_hull<'a>(
     order: &Order,
     room: &'a mut Room,
 ) -> Result<Surface<'a>, HalfSpaceError> {
-    let open = |flat| HalfSpaceError::Unbounded { direction: open_direction(flat, cloud.points(), scale) };
+    let open =
+        |flat| HalfSpaceError::Unbounded { direction: open_direction(flat, cloud.points(), scale) };
     if cloud.len() < 4 {
         return Err(open(few(cloud.points())));
     }
@@ -270,8 +292,9 @@ fn few(points: &[DVec3]) -> Flat {
     }
 }
 
-/// A unit vector u with n·u ≤ 0 for all normals n: along it no plane is ever met. The dual points q were stretched by `scale`; for
-/// a direction u that is right for them u ∘ scale is right for the normals.
+/// A unit vector u with n·u ≤ 0 for all normals n: along it no plane is ever met. The dual points q
+/// were stretched by `scale`; for a direction u that is right for them u ∘ scale is right for the
+/// normals.
 fn open_direction(flat: Flat, dual_points: &[DVec3], scale: DVec3) -> DVec3 {
     let Some(&q) = dual_points.first() else { return DVec3::X };
     let direction = match flat {
@@ -286,18 +309,28 @@ fn open_direction(flat: Flat, dual_points: &[DVec3], scale: DVec3) -> DVec3 {
     };
     // Where the line of dual points passes through the centre any direction across it is open.
     let fallback = || q.try_normalize().map_or(DVec3::X, |q| q.any_orthonormal_vector());
-    let unstretched = direction.try_normalize().unwrap_or_else(fallback) * (scale / scale.max_element());
+    let unstretched =
+        direction.try_normalize().unwrap_or_else(fallback) * (scale / scale.max_element());
     unstretched.normalize_or(DVec3::X) + DVec3::ZERO
 }
 
 /// The meeting point of the planes of each face of the dual hull.
-fn vertices(surface: &Surface<'_>, faces: &Faces, dual: &[DVec3], place: impl Fn(DVec3) -> DVec3 + Sync) -> Vec<DVec3> {
+fn vertices(
+    surface: &Surface<'_>,
+    faces: &Faces,
+    dual: &[DVec3],
+    place: impl Fn(DVec3) -> DVec3 + Sync,
+) -> Vec<DVec3> {
     let mut vertices = vec![DVec3::ZERO; faces.len()];
     fill(&mut vertices, |face| {
         let facet = surface.facet(faces.first(face as u32));
-        let is_alone = !faces.has_merged() || facet.across.iter().all(|&g| faces.of_facet(g) != face as u32);
-        let triple =
-            if is_alone { facet.corners.map(|v| dual[v as usize]) } else { widest(surface, faces, face, dual) };
+        let is_alone =
+            !faces.has_merged() || facet.across.iter().all(|&g| faces.of_facet(g) != face as u32);
+        let triple = if is_alone {
+            facet.corners.map(|v| dual[v as usize])
+        } else {
+            widest(surface, faces, face, dual)
+        };
         place(meeting_point(triple))
     });
     vertices
@@ -311,16 +344,21 @@ fn widest(surface: &Surface<'_>, faces: &Faces, face: usize, dual: &[DVec3]) -> 
     widest_triple(&points)
 }
 
-/// Contracts what is shorter than rounding. Planes that then span no face any more are left out and the rest is intersected
-/// anew, so that a sliver never stays.
-fn contract_all(half_spaces: &[HalfSpace], centre: DVec3, first: Polytope) -> Result<Polytope, HalfSpaceError> {
+/// Contracts what is shorter than rounding. Planes that then span no face any more are left out and
+/// the rest is intersected anew, so that a sliver never stays.
+fn contract_all(
+    half_spaces: &[HalfSpace],
+    centre: DVec3,
+    first: Polytope,
+) -> Result<Polytope, HalfSpaceError> {
     let mut polytope = first;
     loop {
         let (merged, slivers) = contract(&polytope, half_spaces);
         if slivers.is_empty() || polytope.half_spaces.len() < slivers.len() + 4 {
             return Ok(merged);
         }
-        let kept: Vec<u32> = polytope.half_spaces.iter().copied().filter(|i| !slivers.contains(i)).collect();
+        let kept: Vec<u32> =
+            polytope.half_spaces.iter().copied().filter(|i| !slivers.contains(i)).collect();
         let fewer: Vec<HalfSpace> = kept.iter().map(|&i| half_spaces[i as usize]).collect();
         polytope = exact_intersection(&fewer, centre, false)?;
         for i in &mut polytope.half_spaces {

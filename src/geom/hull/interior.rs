@@ -1,8 +1,8 @@
 //! A point deep inside half-spaces: the centre of a largest ball, as a small linear programme.
 //!
-//! Sources: Clarkson 1995 for working on few constraints and adding the one violated most; Seidel 1991, "Small-dimensional
-//! linear programming made easy", for solving with one constraint more by going down one dimension. All in rounded
-//! arithmetic: whoever uses the point checks it exactly.
+//! Sources: Clarkson 1995 for working on few constraints and adding the one violated most; Seidel
+//! 1991, "Small-dimensional linear programming made easy", for solving with one constraint more by
+//! going down one dimension. All in rounded arithmetic: whoever uses the point checks it exactly.
 
 use super::half_space::HalfSpace;
 use glam::DVec3;
@@ -11,7 +11,8 @@ use glam::DVec3;
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Centre {
     pub point: DVec3,
-    /// Below zero when the half-spaces have nothing in common: then every half-space must move outwards by that much at least.
+    /// Below zero when the half-spaces have nothing in common: then every half-space must move
+    /// outwards by that much at least.
     pub radius: f64,
     /// The half-spaces that the ball touches, ascending: those that keep it from growing.
     pub touching: Vec<usize>,
@@ -24,7 +25,8 @@ struct Constraint {
     b: f64,
 }
 
-/// How far from the origin the centre is sought, in units of the largest distance of a plane from the origin.
+/// How far from the origin the centre is sought, in units of the largest distance of a plane from
+/// the origin.
 const FARTHEST: f64 = 1e9;
 /// Rounds after which the search ends with what it has.
 const MOST_ROUNDS: usize = 2000;
@@ -40,16 +42,19 @@ pub(super) fn deepest_point(half_spaces: &[HalfSpace]) -> Centre {
         let n = h.normal / length;
         Constraint { a: [n.x, n.y, n.z, 1.0], b: h.offset / length / unit }
     };
-    // A ball in a bounded set is smaller than the largest distance of a plane, so the bound of 2 is never reached there.
+    // A ball in a bounded set is smaller than the largest distance of a plane, so the bound of 2 is
+    // never reached there.
     let reach = [FARTHEST, FARTHEST, FARTHEST, 2.0];
     let mut x = [0.0, 0.0, 0.0, 2.0];
     let mut chosen: Vec<usize> = Vec::new();
     let mut constraints: Vec<Constraint> = Vec::new();
     for _ in 0..MOST_ROUNDS {
         let violation = |h: &HalfSpace| constraint(h).excess(&x);
-        let worst =
-            (0..half_spaces.len()).max_by(|&i, &j| violation(&half_spaces[i]).total_cmp(&violation(&half_spaces[j])));
-        let Some(worst) = worst.filter(|&i| constraint(&half_spaces[i]).is_violated(&x)) else { break };
+        let worst = (0..half_spaces.len())
+            .max_by(|&i, &j| violation(&half_spaces[i]).total_cmp(&violation(&half_spaces[j])));
+        let Some(worst) = worst.filter(|&i| constraint(&half_spaces[i]).is_violated(&x)) else {
+            break;
+        };
         if chosen.contains(&worst) {
             break;
         }
@@ -79,9 +84,14 @@ impl Constraint {
     }
 }
 
-/// The greatest value of `aim`·x over the first `dimension` coordinates under constraints and |x[i]| ≤ reach[i]; `None` when
-/// nothing fulfils them.
-fn maximise(constraints: &[Constraint], aim: &[f64; 4], reach: &[f64; 4], dimension: usize) -> Option<[f64; 4]> {
+/// The greatest value of `aim`·x over the first `dimension` coordinates under constraints and
+/// |x[i]| ≤ reach[i]; `None` when nothing fulfils them.
+fn maximise(
+    constraints: &[Constraint],
+    aim: &[f64; 4],
+    reach: &[f64; 4],
+    dimension: usize,
+) -> Option<[f64; 4]> {
     let mut x = [0.0; 4];
     for i in 0..dimension {
         x[i] = if aim[i] == 0.0 { 0.0 } else { reach[i].copysign(aim[i]) };
@@ -94,7 +104,8 @@ fn maximise(constraints: &[Constraint], aim: &[f64; 4], reach: &[f64; 4], dimens
     Some(x)
 }
 
-/// The same with one constraint taken as an equation: one coordinate is eliminated and the rest solved.
+/// The same with one constraint taken as an equation: one coordinate is eliminated and the rest
+/// solved.
 fn on_boundary(
     equation: &Constraint,
     constraints: &[Constraint],
@@ -102,7 +113,8 @@ fn on_boundary(
     reach: &[f64; 4],
     dimension: usize,
 ) -> Option<[f64; 4]> {
-    let out = (0..dimension).max_by(|&i, &j| equation.a[i].abs().total_cmp(&equation.a[j].abs()))?;
+    let out =
+        (0..dimension).max_by(|&i, &j| equation.a[i].abs().total_cmp(&equation.a[j].abs()))?;
     let pivot = equation.a[out];
     let size: f64 = equation.a.iter().map(|a| a.abs()).sum();
     if pivot.abs() <= ROUNDING * size || pivot == 0.0 {
@@ -127,7 +139,8 @@ fn on_boundary(
     };
     let unit = |sign: f64| std::array::from_fn(|i| if i == out { sign } else { 0.0 });
     let bounds = [1.0, -1.0].map(|sign| project(&unit(sign), reach[out]));
-    let projected: Vec<Constraint> = bounds.into_iter().chain(constraints.iter().map(|c| project(&c.a, c.b))).collect();
+    let projected: Vec<Constraint> =
+        bounds.into_iter().chain(constraints.iter().map(|c| project(&c.a, c.b))).collect();
     let mut x = if last == 0 {
         projected.iter().all(|c| !c.is_violated(&[0.0; 4])).then_some([0.0; 4])?
     } else {
@@ -142,7 +155,10 @@ mod tests {
     use super::*;
 
     fn spaces(planes: &[(f64, f64, f64, f64)]) -> Vec<HalfSpace> {
-        planes.iter().map(|&(x, y, z, offset)| HalfSpace { normal: DVec3::new(x, y, z), offset }).collect()
+        planes
+            .iter()
+            .map(|&(x, y, z, offset)| HalfSpace { normal: DVec3::new(x, y, z), offset })
+            .collect()
     }
 
     #[test]

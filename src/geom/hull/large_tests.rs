@@ -13,7 +13,8 @@ fn on_sphere(n: usize, seed: u64) -> Vec<glam::DVec3> {
     (0..n).map(|_| random.on_sphere()).collect()
 }
 
-/// The vertices of a simple polytope, each as its three half-spaces, by the numbers that `name` gives them.
+/// The vertices of a simple polytope, each as its three half-spaces, by the numbers that `name`
+/// gives them.
 fn triples(p: &Polytope, name: impl Fn(u32) -> u32) -> BTreeSet<[u32; 3]> {
     let mut at: Vec<Vec<u32>> = vec![Vec::new(); p.vertices.len()];
     for (run, &i) in p.faces.iter().zip(&p.half_spaces) {
@@ -38,11 +39,13 @@ fn the_order_of_the_input_does_not_change_the_solid() {
 
 #[test]
 fn far_more_than_one_part_can_hold_agrees_with_few() {
-    // Half of the planes lie far outside: the solid is that of the others, which are too few for parts.
+    // Half of the planes lie far outside: the solid is that of the others, which are too few for
+    // parts.
     let near = tangent(on_sphere(3000, 31));
     let far = on_sphere(MANY, 37).into_iter().map(|normal| HalfSpace { normal, offset: 1.5 });
     let all: Vec<HalfSpace> = near.iter().copied().chain(far).collect();
-    let [few, many] = [&near, &all].map(|planes| intersect(planes, &with(Form::Simple)).expect("a ball"));
+    let [few, many] =
+        [&near, &all].map(|planes| intersect(planes, &with(Form::Simple)).expect("a ball"));
     assert_eq!(triples(&few, |i| i), triples(&many, |i| i));
 }
 
@@ -55,7 +58,8 @@ fn of_repeated_planes_the_first_counts_on_both_sides_of_a_border() {
     let p = intersect(&planes, &with(Form::Simple)).expect("a ball");
     assert_eq!(counts(&p), simple_counts(p.faces.len()));
     assert_closed(&p.faces, p.vertices.len());
-    // Rounding moves planes by up to 1e-6, so that a few vanish behind others at their side: those that cut off nothing.
+    // Rounding moves planes by up to 1e-6, so that a few vanish behind others at their side: those
+    // that cut off nothing.
     let is_there = |i: u32| p.half_spaces.binary_search(&i).is_ok();
     let missing: Vec<u32> = (0..MANY as u32).filter(|&i| !is_there(i)).collect();
     assert!(missing.len() < 10, "{missing:?}");
@@ -71,7 +75,8 @@ fn a_dome_of_radius_1000_keeps_its_planes() {
     let mut random = Random(43);
     let mut planes: Vec<HalfSpace> = (0..MANY)
         .map(|_| {
-            let (r, (s, c)) = (5.0 * random.unit().sqrt(), (std::f64::consts::TAU * random.unit()).sin_cos());
+            let (r, (s, c)) =
+                (5.0 * random.unit().sqrt(), (std::f64::consts::TAU * random.unit()).sin_cos());
             let normal = v(r * c, r * s, (1e6 - r * r).sqrt()) / 1000.0;
             HalfSpace { normal, offset: normal.dot(normal * 1000.0 - v(0.0, 0.0, 1000.0)) }
         })
@@ -86,17 +91,23 @@ fn a_dome_of_radius_1000_keeps_its_planes() {
 fn subdivided_icosahedron(levels: u32) -> Vec<glam::DVec3> {
     let golden = (1.0 + 5.0_f64.sqrt()) / 2.0;
     let signs = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)];
-    let corners =
-        signs.iter().flat_map(|&(a, b)| [v(0.0, a, b * golden), v(a, b * golden, 0.0), v(b * golden, 0.0, a)]);
+    let corners = signs
+        .iter()
+        .flat_map(|&(a, b)| [v(0.0, a, b * golden), v(a, b * golden, 0.0), v(b * golden, 0.0, a)]);
     let mut points: Vec<glam::DVec3> = corners.map(|p| p.normalize()).collect();
     for _ in 0..levels {
         let faces = convex_hull(&points, Numbers::Given).expect("a ball");
         let mut sides: Vec<(u32, u32)> = Vec::new();
         for run in faces.iter() {
-            sides.extend((0..run.len()).map(|i| (run[i], run[(i + 1) % run.len()])).filter(|(a, b)| a < b));
+            sides.extend(
+                (0..run.len()).map(|i| (run[i], run[(i + 1) % run.len()])).filter(|(a, b)| a < b),
+            );
         }
         points.extend(
-            sides.into_iter().map(|(a, b)| (points[a as usize] + points[b as usize]).normalize()).collect::<Vec<_>>(),
+            sides
+                .into_iter()
+                .map(|(a, b)| (points[a as usize] + points[b as usize]).normalize())
+                .collect::<Vec<_>>(),
         );
     }
     points

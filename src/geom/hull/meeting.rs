@@ -2,11 +2,15 @@
 
 use glam::DVec3;
 
-/// The first point, the one farthest from it, and the one farthest from the line of the two; counter-clockwise order is not
-/// kept.
+/// The first point, the one farthest from it, and the one farthest from the line of the two;
+/// counter-clockwise order is not kept.
 pub(super) fn widest_triple(points: &[DVec3]) -> [DVec3; 3] {
     let far = |measure: &dyn Fn(DVec3) -> f64| {
-        points.iter().copied().max_by(|&p, &q| measure(p).total_cmp(&measure(q))).unwrap_or_default()
+        points
+            .iter()
+            .copied()
+            .max_by(|&p, &q| measure(p).total_cmp(&measure(q)))
+            .unwrap_or_default()
     };
     let a = points.first().copied().unwrap_or_default();
     let b = far(&|p| p.distance_squared(a));
@@ -17,8 +21,8 @@ pub(super) fn widest_triple(points: &[DVec3]) -> [DVec3; 3] {
 /// Terms of this size leave no more to gain.
 pub(super) const SETTLED: f64 = 2.0 * f64::EPSILON;
 
-/// Where q·y = 1 for three dual points, with the residuals solved for again: y lies on the planes to rounding, however flat
-/// they meet.
+/// Where q·y = 1 for three dual points, with the residuals solved for again: y lies on the planes
+/// to rounding, however flat they meet.
 #[inline(never)]
 pub(super) fn meeting_point([a, b, c]: [DVec3; 3]) -> DVec3 {
     let (ab, ac) = (b - a, c - a);

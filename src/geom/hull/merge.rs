@@ -1,4 +1,5 @@
-//! From triangles to faces: coplanar neighbours joined by exact signs, and which points are corners.
+//! From triangles to faces: coplanar neighbours joined by exact signs, and which points are
+//! corners.
 
 use super::cloud::{Cloud, Signs};
 use super::surface::{NONE, Surface};
@@ -44,8 +45,8 @@ impl Faces {
         Self { face_of, count: first.len(), first, has_merged }
     }
 
-    /// Joins all neighbours whose corners lie within `bound` of one plane, that of the largest facet among them. Slivers
-    /// without a plane of their own go to a neighbour.
+    /// Joins all neighbours whose corners lie within `bound` of one plane, that of the largest
+    /// facet among them. Slivers without a plane of their own go to a neighbour.
     pub(super) fn within<S: Signs>(surface: &Surface<'_>, cloud: &Cloud<S>, bound: f64) -> Self {
         let normal = |f: u32| {
             let [a, b, c] = surface.facet(f).corners.map(|v| cloud.point(v));
@@ -53,20 +54,26 @@ impl Faces {
         };
         let mut by_area: Vec<u32> = surface.live().collect();
         by_area.sort_by(|&f, &g| normal(g).length_squared().total_cmp(&normal(f).length_squared()));
-        let (mut face_of, mut first, mut has_merged) = (vec![NONE; surface.slots()], Vec::new(), false);
+        let (mut face_of, mut first, mut has_merged) =
+            (vec![NONE; surface.slots()], Vec::new(), false);
         let mut stack = Vec::new();
         for seed in by_area {
             if face_of[seed as usize] != NONE {
                 continue;
             }
-            let (upwards, origin) = (normal(seed).normalize_or_zero(), cloud.point(surface.facet(seed).corners[0]));
+            let (upwards, origin) =
+                (normal(seed).normalize_or_zero(), cloud.point(surface.facet(seed).corners[0]));
             let is_near = |v: u32| (cloud.point(v) - origin).dot(upwards).abs() <= bound;
             face_of[seed as usize] = first.len() as u32;
             stack.push(seed);
             while let Some(f) = stack.pop() {
                 for g in surface.facet(f).across {
-                    // A facet that looks the other way is the back of a solid thinner than the bound.
-                    let fits = || normal(g).dot(upwards) >= -bound && surface.facet(g).corners.into_iter().all(is_near);
+                    // A facet that looks the other way is the back of a solid thinner than the
+                    // bound.
+                    let fits = || {
+                        normal(g).dot(upwards) >= -bound
+                            && surface.facet(g).corners.into_iter().all(is_near)
+                    };
                     if face_of[g as usize] == NONE && fits() {
                         face_of[g as usize] = first.len() as u32;
                         has_merged = true;
@@ -104,8 +111,9 @@ impl Faces {
         if self.face_of.is_empty() { f } else { self.face_of[f as usize] }
     }
 
-    /// The faces around a point, counter-clockwise from facet `first`, each once. A point is a corner of the hull when there
-    /// are three or more: one face has it inside, two have it on their common edge.
+    /// The faces around a point, counter-clockwise from facet `first`, each once. A point is a
+    /// corner of the hull when there are three or more: one face has it inside, two have it on
+    /// their common edge.
     pub(super) fn around(&self, surface: &Surface<'_>, v: u32, first: u32, faces: &mut Vec<u32>) {
         faces.clear();
         for f in surface.fan_of(v, first) {
@@ -143,7 +151,8 @@ impl Faces {
     }
 
     fn rim_side(&self, surface: &Surface<'_>, face: u32) -> Option<(u32, usize)> {
-        let is_end = |f: u32| surface.facet(f).across.iter().position(|&g| self.of_facet(g) != face);
+        let is_end =
+            |f: u32| surface.facet(f).across.iter().position(|&g| self.of_facet(g) != face);
         let first = self.first(face);
         if let Some(side) = is_end(first) {
             return Some((first, side));

@@ -1,13 +1,17 @@
 //! Convex hulls and intersections of half-spaces, exact in every sign; knows no mesh.
 //!
-//! One kernel serves both: a hull of points ([`convex_hull`]), and a set of planes as the hull of its dual points
-//! ([`intersect`]). Points are inserted in random rounds along a Hilbert curve (`order`) and fanned in (`surface`), of large sets
-//! in parts of the surface side by side (`grow`). Facets know the poles of their planes, so that three products tell whether one sees a
-//! point. Where that is too near to call, the sign is tried on the corners with an error bound and, where that cannot tell either, settled on
-//! the given numbers (`cloud`, `determinant`). The poles of a dual hull are the vertices of the solid. Coplanar facets are joined
-//! afterwards (`merge`), so that degenerate input (cubes, grids, repeated points, planes that only touch) gives what it should.
+//! One kernel serves both: a hull of points ([`convex_hull`]), and a set of planes as the hull of
+//! its dual points ([`intersect`]). Points are inserted in random rounds along a Hilbert curve
+//! (`order`) and fanned in (`surface`), of large sets in parts of the surface side by side
+//! (`grow`). Facets know the poles of their planes, so that three products tell whether one sees a
+//! point. Where that is too near to call, the sign is tried on the corners with an error bound and,
+//! where that cannot tell either, settled on the given numbers (`cloud`, `determinant`). The poles
+//! of a dual hull are the vertices of the solid. Coplanar facets are joined afterwards (`merge`),
+//! so that degenerate input (cubes, grids, repeated points, planes that only touch) gives what it
+//! should.
 //!
-//! Sources: Clarkson and Shor 1989; Amenta, Choi and Rote 2003; Devillers, Pion and Teillaud 2002; Shewchuk 1997.
+//! Sources: Clarkson and Shor 1989; Amenta, Choi and Rote 2003; Devillers, Pion and Teillaud 2002;
+//! Shewchuk 1997.
 
 mod cloud;
 mod contract;

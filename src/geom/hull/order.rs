@@ -1,14 +1,15 @@
 //! In which order points are inserted: random rounds, each along a curve.
 //!
-//! Sources: Amenta, Choi and Rote 2003, "Incremental constructions con BRIO": rounds that grow by a constant factor keep the
-//! expected work low whatever the input, and within a round any order may be chosen. Here each round brings the points to four times as many,
-//! which on a sphere is some 6 % faster than twice. The order chosen is a Hilbert curve over the six sides of a cube around the
-//! centre, so that neighbours in time are neighbours in direction and the way to the next point is short (random order instead
-//! takes some thirty times as long for a million points).
+//! Sources: Amenta, Choi and Rote 2003, "Incremental constructions con BRIO": rounds that grow by a
+//! constant factor keep the expected work low whatever the input, and within a round any order may
+//! be chosen. Here each round brings the points to four times as many, which on a sphere is some 6
+//! % faster than twice. The order chosen is a Hilbert curve over the six sides of a cube around the
+//! centre, so that neighbours in time are neighbours in direction and the way to the next point is
+//! short (random order instead takes some thirty times as long for a million points).
 //!
-//! Only the first rounds run over the whole cube. The points of the last two are taken cell by cell, a cell being a stretch of
-//! the curve, each with its own rounds: so the facets at work fit into a near cache, and cells far apart can be worked on
-//! at the same time.
+//! Only the first rounds run over the whole cube. The points of the last two are taken cell by
+//! cell, a cell being a stretch of the curve, each with its own rounds: so the facets at work fit
+//! into a near cache, and cells far apart can be worked on at the same time.
 
 use glam::DVec3;
 
@@ -45,8 +46,8 @@ pub(super) struct Order {
 
 /// The order of `n` points; `direction` is a point seen from the centre.
 ///
-/// Depends on nothing but n and the directions: the rounds are drawn by a fixed hash of them, so that of equal points the one
-/// with the lowest number comes first.
+/// Depends on nothing but n and the directions: the rounds are drawn by a fixed hash of them, so
+/// that of equal points the one with the lowest number comes first.
 pub(super) fn insertion_order(n: usize, direction: impl Fn(usize) -> DVec3 + Sync) -> Order {
     let layout = Layout::of(n, &direction);
     let mut keys = vec![0_u64; n];
@@ -60,9 +61,13 @@ pub(super) fn insertion_order(n: usize, direction: impl Fn(usize) -> DVec3 + Syn
         late.chunks(CELL_POINTS).zip(late_points.chunks_mut(CELL_POINTS)).collect();
     each(&mut cells, n, |(keys, points)| by_rounds(keys, points));
     let firsts: Vec<u64> = cells.iter().map(|(keys, _)| late_place(keys[0])).collect();
-    let cell_of = |&key: &u64| firsts.partition_point(|&first| first <= seed_place(key)).saturating_sub(1) as u32;
+    let cell_of = |&key: &u64| {
+        firsts.partition_point(|&first| first <= seed_place(key)).saturating_sub(1) as u32
+    };
     let seed_cells = seeds.iter().map(cell_of).collect();
-    let ends = (1..=firsts.len()).map(|k| (seeds.len() + (k * CELL_POINTS).min(late.len())) as u32).collect();
+    let ends = (1..=firsts.len())
+        .map(|k| (seeds.len() + (k * CELL_POINTS).min(late.len())) as u32)
+        .collect();
     Order { points, seed_cells, cells: ends }
 }
 
@@ -120,8 +125,8 @@ impl Layout {
         }
     }
 
-    /// The key by which points are sorted, with room for the number of the point in its lowest bits. Seeds: round, then place on
-    /// the curve. Others: place, then round.
+    /// The key by which points are sorted, with room for the number of the point in its lowest
+    /// bits. Seeds: round, then place on the curve. Others: place, then round.
     fn key(&self, direction: DVec3) -> u64 {
         let late = lateness(direction);
         let (side, u) = on_cube(direction);
@@ -135,7 +140,8 @@ impl Layout {
     }
 }
 
-/// What part of a side of the cube the points use, so that a flat dome still spreads over the whole curve.
+/// What part of a side of the cube the points use, so that a flat dome still spreads over the whole
+/// curve.
 #[derive(Clone, Copy)]
 struct Range {
     low: [f64; 2],
@@ -158,12 +164,16 @@ impl Raster {
     }
 
     fn cell(&self, u: [f64; 2]) -> [u32; 2] {
-        // A cast saturates, so that what lies beyond the ends goes to them, and takes the NaN of no width to 0.
-        std::array::from_fn(|k| (((u[k] - self.low[k]) * self.density[k]) as u32).min((1 << self.bits) - 1))
+        // A cast saturates, so that what lies beyond the ends goes to them, and takes the NaN of no
+        // width to 0.
+        std::array::from_fn(|k| {
+            (((u[k] - self.low[k]) * self.density[k]) as u32).min((1 << self.bits) - 1)
+        })
     }
 }
 
-/// The ranges of the directions, of many those of a sample: they only decide how well the curve is used.
+/// The ranges of the directions, of many those of a sample: they only decide how well the curve is
+/// used.
 fn ranges(n: usize, direction: &impl Fn(usize) -> DVec3) -> [Range; 6] {
     let mut ranges = [Range { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] }; 6];
     for i in (0..n).step_by(if n < SAMPLED_FROM { 1 } else { SAMPLE_STEP }) {
@@ -175,8 +185,8 @@ fn ranges(n: usize, direction: &impl Fn(usize) -> DVec3) -> [Range; 6] {
     ranges
 }
 
-/// The side of the cube that a direction meets, and where. The three sides around a corner follow one another, so that half of
-/// the curve has a short border.
+/// The side of the cube that a direction meets, and where. The three sides around a corner follow
+/// one another, so that half of the curve has a short border.
 fn on_cube(direction: DVec3) -> (usize, [f64; 2]) {
     // By index, since nothing can foresee a branch.
     let coordinates = direction.to_array();
@@ -194,7 +204,8 @@ fn on_cube(direction: DVec3) -> (usize, [f64; 2]) {
 
 /// The place of a cell along the Hilbert curve of a square with 2^bits cells a side.
 fn hilbert([x, y]: [u32; 2], bits: u32) -> u32 {
-    // Several levels at a time. An odd number of levels above, all zeros, would turn the curve, so whole steps are taken from the top.
+    // Several levels at a time. An odd number of levels above, all zeros, would turn the curve, so
+    // whole steps are taken from the top.
     let steps = bits.div_ceil(STEP_LEVELS);
     let shift = STEP_LEVELS * steps - bits;
     let (x, y) = (x << shift, y << shift);
@@ -213,16 +224,18 @@ const STEP_LEVELS: u32 = 5;
 const STEP_MASK: u32 = (1 << STEP_LEVELS) - 1;
 const PLACE_MASK: u32 = (1 << (2 * STEP_LEVELS)) - 1;
 
-/// For each state of the curve and place of a cell in a square of 32 × 32 how far along the curve the cell lies, in the lower ten
-/// bits, and the state of the curve within it. State 0 is the curve from the lower left to the lower right, 1 that mirrored at the diagonal;
-/// 2 is added where it is mirrored at both sides.
+/// For each state of the curve and place of a cell in a square of 32 × 32 how far along the curve
+/// the cell lies, in the lower ten bits, and the state of the curve within it. State 0 is the curve
+/// from the lower left to the lower right, 1 that mirrored at the diagonal; 2 is added where it is
+/// mirrored at both sides.
 static STEP: [u16; 4 << (2 * STEP_LEVELS)] = step_table();
 
 const fn step_table() -> [u16; 4 << (2 * STEP_LEVELS)] {
     let mut table = [0; 4 << (2 * STEP_LEVELS)];
     let mut i = 0;
     while i < table.len() {
-        let (mut x, mut y, mut place) = (i as u32 >> STEP_LEVELS & STEP_MASK, i as u32 & STEP_MASK, 0);
+        let (mut x, mut y, mut place) =
+            (i as u32 >> STEP_LEVELS & STEP_MASK, i as u32 & STEP_MASK, 0);
         let state = i as u32 >> (2 * STEP_LEVELS);
         let (mut is_swapped, mut is_flipped) = (state & 1 == 1, state >> 1 == 1);
         if is_flipped {
@@ -236,7 +249,8 @@ const fn step_table() -> [u16; 4 << (2 * STEP_LEVELS)] {
             level -= 1;
             let (right, upper) = (x >> level & 1, y >> level & 1);
             place = place << 2 | ((3 * right) ^ upper);
-            // In the lower quarters the curve runs mirrored at the diagonal, in the right one at the other diagonal.
+            // In the lower quarters the curve runs mirrored at the diagonal, in the right one at
+            // the other diagonal.
             if upper == 0 {
                 if right == 1 {
                     (x, y) = (!x, !y);
@@ -246,8 +260,9 @@ const fn step_table() -> [u16; 4 << (2 * STEP_LEVELS)] {
                 is_swapped = !is_swapped;
             }
         }
-        table[i] =
-            (place | (is_swapped as u32) << (2 * STEP_LEVELS) | (is_flipped as u32) << (2 * STEP_LEVELS + 1)) as u16;
+        table[i] = (place
+            | (is_swapped as u32) << (2 * STEP_LEVELS)
+            | (is_flipped as u32) << (2 * STEP_LEVELS + 1)) as u16;
         i += 1;
     }
     table
@@ -258,7 +273,8 @@ fn lateness(direction: DVec3) -> u32 {
     hash(direction).trailing_zeros() / 2
 }
 
-/// The finaliser of splitmix64 (Steele, Lea and Flood 2014) of the coordinates, multiplied together on the way.
+/// The finaliser of splitmix64 (Steele, Lea and Flood 2014) of the coordinates, multiplied together
+/// on the way.
 fn hash(direction: DVec3) -> u64 {
     // Adding zero makes −0 and 0 one.
     let mixed = direction.to_array().into_iter().fold(0x9e37_79b9_7f4a_7c15_u64, |hash, x| {
@@ -280,12 +296,17 @@ mod tests {
         for bits in 5..9 {
             cells.sort_by_key(|&cell| hilbert(cell, bits));
             assert!(bits > 5 || cells.windows(2).all(|w| step(w) == 1));
-            assert!(cells.iter().zip(0..).all(|(&cell, place)| hilbert(cell, bits) == place), "{bits}");
+            assert!(
+                cells.iter().zip(0..).all(|(&cell, place)| hilbert(cell, bits) == place),
+                "{bits}"
+            );
         }
     }
 
     fn directions(n: usize) -> Vec<DVec3> {
-        (0..n as u32).map(|i| DVec3::new(f64::from(i) * 0.37 - 700.0, f64::from(i % 7) - 3.0, 5.0)).collect()
+        (0..n as u32)
+            .map(|i| DVec3::new(f64::from(i) * 0.37 - 700.0, f64::from(i % 7) - 3.0, 5.0))
+            .collect()
     }
 
     #[test]
@@ -298,16 +319,24 @@ mod tests {
             assert!(sorted.iter().enumerate().all(|(i, &p)| i == p as usize));
             assert_eq!(points.len(), n);
             assert_eq!(cells.last().map_or(seed_cells.len(), |&end| end as usize), n);
-            assert!(cells.is_sorted() && seed_cells.iter().all(|&cell| (cell as usize) < cells.len().max(1)));
+            assert!(
+                cells.is_sorted()
+                    && seed_cells.iter().all(|&cell| (cell as usize) < cells.len().max(1))
+            );
             // Of many points one in sixteen is a seed.
-            assert!(n < 10_000 || (n / 18..n / 14).contains(&seed_cells.len()), "{}", seed_cells.len());
+            assert!(
+                n < 10_000 || (n / 18..n / 14).contains(&seed_cells.len()),
+                "{}",
+                seed_cells.len()
+            );
         }
     }
 
     #[test]
     fn rounds_quadruple_within_a_cell() {
         let directions = directions(200_000);
-        let Order { points, seed_cells, cells } = insertion_order(directions.len(), |i| directions[i]);
+        let Order { points, seed_cells, cells } =
+            insertion_order(directions.len(), |i| directions[i]);
         let mut start = seed_cells.len();
         for end in cells {
             let run = &points[start..end as usize];

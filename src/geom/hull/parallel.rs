@@ -7,15 +7,20 @@ const WORTH_A_THREAD: usize = 1 << 14;
 
 /// Sets every value of `out` to `make(its index)`.
 pub(super) fn fill<T: Send>(out: &mut [T], make: impl Fn(usize) -> T + Sync) {
-    in_shares(out, |start, part| part.iter_mut().enumerate().for_each(|(i, value)| *value = make(start + i)));
+    in_shares(out, |start, part| {
+        part.iter_mut().enumerate().for_each(|(i, value)| *value = make(start + i))
+    });
 }
 
 /// Sets every value of `out` to `make(its index, itself)`.
 pub(super) fn update<T: Send>(out: &mut [T], make: impl Fn(usize, &T) -> T + Sync) {
-    in_shares(out, |start, part| part.iter_mut().zip(start..).for_each(|(value, i)| *value = make(i, value)));
+    in_shares(out, |start, part| {
+        part.iter_mut().zip(start..).for_each(|(value, i)| *value = make(i, value))
+    });
 }
 
-/// Runs `work` on shares of `count` runs that lie one behind the other in `out`. Each share is told which runs are its own.
+/// Runs `work` on shares of `count` runs that lie one behind the other in `out`. Each share is told
+/// which runs are its own.
 pub(super) fn fill_runs<T: Send>(
     out: &mut [T],
     count: usize,
@@ -69,7 +74,8 @@ pub(super) fn share_of(count: usize) -> usize {
     count.div_ceil(threads_for(count)).max(1)
 }
 
-/// How many threads are worth it for so many values. The system is only asked when more than one may be.
+/// How many threads are worth it for so many values. The system is only asked when more than one
+/// may be.
 fn threads_for(count: usize) -> usize {
     match count / WORTH_A_THREAD + 1 {
         1 => 1,
@@ -77,7 +83,8 @@ fn threads_for(count: usize) -> usize {
     }
 }
 
-/// Runs `work` on equal shares of `values`, each with the index of its first; returns the length of a share.
+/// Runs `work` on equal shares of `values`, each with the index of its first; returns the length of
+/// a share.
 fn in_shares<T: Send>(values: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) -> usize {
     let share = share_of(values.len());
     if share >= values.len() {

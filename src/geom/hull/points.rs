@@ -48,7 +48,8 @@ pub enum HullError {
     },
     /// All points lie on a line.
     #[error(
-        "all {count} points lie on one line along ({:.4}, {:.4}, {:.4}); a hull needs points that span a volume",
+        "all {count} points lie on one line along ({:.4}, {:.4}, {:.4}); a hull needs points that \
+        span a volume",
         direction.x, direction.y, direction.z
     )]
     Collinear {
@@ -59,7 +60,8 @@ pub enum HullError {
     },
     /// All points lie in a plane.
     #[error(
-        "all {count} points lie in one plane with the normal ({:.4}, {:.4}, {:.4}); a hull needs points that span a volume",
+        "all {count} points lie in one plane with the normal ({:.4}, {:.4}, {:.4}); a hull needs \
+        points that span a volume",
         normal.x, normal.y, normal.z
     )]
     Coplanar {
@@ -79,12 +81,14 @@ codes!(error HullError {
     Coplanar = 216,
 });
 
-/// The faces of the convex hull of `points`, as runs of point numbers, counter-clockwise seen from outside.
+/// The faces of the convex hull of `points`, as runs of point numbers, counter-clockwise seen from
+/// outside.
 ///
-/// Exact on the given numbers: coplanar neighbours are one face, and points inside a face or an edge are no corners. With
-/// [`Numbers::Constructed`] neighbours within [`RoundingBound`] of one plane are one face too, as long as a solid remains. Of equal
-/// points one stands for all. Each face begins at its lowest corner; the faces are in lexicographic order, whatever the order of the input's
-/// insertion.
+/// Exact on the given numbers: coplanar neighbours are one face, and points inside a face or an
+/// edge are no corners. With [`Numbers::Constructed`] neighbours within [`RoundingBound`] of one
+/// plane are one face too, as long as a solid remains. Of equal points one stands for all. Each
+/// face begins at its lowest corner; the faces are in lexicographic order, whatever the order of
+/// the input's insertion.
 ///
 /// # Errors
 /// [`HullError`] when a coordinate is not finite or the points span no volume.
@@ -102,17 +106,25 @@ pub fn convex_hull(points: &[DVec3], numbers: Numbers) -> Result<Polygons, HullE
     let (corners, centre) = start(points).map_err(|flat| refusal(flat, points))?;
     let order = insertion_order(count, |i| points[i] - centre.point);
     let signs = PointSigns { points, order: &order.points, centre: centre.point };
-    let (cloud, scale) =
-        Cloud::new(order.points.iter().map(|&i| points[i as usize] - centre.point).collect(), 2.0, signs);
-    let places = corners.map(|c| order.points.iter().position(|&i| i == c).expect("every point has a place") as u32);
+    let (cloud, scale) = Cloud::new(
+        order.points.iter().map(|&i| points[i as usize] - centre.point).collect(),
+        2.0,
+        signs,
+    );
+    let places = corners.map(|c| {
+        order.points.iter().position(|&i| i == c).expect("every point has a place") as u32
+    });
     let mut room = Room::new(count);
-    let mut surface = Surface::tetrahedron(&cloud, places, centre.is_corner.then_some(places[0]), &mut room);
+    let mut surface =
+        Surface::tetrahedron(&cloud, places, centre.is_corner.then_some(places[0]), &mut room);
     let mut inserted = places;
     inserted.sort_unstable();
     grow(&cloud, &mut surface, &order, &inserted);
     if numbers == Numbers::Constructed {
-        let (low, high) = points.iter().fold((points[0], points[0]), |(l, h), &p| (l.min(p), h.max(p)));
-        let faces = Faces::within(&surface, &cloud, RoundingBound::of_box(low, high).length() * scale);
+        let (low, high) =
+            points.iter().fold((points[0], points[0]), |(l, h), &p| (l.min(p), h.max(p)));
+        let faces =
+            Faces::within(&surface, &cloud, RoundingBound::of_box(low, high).length() * scale);
         let merged = polygons(&surface, &faces, &order.points);
         if is_closed(&merged) {
             return Ok(merged);
@@ -136,7 +148,8 @@ fn is_closed(faces: &Polygons) -> bool {
 /// From where the hull is seen.
 struct Centre {
     point: DVec3,
-    /// No double lies strictly inside the first four points, so the first of them stands for the centre.
+    /// No double lies strictly inside the first four points, so the first of them stands for the
+    /// centre.
     is_corner: bool,
 }
 
@@ -163,7 +176,9 @@ fn refusal(flat: Flat, points: &[DVec3]) -> HullError {
     let count = points.len();
     match flat {
         Flat::Point => HullError::Coincident { count, position: points[0] },
-        Flat::Line(direction) => HullError::Collinear { count, direction: direction.normalize_or_zero() },
+        Flat::Line(direction) => {
+            HullError::Collinear { count, direction: direction.normalize_or_zero() }
+        }
         Flat::Plane(normal) | Flat::OneSided(normal) => {
             HullError::Coplanar { count, normal: normal.normalize_or_zero() }
         }
@@ -187,7 +202,8 @@ fn polygons(surface: &Surface<'_>, faces: &Faces, order: &[u32]) -> Polygons {
     let mut rims: Vec<Vec<u32>> = Vec::with_capacity(faces.len());
     for face in 0..faces.len() as u32 {
         faces.rim(surface, face, &mut around);
-        let mut rim: Vec<u32> = around.iter().filter(|&&v| is_corner[v as usize]).map(|&v| order[v as usize]).collect();
+        let mut rim: Vec<u32> =
+            around.iter().filter(|&&v| is_corner[v as usize]).map(|&v| order[v as usize]).collect();
         let lowest = (0..rim.len()).min_by_key(|&i| rim[i]).unwrap_or(0);
         rim.rotate_left(lowest);
         rims.push(rim);

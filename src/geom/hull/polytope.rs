@@ -60,7 +60,8 @@ impl Polygons {
 pub struct Polytope {
     /// The vertices, numbered in no particular but always the same order.
     pub vertices: Vec<DVec3>,
-    /// For each face the number of its half-space, ascending. Half-spaces that contribute no face are missing.
+    /// For each face the number of its half-space, ascending. Half-spaces that contribute no face
+    /// are missing.
     pub half_spaces: Vec<u32>,
     /// The faces as runs of vertex numbers.
     pub faces: Polygons,

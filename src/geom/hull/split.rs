@@ -1,9 +1,11 @@
-//! From merged to simple: every vertex of higher valence divided into vertices of valence 3 at the same point.
+//! From merged to simple: every vertex of higher valence divided into vertices of valence 3 at the
+//! same point.
 
 use super::polytope::{Polygons, Polytope};
 
-/// Gives each vertex where k > 3 faces meet k − 2 numbers, as if the face with the lowest number among them had been moved
-/// outwards by infinitely little less than the others: its corner becomes a chain of k − 3 edges, the other faces keep one edge to it.
+/// Gives each vertex where k > 3 faces meet k − 2 numbers, as if the face with the lowest number
+/// among them had been moved outwards by infinitely little less than the others: its corner becomes
+/// a chain of k − 3 edges, the other faces keep one edge to it.
 pub(super) fn split(polytope: Polytope) -> Polytope {
     let Polytope { mut vertices, half_spaces, faces, interior } = polytope;
     // No vertex has fewer than three faces, so the sum tells.
@@ -23,18 +25,25 @@ pub(super) fn split(polytope: Polytope) -> Polytope {
     for (face, polygon) in faces.iter().enumerate() {
         run.clear();
         for &v in polygon {
-            chain(&stars[v as usize], face as u32, |i| if i == 0 { v } else { added[v as usize] + i - 1 }, &mut run);
+            chain(
+                &stars[v as usize],
+                face as u32,
+                |i| if i == 0 { v } else { added[v as usize] + i - 1 },
+                &mut run,
+            );
         }
         divided.push(run.iter().copied());
     }
     Polytope { vertices, half_spaces, faces: divided, interior }
 }
 
-/// The corners that a face gets at a vertex. The star begins with its lowest face 0; vertex i joins faces 0, i + 1 and i + 2.
+/// The corners that a face gets at a vertex. The star begins with its lowest face 0; vertex i joins
+/// faces 0, i + 1 and i + 2.
 fn chain(star: &[u32], face: u32, vertex: impl Fn(u32) -> u32, run: &mut Vec<u32>) {
     let k = star.len() as u32;
     let place = star.iter().position(|&f| f == face).expect("the face is at its corner") as u32;
-    // Within a face the corners run from the side of the next face around the vertex to that of the one before.
+    // Within a face the corners run from the side of the next face around the vertex to that of the
+    // one before.
     match place {
         0 => run.extend((0..k - 2).map(vertex)),
         1 => run.push(vertex(0)),
@@ -43,7 +52,8 @@ fn chain(star: &[u32], face: u32, vertex: impl Fn(u32) -> u32, run: &mut Vec<u32
     }
 }
 
-/// For each vertex the faces around it, counter-clockwise seen from outside, beginning with the lowest.
+/// For each vertex the faces around it, counter-clockwise seen from outside, beginning with the
+/// lowest.
 pub(super) fn stars(faces: &Polygons, vertices: usize) -> Vec<Vec<u32>> {
     // (vertex after, vertex before, face) for each corner.
     let mut corners: Vec<Vec<(u32, u32, u32)>> = vec![Vec::new(); vertices];

@@ -1,4 +1,5 @@
-//! Where the hull begins: four points of a large tetrahedron, and more until the centre lies inside.
+//! Where the hull begins: four points of a large tetrahedron, and more until the centre lies
+//! inside.
 
 use glam::DVec3;
 
@@ -22,10 +23,11 @@ pub(super) enum Flat {
 /// So many of the first points are looked at for the first corners.
 const SAMPLE: u32 = 4096;
 
-/// Four points that span a volume, beginning with `a`, the last below the other three: greedily as far apart as can be told
-/// quickly.
+/// Four points that span a volume, beginning with `a`, the last below the other three: greedily as
+/// far apart as can be told quickly.
 pub(super) fn far_apart<S: Signs>(cloud: &Cloud<S>, a: u32) -> Result<[u32; 4], Flat> {
-    let sample = if cloud.len() > SAMPLE { far_apart_among(cloud, a, SAMPLE) } else { Err(Flat::Point) };
+    let sample =
+        if cloud.len() > SAMPLE { far_apart_among(cloud, a, SAMPLE) } else { Err(Flat::Point) };
     sample.or_else(|_| far_apart_among(cloud, a, cloud.len()))
 }
 
@@ -52,10 +54,14 @@ fn far_apart_among<S: Signs>(cloud: &Cloud<S>, a: u32, count: u32) -> Result<[u3
     Ok(if side == Side::Reverse { [a, b, c, d] } else { [a, c, b, d] })
 }
 
-/// Inserts the farthest point above each facet that does not have the centre below it, until none is left.
+/// Inserts the farthest point above each facet that does not have the centre below it, until none
+/// is left.
 ///
 /// Returns the points that were inserted.
-pub(super) fn enclose_centre<S: Signs>(cloud: &Cloud<S>, surface: &mut Surface<'_>) -> Result<Vec<u32>, Flat> {
+pub(super) fn enclose_centre<S: Signs>(
+    cloud: &Cloud<S>,
+    surface: &mut Surface<'_>,
+) -> Result<Vec<u32>, Flat> {
     let mut inserted = Vec::new();
     let is_open = |surface: &Surface<'_>, f: u32| {
         let [a, b, c] = surface.facet(f).corners;

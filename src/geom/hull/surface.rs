@@ -1,8 +1,11 @@
-//! The growing hull: triangles that know their neighbours and poles, the ways to one that sees a point, and the insertion of a point.
+//! The growing hull: triangles that know their neighbours and poles, the ways to one that sees a
+//! point, and the insertion of a point.
 //!
-//! Source: Clarkson and Shor 1989 for the incremental hull, with walks in place of a conflict graph: uphill over the poles, and where that
-//! ends without an answer, that of Devillers, Pion and Teillaud 2002 ("Walking in a triangulation"). A triangle that has the point in its plane counts as not seen. The seen
-//! part is then the one that a point just a little further in would see, so it is a disc, and no triangle of the fan is flat.
+//! Source: Clarkson and Shor 1989 for the incremental hull, with walks in place of a conflict
+//! graph: uphill over the poles, and where that ends without an answer, that of Devillers, Pion and
+//! Teillaud 2002 ("Walking in a triangulation"). A triangle that has the point in its plane counts
+//! as not seen. The seen part is then the one that a point just a little further in would see, so
+//! it is a disc, and no triangle of the fan is flat.
 
 mod insertion;
 mod parts;
@@ -15,7 +18,8 @@ use super::parallel::update;
 pub(super) use parts::{Division, Growth};
 pub(super) use pole::Pole;
 
-/// A triangle of the hull, counter-clockwise seen from outside. Points are named by their place in the order of insertion.
+/// A triangle of the hull, counter-clockwise seen from outside. Points are named by their place in
+/// the order of insertion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Facet {
     pub corners: [u32; 3],
@@ -23,14 +27,16 @@ pub(super) struct Facet {
     pub across: [u32; 3],
 }
 
-/// How a facet is stored: corners, then what lies across each side: four times that facet, plus which of its sides leads back. So
-/// neither insertion nor a turn around a corner searches. Zeros are a free slot, as are three equal corners.
+/// How a facet is stored: corners, then what lies across each side: four times that facet, plus
+/// which of its sides leads back. So neither insertion nor a turn around a corner searches. Zeros
+/// are a free slot, as are three equal corners.
 pub(super) type Slot = [u32; 6];
 /// No facet.
 pub(super) const NONE: u32 = u32::MAX;
 /// Marks the first corner of a facet that the point at hand sees.
 const SEEN: u32 = 1 << 31;
-/// Marks what lies across a side at the border of a part of a surface: the facet in the whole surface.
+/// Marks what lies across a side at the border of a part of a surface: the facet in the whole
+/// surface.
 const BORDER: u32 = 1 << 31;
 /// The side after each; four, so that two bits always point at one.
 const NEXT: [usize; 4] = [1, 2, 0, 0];
@@ -60,7 +66,8 @@ pub(super) struct Surface<'a> {
 #[derive(Default)]
 struct Scratch {
     seen: Vec<u32>,
-    /// The sides between the seen and the unseen facets: each as four times the unseen facet plus which of its sides it is.
+    /// The sides between the seen and the unseen facets: each as four times the unseen facet plus
+    /// which of its sides it is.
     rim: Vec<u32>,
     /// Sides of facets that are still to be entered or left outside, likewise.
     stack: Vec<u32>,
@@ -98,7 +105,8 @@ impl Room {
 }
 
 impl<'a> Surface<'a> {
-    /// The tetrahedron of four points, of which the last lies below the other three, in a room that is all free.
+    /// The tetrahedron of four points, of which the last lies below the other three, in a room that
+    /// is all free.
     pub(super) fn tetrahedron<S: Signs>(
         cloud: &Cloud<S>,
         [a, b, c, d]: [u32; 4],
@@ -180,15 +188,16 @@ impl<'a> Surface<'a> {
         std::iter::successors(Some(first), next).map(|link| link >> 2)
     }
 
-    /// The facet after one around one of its corners, counter-clockwise. Both as four times the facet plus which of its corners it
-    /// is.
+    /// The facet after one around one of its corners, counter-clockwise. Both as four times the
+    /// facet plus which of its corners it is.
     #[inline(always)]
     pub(super) fn next_around(&self, at: u32) -> u32 {
         // The side that comes in at the corner leaves it in the facet beyond.
         self.facets[(at >> 2) as usize][3 + BEFORE[(at & 3) as usize]]
     }
 
-    /// Moves the last facets into the free slots, so that the slots below [`Self::len`] are all there are.
+    /// Moves the last facets into the free slots, so that the slots below [`Self::len`] are all
+    /// there are.
     pub(super) fn compact(&mut self) {
         let mut holes = std::mem::take(&mut self.free);
         holes.sort_unstable();

@@ -52,14 +52,17 @@ pub(super) fn simple_counts(n: usize) -> [usize; 3] {
     [n, 3 * n - 6, 2 * n - 4]
 }
 
-/// Every side has its partner, Euler's number is 2, every vertex lies on the planes of its faces and none beyond a plane.
+/// Every side has its partner, Euler's number is 2, every vertex lies on the planes of its faces
+/// and none beyond a plane.
 #[track_caller]
 fn assert_polytope(p: &Polytope, half_spaces: &[HalfSpace], tolerance: f64) {
     assert_closed(&p.faces, p.vertices.len());
     for (run, &i) in p.faces.iter().zip(&p.half_spaces) {
         let h = &half_spaces[i as usize];
         let length = h.normal.length();
-        let height = |u: &DVec3| (h.normal.dot(*u - p.interior) - (h.offset - h.normal.dot(p.interior))) / length;
+        let height = |u: &DVec3| {
+            (h.normal.dot(*u - p.interior) - (h.offset - h.normal.dot(p.interior))) / length
+        };
         for &u in run {
             let off = height(&p.vertices[u as usize]);
             assert!(off.abs() <= tolerance, "vertex {u} is {off:e} off half-space {i}");
@@ -67,7 +70,11 @@ fn assert_polytope(p: &Polytope, half_spaces: &[HalfSpace], tolerance: f64) {
     }
     for h in half_spaces.iter().take(200) {
         let length = h.normal.length();
-        let most = p.vertices.iter().map(|u| (h.normal.dot(*u) - h.offset) / length).fold(f64::MIN, f64::max);
+        let most = p
+            .vertices
+            .iter()
+            .map(|u| (h.normal.dot(*u) - h.offset) / length)
+            .fold(f64::MIN, f64::max);
         assert!(most <= tolerance, "a vertex is {most:e} beyond a plane");
     }
 }
@@ -81,14 +88,21 @@ pub(super) fn assert_closed(faces: &Polygons, vertices: usize) {
     }
     sides.sort_unstable();
     assert!(sides.windows(2).all(|w| w[0] != w[1]), "a side comes twice");
-    assert!(sides.iter().all(|&(a, b)| sides.binary_search(&(b, a)).is_ok()), "a side has no partner");
+    assert!(
+        sides.iter().all(|&(a, b)| sides.binary_search(&(b, a)).is_ok()),
+        "a side has no partner"
+    );
     assert_eq!(vertices + faces.len(), sides.len() / 2 + 2, "Euler");
 }
 
 fn cube_points(n: i32) -> Vec<DVec3> {
     let range = move || 0..=n;
     range()
-        .flat_map(|x| range().flat_map(move |y| range().map(move |z| v(f64::from(x), f64::from(y), f64::from(z)))))
+        .flat_map(|x| {
+            range().flat_map(move |y| {
+                range().map(move |z| v(f64::from(x), f64::from(y), f64::from(z)))
+            })
+        })
         .collect()
 }
 
@@ -119,8 +133,9 @@ fn points_without_a_volume_are_refused_with_the_reason() {
     let line: Vec<DVec3> = (0..50).map(|i| v(1.0, 2.0, -3.0) * f64::from(i)).collect();
     let Err(HullError::Collinear { direction, .. }) = exact_hull(&line) else { panic!("a line") };
     assert!(direction.cross(v(1.0, 2.0, -3.0)).length() < 1e-14);
-    let plane: Vec<DVec3> =
-        (0..50).map(|i| v(f64::from(i % 7), f64::from(i), f64::from(i) + f64::from(i % 7))).collect();
+    let plane: Vec<DVec3> = (0..50)
+        .map(|i| v(f64::from(i % 7), f64::from(i), f64::from(i) + f64::from(i % 7)))
+        .collect();
     let error = exact_hull(&plane).expect_err("a plane");
     assert!(
         matches!(error, HullError::Coplanar { normal, .. } if normal.dot(v(1.0, 1.0, -1.0)).abs() > 1.7),
@@ -156,9 +171,13 @@ fn assert_hull(points: &[DVec3], hull: &Polygons) {
             assert!(run.iter().all(|&d| orient3d(at(a), at(b), at(c), at(d)) == 0.0));
             assert!(!cloud::are_collinear([at(a), at(b), at(c)]));
         }
-        // No two faces lie in one plane: whoever is on this plane is inside or on this face's edges.
-        let on: Vec<u32> =
-            used.iter().copied().filter(|&d| orient3d(at(run[0]), at(run[1]), at(run[2]), at(d)) == 0.0).collect();
+        // No two faces lie in one plane: whoever is on this plane is inside or on this face's
+        // edges.
+        let on: Vec<u32> = used
+            .iter()
+            .copied()
+            .filter(|&d| orient3d(at(run[0]), at(run[1]), at(run[2]), at(d)) == 0.0)
+            .collect();
         assert_eq!(on.len(), run.len());
     }
 }
@@ -169,7 +188,8 @@ fn faces_flat_up_to_rounding_are_one_when_computed() {
     let normal = random.on_sphere();
     let (x, y) = normal.any_orthonormal_pair();
     // A turned grid of points and one of its layers moved by less than rounding.
-    let mut points: Vec<DVec3> = cube_points(4).into_iter().map(|p| x * p.x + y * p.y + normal * p.z + 7.0).collect();
+    let mut points: Vec<DVec3> =
+        cube_points(4).into_iter().map(|p| x * p.x + y * p.y + normal * p.z + 7.0).collect();
     points[31] += normal * 1e-15;
     assert!(exact_hull(&points).expect("a cube").len() > 6);
     let hull = convex_hull(&points, Numbers::Constructed).expect("a cube");
@@ -220,7 +240,8 @@ fn a_grid_of_latitudes_and_longitudes_keeps_every_face() {
     let simple = intersect(&planes, &with(Form::Simple)).expect("a grid");
     assert_eq!(counts(&simple), simple_counts(9942));
     assert_polytope(&simple, &planes, 1e-13);
-    // As computed numbers the four neighbours of each crossing meet in one point, and 140 faces do around each pole's rim.
+    // As computed numbers the four neighbours of each crossing meet in one point, and 140 faces do
+    // around each pole's rim.
     let merged = Intersect { numbers: Numbers::Constructed, ..Intersect::default() };
     let p = intersect(&planes, &merged).expect("a grid");
     assert_eq!(counts(&p), [9942, 9942 + 72 * 140 - 2, 72 * 140]);
@@ -229,8 +250,10 @@ fn a_grid_of_latitudes_and_longitudes_keeps_every_face() {
 
 #[test]
 fn planes_that_only_touch_contribute_nothing() {
-    // An octahedron |x| + |y| + |z| ≤ 1024, touched at its vertices and edges by planes whose numbers are exact.
-    let corner = |i: i32| v(f64::from(1 - 2 * (i & 1)), f64::from(1 - (i & 2)), f64::from(1 - (i & 4) / 2));
+    // An octahedron |x| + |y| + |z| ≤ 1024, touched at its vertices and edges by planes whose
+    // numbers are exact.
+    let corner =
+        |i: i32| v(f64::from(1 - 2 * (i & 1)), f64::from(1 - (i & 2)), f64::from(1 - (i & 4) / 2));
     let faces = (0..8).map(|i| HalfSpace { normal: corner(i), offset: 1024.0 });
     let mut random = Random(3);
     let mut whole = move || (random.unit() * 2047.0).floor() - 1023.0;
@@ -238,7 +261,14 @@ fn planes_that_only_touch_contribute_nothing() {
     while touching.len() < 10_080 {
         // The largest coordinate of the normal in size times 1024 is the support of the octahedron.
         let (a, b) = (whole() / 1024.0, whole() / 1024.0);
-        let n = [v(1.0, a, b), v(a, 1.0, b), v(a, b, -1.0), v(1.0, 1.0, a), v(-1.0, a, 1.0), v(a, -1.0, -1.0)];
+        let n = [
+            v(1.0, a, b),
+            v(a, 1.0, b),
+            v(a, b, -1.0),
+            v(1.0, 1.0, a),
+            v(-1.0, a, 1.0),
+            v(a, -1.0, -1.0),
+        ];
         touching.push(HalfSpace { normal: n[touching.len() % 6], offset: 1024.0 });
     }
     for first in [true, false] {
@@ -287,8 +317,10 @@ fn a_shallow_dome_keeps_its_planes() {
 fn normals_rounded_to_six_decimals_lose_nothing() {
     let mut random = Random(13);
     let round = |x: f64| (x * 1e6).round() / 1e6;
-    let mut normals: Vec<DVec3> =
-        (0..4000).map(|_| random.on_sphere()).map(|n| v(round(n.x), round(n.y), round(n.z))).collect();
+    let mut normals: Vec<DVec3> = (0..4000)
+        .map(|_| random.on_sphere())
+        .map(|n| v(round(n.x), round(n.y), round(n.z)))
+        .collect();
     let p = intersect(&tangent(normals.clone()), &with(Form::Simple)).expect("a sphere");
     assert_eq!(counts(&p), simple_counts(4000));
     normals.extend(normals.clone());
@@ -299,27 +331,49 @@ fn normals_rounded_to_six_decimals_lose_nothing() {
 #[test]
 fn infeasible_flat_and_open_sets_are_refused_with_the_reason() {
     let space = |n: DVec3, offset| HalfSpace { normal: n, offset };
-    let sides = || [space(DVec3::X, 1.0), space(DVec3::NEG_X, 1.0), space(DVec3::Y, 1.0), space(DVec3::NEG_Y, 1.0)];
+    let sides = || {
+        [
+            space(DVec3::X, 1.0),
+            space(DVec3::NEG_X, 1.0),
+            space(DVec3::Y, 1.0),
+            space(DVec3::NEG_Y, 1.0),
+        ]
+    };
     let refuse = |more: &[HalfSpace]| {
         let planes: Vec<HalfSpace> = sides().into_iter().chain(more.iter().copied()).collect();
         intersect(&planes, &Intersect::default()).expect_err("refused")
     };
     let error = refuse(&[]);
-    assert!(matches!(error, HalfSpaceError::Unbounded { direction } if direction.z.abs() > 0.999), "{error}");
+    assert!(
+        matches!(error, HalfSpaceError::Unbounded { direction } if direction.z.abs() > 0.999),
+        "{error}"
+    );
     let error = refuse(&[space(DVec3::Z, 1.0)]);
-    assert!(matches!(error, HalfSpaceError::Unbounded { direction } if direction.z < -0.999), "{error}");
+    assert!(
+        matches!(error, HalfSpaceError::Unbounded { direction } if direction.z < -0.999),
+        "{error}"
+    );
     let error = refuse(&[space(DVec3::Z, 1.0), space(DVec3::NEG_Z, -1.5)]);
     let wanted = HalfSpaceError::Infeasible { half_spaces: vec![4, 5], gap: 0.25 };
-    assert!(matches!(&error, HalfSpaceError::Infeasible { half_spaces, .. } if half_spaces[..] == [4, 5]), "{error}");
+    assert!(
+        matches!(&error, HalfSpaceError::Infeasible { half_spaces, .. } if half_spaces[..] == [4, 5]),
+        "{error}"
+    );
     assert!(wanted.to_string().contains("half-spaces 4 and 5 exclude each other"), "{wanted}");
     let error = refuse(&[space(DVec3::Z, 1.0), space(DVec3::NEG_Z, -1.0)]);
-    assert!(matches!(error, HalfSpaceError::NoVolume { ref half_spaces } if half_spaces[..] == [4, 5]), "{error}");
+    assert!(
+        matches!(error, HalfSpaceError::NoVolume { ref half_spaces } if half_spaces[..] == [4, 5]),
+        "{error}"
+    );
     assert_eq!(refuse(&[space(DVec3::ZERO, 1.0)]), HalfSpaceError::NoDirection { half_space: 4 });
     assert_eq!(refuse(&[space(DVec3::Z, f64::NAN)]), HalfSpaceError::NotFinite { half_space: 4 });
     for few in 0..4 {
         let error = intersect(&sides()[..few], &Intersect::default()).expect_err("open");
         let HalfSpaceError::Unbounded { direction } = error else { panic!("{error}") };
-        assert!(sides()[..few].iter().all(|h| h.normal.dot(direction) <= 1e-15), "{few}: {direction}");
+        assert!(
+            sides()[..few].iter().all(|h| h.normal.dot(direction) <= 1e-15),
+            "{few}: {direction}"
+        );
     }
 }
 
@@ -328,14 +382,20 @@ fn however_flat_or_long_a_solid_is_it_is_the_same() {
     let mut random = Random(23);
     let normals: Vec<DVec3> = (0..2000).map(|_| random.on_sphere()).collect();
     let reference = intersect(&tangent(normals.clone()), &Intersect::default()).expect("a ball");
-    for axes in [v(1.0, 0.25, 4.0), v(1024.0, 1.0, 1.0), v(1.0, 1.0, 1.0 / 4096.0), v(1e-30, 1.0, 1e30)] {
+    for axes in
+        [v(1.0, 0.25, 4.0), v(1024.0, 1.0, 1.0), v(1.0, 1.0, 1.0 / 4096.0), v(1e-30, 1.0, 1e30)]
+    {
         // Powers of two change no digit; others the last.
-        let planes: Vec<HalfSpace> = normals.iter().map(|&n| HalfSpace { normal: n / axes, offset: 1.0 }).collect();
+        let planes: Vec<HalfSpace> =
+            normals.iter().map(|&n| HalfSpace { normal: n / axes, offset: 1.0 }).collect();
         let p = intersect(&planes, &Intersect::default()).expect("an ellipsoid");
         assert_eq!(counts(&p), counts(&reference), "{axes}");
         let worst = p.vertices.iter().map(|&x| (x / axes).length()).fold(0.0, f64::max);
         let expected = reference.vertices.iter().map(|x| x.length()).fold(0.0, f64::max);
-        assert!((worst - expected).abs() <= 1e-12 * expected, "{axes}: {worst} instead of {expected}");
+        assert!(
+            (worst - expected).abs() <= 1e-12 * expected,
+            "{axes}: {worst} instead of {expected}"
+        );
     }
 }
 
@@ -343,13 +403,17 @@ fn however_flat_or_long_a_solid_is_it_is_the_same() {
 fn the_open_direction_of_a_flat_or_long_set_is_right() {
     let mut random = Random(29);
     let open = v(3.0, -2.0, 1.0);
-    let normals: Vec<DVec3> = (0..500).map(|_| random.on_sphere()).filter(|n| n.dot(open) < 0.0).collect();
+    let normals: Vec<DVec3> =
+        (0..500).map(|_| random.on_sphere()).filter(|n| n.dot(open) < 0.0).collect();
     for axes in [DVec3::ONE, v(1000.0, 1.0, 0.001), v(1e-12, 1.0, 1e12)] {
-        let planes: Vec<HalfSpace> = normals.iter().map(|&n| HalfSpace { normal: n / axes, offset: 1.0 }).collect();
+        let planes: Vec<HalfSpace> =
+            normals.iter().map(|&n| HalfSpace { normal: n / axes, offset: 1.0 }).collect();
         let error = intersect(&planes, &Intersect::default()).expect_err("open");
         let HalfSpaceError::Unbounded { direction } = error else { panic!("{axes}: {error}") };
         assert!((direction.length() - 1.0).abs() < 1e-12);
-        let closes = |h: &HalfSpace| h.normal.dot(direction) > 1e-12 * (h.normal * direction).abs().max_element();
+        let closes = |h: &HalfSpace| {
+            h.normal.dot(direction) > 1e-12 * (h.normal * direction).abs().max_element()
+        };
         assert!(!planes.iter().any(closes), "{axes}: {direction}");
     }
 }
@@ -359,9 +423,13 @@ fn far_away_and_at_any_scale_it_is_the_same_solid() {
     let mut random = Random(17);
     let normals: Vec<DVec3> = (0..300).map(|_| random.on_sphere()).collect();
     let reference = intersect(&tangent(normals.clone()), &Intersect::default()).expect("a ball");
-    for (scale, shift) in [(1e-3, DVec3::ZERO), (1e-30, DVec3::ZERO), (1e20, DVec3::ZERO), (1.0, v(1e6, -2e6, 5e5))] {
-        let planes: Vec<HalfSpace> =
-            normals.iter().map(|&normal| HalfSpace { normal, offset: scale + normal.dot(shift) }).collect();
+    for (scale, shift) in
+        [(1e-3, DVec3::ZERO), (1e-30, DVec3::ZERO), (1e20, DVec3::ZERO), (1.0, v(1e6, -2e6, 5e5))]
+    {
+        let planes: Vec<HalfSpace> = normals
+            .iter()
+            .map(|&normal| HalfSpace { normal, offset: scale + normal.dot(shift) })
+            .collect();
         let p = intersect(&planes, &Intersect::default()).expect("a ball");
         assert_eq!(counts(&p), counts(&reference));
         let tolerance = 1e-14 * scale + 4.0 * f64::EPSILON * shift.length();
@@ -371,8 +439,9 @@ fn far_away_and_at_any_scale_it_is_the_same_solid() {
 
 /// Points of a small grid: nearly all of their hulls are degenerate.
 fn grid_points() -> impl Strategy<Value = Vec<DVec3>> {
-    prop::collection::vec(prop::array::uniform3(-3_i32..=3), 4..60)
-        .prop_map(|points| points.into_iter().map(|[x, y, z]| v(x.into(), y.into(), z.into())).collect())
+    prop::collection::vec(prop::array::uniform3(-3_i32..=3), 4..60).prop_map(|points| {
+        points.into_iter().map(|[x, y, z]| v(x.into(), y.into(), z.into())).collect()
+    })
 }
 
 proptest! {
@@ -415,7 +484,8 @@ proptest! {
 
     #[test]
     fn whole_numbered_planes_agree_with_their_dual_hull(points in grid_points()) {
-        // Planes n·x ≤ 1 are the duals of grid points: their intersection is bounded when the origin lies inside the hull.
+        // Planes n·x ≤ 1 are the duals of grid points: their intersection is bounded when the
+        // origin lies inside the hull.
         let normals: Vec<DVec3> = points.iter().copied().filter(|p| *p != DVec3::ZERO).collect();
         let planes = tangent(normals.clone());
         match intersect(&planes, &Intersect::default()) {

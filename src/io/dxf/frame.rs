@@ -319,7 +319,12 @@ fn objects(out: &mut Pairs, size: [f64; 2]) {
     let of_root = [("ACAD_GROUP", GROUPS), ("ACAD_LAYOUT", LAYOUTS), ("ACAD_PLOTSTYLENAME", 0x0E)];
     dictionary(out, ROOT_DICTIONARY, 0, &of_root);
     dictionary(out, GROUPS, ROOT_DICTIONARY, &[]);
-    dictionary(out, LAYOUTS, ROOT_DICTIONARY, &[("Model", MODEL_LAYOUT), ("Layout1", PAPER_LAYOUT)]);
+    dictionary(
+        out,
+        LAYOUTS,
+        ROOT_DICTIONARY,
+        &[("Model", MODEL_LAYOUT), ("Layout1", PAPER_LAYOUT)],
+    );
     out.text(0, "ACDBDICTIONARYWDFLT");
     out.handle(5, 0x0E);
     out.handle(330, ROOT_DICTIONARY);
@@ -342,7 +347,9 @@ fn layout(out: &mut Pairs, (name, order, handle, record): (&str, u32, u32, u32),
     out.handle(5, handle);
     out.handle(330, LAYOUTS);
     out.text(100, "AcDbPlotSettings");
-    [(1, ""), (2, "none_device"), (4, ""), (6, "")].into_iter().for_each(|(code, value)| out.text(code, value));
+    [(1, ""), (2, "none_device"), (4, ""), (6, "")]
+        .into_iter()
+        .for_each(|(code, value)| out.text(code, value));
     (40..=49).chain(140..=141).for_each(|code| out.text(code, "0.0"));
     out.text(142, "1.0");
     out.text(143, "1.0");

@@ -5,7 +5,8 @@ struct Scratch(PathBuf);
 
 impl Scratch {
     fn new(name: &str) -> Self {
-        let folder = std::env::temp_dir().join(format!("kerfold-output-{}-{name}", std::process::id()));
+        let folder =
+            std::env::temp_dir().join(format!("kerfold-output-{}-{name}", std::process::id()));
         drop(fs::remove_dir_all(&folder));
         fs::create_dir_all(&folder).expect("a temporary folder");
         Self(folder)
@@ -18,8 +19,9 @@ impl Scratch {
     /// All names in the folder, hidden ones too.
     fn names(&self) -> Vec<String> {
         let entries = fs::read_dir(&self.0).expect("the folder");
-        let mut names: Vec<_> =
-            entries.map(|e| e.expect("an entry").file_name().to_string_lossy().into_owned()).collect();
+        let mut names: Vec<_> = entries
+            .map(|e| e.expect("an entry").file_name().to_string_lossy().into_owned())
+            .collect();
         names.sort();
         names
     }
@@ -54,7 +56,10 @@ fn what_is_in_the_way_is_named_and_nothing_is_left_behind() {
     assert!(matches!(error("missing/deeper/a"), IoError::NoFolder { .. }));
     let in_file = error("file/a");
     assert!(matches!(in_file, IoError::NotAFolder { .. }));
-    assert!(in_file.to_string().ends_with("file is a file, not a folder; choose another place"), "{in_file}");
+    assert!(
+        in_file.to_string().ends_with("file is a file, not a folder; choose another place"),
+        "{in_file}"
+    );
     assert!(matches!(error("file/deeper/a"), IoError::NotAFolder { .. }));
     assert_eq!(
         (scratch.names(), scratch.text("file")),
@@ -124,7 +129,10 @@ fn all_files_or_none_and_old_ones_come_back() {
         folder.add(name, "new");
     }
     assert!(matches!(folder.clone().commit(), Err(IoError::IsFolder { .. })));
-    assert_eq!((scratch.names(), scratch.text("a")), (vec!["a".to_owned(), "c".to_owned()], "old".to_owned()));
+    assert_eq!(
+        (scratch.names(), scratch.text("a")),
+        (vec!["a".to_owned(), "c".to_owned()], "old".to_owned())
+    );
     let mut made = OutputFolder::new(scratch.path("a/sheets"));
     made.add("x", "new");
     assert!(matches!(made.commit(), Err(IoError::NotAFolder { .. })));
@@ -146,5 +154,8 @@ fn a_rename_that_fails_undoes_the_ones_before() {
     // Something gets in the way between staging and renaming.
     fs::create_dir_all(scratch.path("c/full")).expect("a folder");
     assert!(matches!(publish_all(staged), Err(IoError::Unwritable { .. })));
-    assert_eq!((scratch.names(), scratch.text("a")), (vec!["a".to_owned(), "c".to_owned()], "old".to_owned()));
+    assert_eq!(
+        (scratch.names(), scratch.text("a")),
+        (vec!["a".to_owned(), "c".to_owned()], "old".to_owned())
+    );
 }

@@ -1,8 +1,8 @@
 //! A sheet at true size on several pages of paper.
 //!
-//! The first page is a map: the sheet made small, the pages on it with their numbers. Every other page shows its window of
-//! the sheet with some overlap, crop marks at the window's corners, a scale bar to measure after printing, and its number. A
-//! page without a line is left out.
+//! The first page is a map: the sheet made small, the pages on it with their numbers. Every other
+//! page shows its window of the sheet with some overlap, crop marks at the window's corners, a
+//! scale bar to measure after printing, and its number. A page without a line is left out.
 
 use std::fmt::Write as _;
 
@@ -17,7 +17,8 @@ const BORDER: f64 = 10.0;
 /// Free border below the window, for number and scale bar, in mm.
 const FOOT: f64 = 20.0;
 
-/// How far the drawing goes on beyond the window, in mm, so that pages can be glued with an overlap.
+/// How far the drawing goes on beyond the window, in mm, so that pages can be glued with an
+/// overlap.
 const BLEED: f64 = 3.0;
 
 /// Length of the crop marks, and the gap between them and the window's corner, in mm.
@@ -59,7 +60,8 @@ impl Tiling {
         self.counts[0] * self.counts[1]
     }
 
-    /// Lower left corner of a window on the sheet; windows count row by row from the top left, as one reads.
+    /// Lower left corner of a window on the sheet; windows count row by row from the top left, as
+    /// one reads.
     fn low(&self, i: usize, sheet: DVec2) -> DVec2 {
         let (column, row) = (i % self.counts[0], i / self.counts[0]);
         DVec2::new(column as f64 * self.window.x, sheet.y - (row + 1) as f64 * self.window.y)
@@ -79,12 +81,18 @@ pub fn write_tiles(
     let style = style.into();
     let sheet = DVec2::new(drawing.width, drawing.height);
     let tiling = Tiling::of(sheet, paper);
-    let shown: Vec<usize> = (0..tiling.pages()).filter(|&i| has_lines(drawing, &tiling, i, sheet)).collect();
+    let shown: Vec<usize> =
+        (0..tiling.pages()).filter(|&i| has_lines(drawing, &tiling, i, sheet)).collect();
     let mut pages = vec![map_page(drawing, &tiling, &shown, &style)?];
     for (k, &i) in shown.iter().enumerate() {
         pages.push(tile_page(drawing, &tiling, (i, k + 1, shown.len()), &style)?);
     }
-    Ok(document(&pages, &format!("{} on {}", drawing.file_stem(), paper.name()), command, Some(PAGE_LAYER)))
+    Ok(document(
+        &pages,
+        &format!("{} on {}", drawing.file_stem(), paper.name()),
+        command,
+        Some(PAGE_LAYER),
+    ))
 }
 
 /// Whether something that is machined shows in a window.
@@ -93,13 +101,15 @@ fn has_lines(drawing: &Drawing, tiling: &Tiling, i: usize, sheet: DVec2) -> bool
     let high = low + tiling.window;
     let marks = drawing.marks().filter(|m| m.kind.layer() != LayerKind::Info);
     let mut segments = marks.flat_map(|m| &m.strokes).flat_map(|s| {
-        let closing = s.points.last().zip(s.points.first()).filter(|_| s.closed).map(|(a, b)| [*a, *b]);
+        let closing =
+            s.points.last().zip(s.points.first()).filter(|_| s.closed).map(|(a, b)| [*a, *b]);
         s.points.windows(2).map(|w| [w[0], w[1]]).chain(closing)
     });
     segments.any(|[a, b]| meets_box(a, b, low, high))
 }
 
-/// Whether a segment has a point in a box: what is left of it between the box's sides is not nothing.
+/// Whether a segment has a point in a box: what is left of it between the box's sides is not
+/// nothing.
 fn meets_box(a: DVec2, b: DVec2, low: DVec2, high: DVec2) -> bool {
     let mut range = [0.0_f64, 1.0_f64];
     for axis in 0..2 {
@@ -137,14 +147,22 @@ fn tile_page(
     crop_marks(&mut content, corner, corner + tiling.window);
     scale_bar(&mut content)?;
     let (column, row) = (i % tiling.counts[0] + 1, i / tiling.counts[0] + 1);
-    let words = format!("{}  PAGE {number} OF {of}  COLUMN {column} ROW {row}", drawing.file_stem().to_uppercase());
+    let words = format!(
+        "{}  PAGE {number} OF {of}  COLUMN {column} ROW {row}",
+        drawing.file_stem().to_uppercase()
+    );
     write_words(&mut content, &words, DVec2::new(BORDER, 4.0), 2.5)?;
     content += "EMC\n";
     Ok(Page { width: tiling.paper.x, height: tiling.paper.y, content })
 }
 
 /// The sheet made small, with the windows and the numbers of their pages.
-fn map_page(drawing: &Drawing, tiling: &Tiling, shown: &[usize], style: &Style) -> Result<Page, SheetError> {
+fn map_page(
+    drawing: &Drawing,
+    tiling: &Tiling,
+    shown: &[usize],
+    style: &Style,
+) -> Result<Page, SheetError> {
     let sheet = DVec2::new(drawing.width, drawing.height);
     let covered = tiling.window * DVec2::new(tiling.counts[0] as f64, tiling.counts[1] as f64);
     let scale = (tiling.window / covered).min_element().min(1.0);
@@ -200,7 +218,9 @@ fn crop_marks(content: &mut String, low: DVec2, high: DVec2) {
 /// A bar in the foot with a tick every 10 mm, true to size.
 fn scale_bar(content: &mut String) -> Result<(), SheetError> {
     let low = DVec2::new(BORDER, 8.5);
-    let line = |content: &mut String, a: DVec2, b: DVec2| path(content, &Stroke { points: vec![a, b], closed: false });
+    let line = |content: &mut String, a: DVec2, b: DVec2| {
+        path(content, &Stroke { points: vec![a, b], closed: false })
+    };
     line(content, low, low + DVec2::new(BAR, 0.0));
     for tick in 0..=10 {
         let at = low + DVec2::new(BAR / 10.0 * f64::from(tick), 0.0);
@@ -209,9 +229,17 @@ fn scale_bar(content: &mut String) -> Result<(), SheetError> {
     write_words(content, &format!("{BAR} MM"), low + DVec2::new(BAR + 2.0, 0.0), 2.5)
 }
 
-fn write_words(content: &mut String, words: &str, at: DVec2, height: f64) -> Result<(), SheetError> {
+fn write_words(
+    content: &mut String,
+    words: &str,
+    at: DVec2,
+    height: f64,
+) -> Result<(), SheetError> {
     for points in lettering(words, height)?.strokes {
-        path(content, &Stroke { points: points.into_iter().map(|p| p + at).collect(), closed: false });
+        path(
+            content,
+            &Stroke { points: points.into_iter().map(|p| p + at).collect(), closed: false },
+        );
     }
     Ok(())
 }
@@ -238,7 +266,8 @@ mod tests {
 
     #[test]
     fn a_line_past_a_corner_is_not_in_the_box() {
-        let at = |a: (f64, f64), b: (f64, f64)| meets_box(a.into(), b.into(), DVec2::ZERO, DVec2::ONE);
+        let at =
+            |a: (f64, f64), b: (f64, f64)| meets_box(a.into(), b.into(), DVec2::ZERO, DVec2::ONE);
         assert!(at((-1.0, 0.5), (2.0, 0.5)) && at((0.2, 0.2), (0.3, 0.3)));
         assert!(!at((-1.0, 0.5), (0.5, 2.1)) && !at((2.0, 0.0), (2.0, 1.0)));
     }

@@ -1,4 +1,5 @@
-//! Reading mesh files: one reader for each format, then scaling, welding and building, which are the same for all.
+//! Reading mesh files: one reader for each format, then scaling, welding and building, which are
+//! the same for all.
 
 use std::fmt;
 use std::io::Read as _;
@@ -33,12 +34,13 @@ pub struct ReadOptions {
     #[arg(long, value_enum, default_value = "mm", hide_default_value = true)]
     #[serde(default)]
     pub units: MeshUnit,
-    /// Scale the model so that its largest extent is this length, whatever its unit, e.g. 300mm; above 0 [default: not scaled]
+    /// Scale the model so that its largest extent is this length, whatever its unit, e.g. 300mm;
+    /// above 0 [default: not scaled]
     #[arg(long)]
     #[serde(default)]
     pub size: Option<Length>,
-    /// Make one vertex of those that are at most this far apart after scaling; 0 or more, 0 joins equal positions only
-    /// [default: none are joined]
+    /// Make one vertex of those that are at most this far apart after scaling; 0 or more, 0 joins
+    /// equal positions only [default: none are joined]
     #[arg(long)]
     #[serde(default)]
     pub weld: Option<Length>,
@@ -74,8 +76,8 @@ impl MeshUnit {
 /// A mesh with what happened on the way in.
 #[derive(Debug, Clone)]
 pub struct ReadMesh {
-    /// The mesh, in millimetres. The n-th vertex and face of the file have the ids n − 1, as long as no faces were dropped
-    /// and the file is not STL; vertices without faces leave gaps.
+    /// The mesh, in millimetres. The n-th vertex and face of the file have the ids n − 1, as long
+    /// as no faces were dropped and the file is not STL; vertices without faces leave gaps.
     pub mesh: Mesh,
     /// Vertices that were doubled because several fans of faces met there.
     pub splits: Vec<SplitVertex>,
@@ -85,7 +87,8 @@ pub struct ReadMesh {
     pub scale: f64,
 }
 
-/// Something about a file that is no fault, but should be known. Vertices and faces are numbered from 0 in the order of the file.
+/// Something about a file that is no fault, but should be known. Vertices and faces are numbered
+/// from 0 in the order of the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ReadNote {
@@ -132,19 +135,22 @@ impl fmt::Display for ReadNote {
             Self::Welded { count } => write!(f, "{count} vertices were welded to others"),
             Self::DroppedFaces { count, first } => write!(
                 f,
-                "{count} faces lost their area because corners of theirs are at one point and were left out, the first of them face {first} of the file; \
+                "{count} faces lost their area because corners of theirs are at one point and were \
+                left out, the first of them face {first} of the file; \
                  the faces after it are numbered without them"
             ),
             Self::SplitVertices { count, first } => write!(
                 f,
-                "{count} vertices were added where several fans of faces met in one vertex, the first of them at vertex {first}"
+                "{count} vertices were added where several fans of faces met in one vertex, the \
+                first of them at vertex {first}"
             ),
             Self::UnusedVertices { count, first } => {
                 write!(f, "{count} vertices belong to no face, the first of them vertex {first}")
             }
             Self::CoincidentRims { coincident, rim_edges, vertices: [a, b] } => write!(
                 f,
-                "{coincident} of {rim_edges} rim edges lie exactly on another one, such as at vertices {a} and {b}; \
+                "{coincident} of {rim_edges} rim edges lie exactly on another one, such as at \
+                vertices {a} and {b}; \
                  if the surface is torn there, --weld 0 closes it"
             ),
         }
@@ -173,7 +179,11 @@ pub fn read_mesh(path: &Path, options: &ReadOptions) -> Result<ReadMesh, IoError
 ///
 /// # Errors
 /// As [`read_mesh`].
-pub fn read_mesh_bytes(path: &Path, bytes: &[u8], options: &ReadOptions) -> Result<ReadMesh, IoError> {
+pub fn read_mesh_bytes(
+    path: &Path,
+    bytes: &[u8],
+    options: &ReadOptions,
+) -> Result<ReadMesh, IoError> {
     check_options(options)?;
     if bytes.trim_ascii().is_empty() {
         return Err(IoError::Empty { path: path.to_owned() });
@@ -216,9 +226,14 @@ impl Source<'_> {
     /// Scales the positions and returns the factor. A factor of 1 touches no digit.
     fn scale(&mut self, options: &ReadOptions) -> Result<f64, IoError> {
         if let Some(vertex) = self.raw.positions.iter().position(|p| !p.is_finite()) {
-            return Err(self.fault(BuildError::NotFinite { vertex, position: self.raw.positions[vertex] }));
+            return Err(
+                self.fault(BuildError::NotFinite { vertex, position: self.raw.positions[vertex] })
+            );
         }
-        let factor = options.size.and_then(|size| Some(size.mm() / self.extent()?)).unwrap_or(options.units.mm());
+        let factor = options
+            .size
+            .and_then(|size| Some(size.mm() / self.extent()?))
+            .unwrap_or(options.units.mm());
         if factor != 1.0 {
             self.raw.positions.iter_mut().for_each(|p| *p *= factor);
         }
@@ -262,7 +277,8 @@ impl Source<'_> {
     }
 
     fn set_groups(&self, mesh: &mut Mesh) {
-        let ends = self.raw.groups.iter().skip(1).map(|run| run.first_face).chain([self.raw.ends.len()]);
+        let ends =
+            self.raw.groups.iter().skip(1).map(|run| run.first_face).chain([self.raw.ends.len()]);
         for (run, end) in self.raw.groups.iter().zip(ends) {
             if let Some(name) = &run.name {
                 (run.first_face..end).for_each(|face| mesh.set_group(FaceId::new(face), name));
@@ -288,9 +304,11 @@ impl Source<'_> {
         Ok(())
     }
 
-    /// A surface that equal vertices would close is a fault; rims that lie on each other here and there are a note.
+    /// A surface that equal vertices would close is a fault; rims that lie on each other here and
+    /// there are a note.
     fn note_torn(&self, mesh: &Mesh, notes: &mut Vec<ReadNote>) -> Result<(), IoError> {
-        let Some(rim::Coincidence { rim_edges, coincident, vertices }) = rim::coincident_rims(mesh) else {
+        let Some(rim::Coincidence { rim_edges, coincident, vertices }) = rim::coincident_rims(mesh)
+        else {
             return Ok(());
         };
         if coincident < rim_edges {
@@ -308,7 +326,8 @@ impl Source<'_> {
         }
         // Welded vertices have a note of their own.
         let is_welded = notes.iter().any(|note| matches!(note, ReadNote::Welded { .. }));
-        let unused = || (0..self.raw.positions.len()).map(VertexId::new).filter(|&v| !mesh.has_vertex(v));
+        let unused =
+            || (0..self.raw.positions.len()).map(VertexId::new).filter(|&v| !mesh.has_vertex(v));
         if let Some(first) = unused().next().filter(|_| !is_welded) {
             notes.push(ReadNote::UnusedVertices { count: unused().count(), first });
         }
@@ -325,16 +344,24 @@ impl Source<'_> {
         let vertex = |v: usize| self.raw.vertex_line(v);
         let (line, also) = match &fault {
             BuildError::NotFinite { vertex: v, .. } => (vertex(*v), vec![]),
-            BuildError::ZeroLengthEdge { face: f, a, b, .. } => (face(*f), vec![vertex(*a), vertex(*b)]),
+            BuildError::ZeroLengthEdge { face: f, a, b, .. } => {
+                (face(*f), vec![vertex(*a), vertex(*b)])
+            }
             BuildError::MissingVertex { face: f, .. }
             | BuildError::TooFewCorners { face: f, .. }
             | BuildError::RepeatedCorner { face: f, .. }
             | BuildError::DegenerateFace { face: f } => (face(*f), vec![]),
-            BuildError::ThreeFacesAtEdge { faces: [f, g, h], .. } => (face(*h), vec![face(*f), face(*g)]),
+            BuildError::ThreeFacesAtEdge { faces: [f, g, h], .. } => {
+                (face(*h), vec![face(*f), face(*g)])
+            }
             BuildError::FlippedFace { first, second, .. } => (face(*second), vec![face(*first)]),
             BuildError::NoFaces | BuildError::TooMany { .. } => (None, vec![]),
         };
-        IoError::Mesh { place: self.place(line), fault, also_lines: also.into_iter().flatten().collect() }
+        IoError::Mesh {
+            place: self.place(line),
+            fault,
+            also_lines: also.into_iter().flatten().collect(),
+        }
     }
 
     fn renumbered(&self, mut fault: BuildError) -> BuildError {
@@ -346,7 +373,9 @@ impl Source<'_> {
             | BuildError::ZeroLengthEdge { face, .. }
             | BuildError::DegenerateFace { face } => in_file(face),
             BuildError::ThreeFacesAtEdge { faces, .. } => faces.iter_mut().for_each(in_file),
-            BuildError::FlippedFace { first, second, .. } => [first, second].into_iter().for_each(in_file),
+            BuildError::FlippedFace { first, second, .. } => {
+                [first, second].into_iter().for_each(in_file)
+            }
             BuildError::NoFaces | BuildError::NotFinite { .. } | BuildError::TooMany { .. } => {}
         }
         fault
@@ -397,8 +426,10 @@ mod tests {
         let shown = |options: &ReadOptions| format!("{options:?}");
         assert_eq!(shown(&by_flags), shown(&ReadOptions::default()));
         assert_eq!(shown(&by_recipe), shown(&ReadOptions::default()));
-        let by_flags = Command::parse_from(["x", "--units", "in", "--size", "30cm", "--weld", "0"]).read;
-        let by_recipe: ReadOptions = toml::from_str("units = 'in'\nsize = '30cm'\nweld = 0").expect("options");
+        let by_flags =
+            Command::parse_from(["x", "--units", "in", "--size", "30cm", "--weld", "0"]).read;
+        let by_recipe: ReadOptions =
+            toml::from_str("units = 'in'\nsize = '30cm'\nweld = 0").expect("options");
         assert_eq!(shown(&by_flags), shown(&by_recipe));
     }
 
@@ -412,9 +443,15 @@ mod tests {
         };
         let exact = 0.30000000000000004;
         assert_eq!(size(&options(MeshUnit::Mm, None, None)), (1.0, DVec3::new(exact, 1., 1.)));
-        assert_eq!(size(&options(MeshUnit::In, None, None)), (25.4, DVec3::new(exact * 25.4, 25.4, 25.4)));
+        assert_eq!(
+            size(&options(MeshUnit::In, None, None)),
+            (25.4, DVec3::new(exact * 25.4, 25.4, 25.4))
+        );
         assert_eq!(size(&options(MeshUnit::M, Some(300.0), None)).1.max_element(), 300.0);
-        assert!(matches!(read_text(CUBE, &options(MeshUnit::Mm, Some(0.0), None)), Err(IoError::BadSize { .. })));
+        assert!(matches!(
+            read_text(CUBE, &options(MeshUnit::Mm, Some(0.0), None)),
+            Err(IoError::BadSize { .. })
+        ));
     }
 
     #[test]
@@ -424,22 +461,30 @@ mod tests {
         assert!(matches!(error, IoError::Torn { rim_edges: 24, .. }), "{error}");
         assert!(error.to_string().ends_with("; weld them with --weld 0"), "{error}");
         for distance in [0.0, 0.5] {
-            let read = read_text(&torn, &options(MeshUnit::Mm, None, Some(distance))).expect("welded");
+            let read =
+                read_text(&torn, &options(MeshUnit::Mm, None, Some(distance))).expect("welded");
             assert_sound(&read.mesh);
             assert!(read.mesh.is_closed());
-            assert_eq!((read.mesh.vertex_count(), read.mesh.edge_count(), read.mesh.face_count()), (8, 12, 6));
+            assert_eq!(
+                (read.mesh.vertex_count(), read.mesh.edge_count(), read.mesh.face_count()),
+                (8, 12, 6)
+            );
             assert_eq!(read.notes, [ReadNote::Welded { count: 16 }]);
         }
         let nothing = read_text(&torn, &options(MeshUnit::Mm, None, Some(2.0)));
         assert!(matches!(nothing, Err(IoError::WeldedAway { .. })));
-        assert!(matches!(read_text(&torn, &options(MeshUnit::Mm, None, Some(-1.0))), Err(IoError::BadWeld { .. })));
+        assert!(matches!(
+            read_text(&torn, &options(MeshUnit::Mm, None, Some(-1.0))),
+            Err(IoError::BadWeld { .. })
+        ));
     }
 
     #[test]
     fn a_surface_torn_in_places_is_noted() {
         let open: String = torn_cube().lines().skip(5).map(|line| format!("{line}\n")).collect();
         let read = read_text(&open, &ReadOptions::default()).expect("an open box in five pieces");
-        let [ReadNote::CoincidentRims { coincident: 16, rim_edges: 20, .. }] = read.notes[..] else {
+        let [ReadNote::CoincidentRims { coincident: 16, rim_edges: 20, .. }] = read.notes[..]
+        else {
             panic!("{:?}", read.notes)
         };
     }
@@ -447,7 +492,8 @@ mod tests {
     #[test]
     fn welding_collapses_thin_faces_and_keeps_groups_and_seams_in_place() {
         // A box of which one edge is a sliver face wide.
-        let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nv 1.001 1 0\nv 1.001 1 1\n\
+        let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nv \
+        1.001 1 0\nv 1.001 1 1\n\
             g sliver\nf 3 7 10 9\ng rest\nf 4 3 9 2 1\nf 5 6 10 7 8\nf 1 2 6 5\nf 2 9 10 6\ng back\nf 3 4 8 7\nf 4 1 5 8\n\
             g seam\nl 9 10\nl 3 9\n";
         let whole = read_text(text, &ReadOptions::default()).expect("a box");
@@ -455,8 +501,12 @@ mod tests {
         let welded = read_text(text, &options(MeshUnit::Mm, None, Some(0.01))).expect("welded");
         assert_sound(&welded.mesh);
         assert_eq!((welded.mesh.face_count(), welded.mesh.is_closed()), (6, true));
-        assert_eq!(welded.notes, [ReadNote::Welded { count: 2 }, ReadNote::DroppedFaces { count: 1, first: 0 }]);
-        let groups: Vec<_> = welded.mesh.faces().map(|f| welded.mesh.group(f).unwrap_or_default()).collect();
+        assert_eq!(
+            welded.notes,
+            [ReadNote::Welded { count: 2 }, ReadNote::DroppedFaces { count: 1, first: 0 }]
+        );
+        let groups: Vec<_> =
+            welded.mesh.faces().map(|f| welded.mesh.group(f).unwrap_or_default()).collect();
         assert_eq!(groups, ["rest", "rest", "rest", "rest", "back", "back"]);
         let seams = welded.mesh.edges().filter(|&e| welded.mesh.is_seam(e)).collect::<Vec<_>>();
         assert_eq!(seams.len(), 1);
@@ -464,7 +514,8 @@ mod tests {
 
     #[test]
     fn vertices_that_are_split_or_unused_are_noted_and_seams_find_them() {
-        let text = "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\nf 2 3 4\nf 2 5 6\ng seam\nl 5 2\n";
+        let text = "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\nf 2 3 4\nf 2 5 6\ng \
+        seam\nl 5 2\n";
         let read = read_text(text, &ReadOptions::default()).expect("a bow tie");
         let (first, centre) = (VertexId::new(0), VertexId::new(1));
         let split = ReadNote::SplitVertices { count: 1, first: centre };

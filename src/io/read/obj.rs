@@ -1,9 +1,10 @@
 //! Wavefront OBJ: polygons, groups and seams.
 //!
-//! The `tobj` crate parses positions and faces. It numbers positions by their first use within each object and names no
-//! lines, and a contract of ours is that the n-th `v` line is vertex n − 1. So it gets a text with one object, whose first
-//! face lists all vertices in order: numbering by first use then changes nothing. Groups and seams are read here, texture
-//! coordinates, normals and materials are not needed.
+//! The `tobj` crate parses positions and faces. It numbers positions by their first use within each
+//! object and names no lines, and a contract of ours is that the n-th `v` line is vertex n − 1. So
+//! it gets a text with one object, whose first face lists all vertices in order: numbering by first
+//! use then changes nothing. Groups and seams are read here, texture coordinates, normals and
+//! materials are not needed.
 
 use std::borrow::Cow;
 
@@ -63,7 +64,11 @@ fn parse(statements: &[u8], raw: &mut RawMesh) -> Result<(), LoadError> {
     raw.corners = mesh.indices.get(count..).unwrap_or_default().to_vec();
     let mut end = 0;
     // tobj leaves the numbers of corners out when all faces are triangles.
-    let sides = mesh.face_arities.get(1..).map(Cow::Borrowed).unwrap_or_else(|| vec![3; raw.face_lines.len()].into());
+    let sides = mesh
+        .face_arities
+        .get(1..)
+        .map(Cow::Borrowed)
+        .unwrap_or_else(|| vec![3; raw.face_lines.len()].into());
     raw.ends.extend(sides.iter().map(|&n| {
         end += n as usize;
         end
@@ -157,12 +162,14 @@ impl Scan {
     }
 
     fn start_group(&mut self) {
-        let name = self.group.clone().or_else(|| self.object.clone()).filter(|name| name != NO_GROUP);
+        let name =
+            self.group.clone().or_else(|| self.object.clone()).filter(|name| name != NO_GROUP);
         self.raw.groups.push(GroupRun { first_face: self.raw.face_lines.len(), name });
     }
 
     fn seam(&mut self, statement: &Statement) -> Result<(), Located> {
-        let is_seam = |name: &Option<String>| name.as_ref().is_some_and(|n| n.eq_ignore_ascii_case(SEAM));
+        let is_seam =
+            |name: &Option<String>| name.as_ref().is_some_and(|n| n.eq_ignore_ascii_case(SEAM));
         if !is_seam(&self.group) && !is_seam(&self.object) {
             return Ok(());
         }
@@ -174,21 +181,24 @@ impl Scan {
         let indices = indices.filter(|i| i.len() >= 2).ok_or_else(not_a_seam)?;
         let vertices: Result<Vec<u32>, Located> = indices
             .into_iter()
-            .map(|i| resolve(i, count).ok_or_else(|| fault(no_such_vertex(&statement.text, i, count))))
+            .map(|i| {
+                resolve(i, count).ok_or_else(|| fault(no_such_vertex(&statement.text, i, count)))
+            })
             .collect();
         let segments = vertices?;
-        let segments = segments.windows(2).map(|w| SeamSegment { line: statement.line, ends: [w[0], w[1]] });
+        let segments =
+            segments.windows(2).map(|w| SeamSegment { line: statement.line, ends: [w[0], w[1]] });
         self.raw.seams.extend(segments);
         Ok(())
     }
 }
 
-/// The coordinates of a `v` line without a colour after them, which tobj takes only when every vertex has one.
+/// The coordinates of a `v` line without a colour after them, which tobj takes only when every
+/// vertex has one.
 fn coordinates(rest: &[u8]) -> &[u8] {
-    let mut ends = rest
-        .iter()
-        .enumerate()
-        .filter(|&(i, b)| !b.is_ascii_whitespace() && rest.get(i + 1).is_none_or(u8::is_ascii_whitespace));
+    let mut ends = rest.iter().enumerate().filter(|&(i, b)| {
+        !b.is_ascii_whitespace() && rest.get(i + 1).is_none_or(u8::is_ascii_whitespace)
+    });
     match (ends.nth(2), ends.nth(2)) {
         (Some((third, _)), Some(_)) => &rest[..=third],
         _ => rest,
@@ -207,9 +217,11 @@ fn index(word: &[u8]) -> Option<i64> {
     std::str::from_utf8(word.split(|&b| b == b'/').next()?).ok()?.parse().ok()
 }
 
-/// The vertex that an index names when `count` vertices came before; negative indices count back from the last.
+/// The vertex that an index names when `count` vertices came before; negative indices count back
+/// from the last.
 fn resolve(index: i64, count: usize) -> Option<u32> {
-    let zero_based = if index < 0 { i64::try_from(count).ok()?.checked_add(index)? } else { index - 1 };
+    let zero_based =
+        if index < 0 { i64::try_from(count).ok()?.checked_add(index)? } else { index - 1 };
     u32::try_from(zero_based).ok()
 }
 
@@ -225,7 +237,10 @@ fn locate(bytes: &[u8], error: &LoadError, count: usize) -> Located {
         let fault = match keyword {
             b"v" => {
                 vertices += 1;
-                let fault = || ContentFault::NotAVertex { text: excerpt(&statement.text), example: VERTEX_EXAMPLE };
+                let fault = || ContentFault::NotAVertex {
+                    text: excerpt(&statement.text),
+                    example: VERTEX_EXAMPLE,
+                };
                 (!is_vertex(without_comment(rest))).then(fault)
             }
             b"f" => face_fault(&statement.text, without_comment(rest), vertices, count),
@@ -235,7 +250,10 @@ fn locate(bytes: &[u8], error: &LoadError, count: usize) -> Located {
             return Located::at(statement.line, fault);
         }
     }
-    Located::anywhere(ContentFault::NotThisFormat { format: "OBJ", text: format!("{}; {error}", excerpt(bytes)) })
+    Located::anywhere(ContentFault::NotThisFormat {
+        format: "OBJ",
+        text: format!("{}; {error}", excerpt(bytes)),
+    })
 }
 
 /// What is wrong with a face after `before` of `count` vertices.
@@ -270,7 +288,8 @@ mod tests {
 
     #[test]
     fn the_order_of_the_file_is_kept_whatever_the_faces_use_first() {
-        let raw = read(b"v 0 0 0\nv 1 0 0\nv 9 9 9\nv 0 1 0\nf 4 2 1\nf -4 -3 -1\n").expect("an OBJ");
+        let raw =
+            read(b"v 0 0 0\nv 1 0 0\nv 9 9 9\nv 0 1 0\nf 4 2 1\nf -4 -3 -1\n").expect("an OBJ");
         assert_eq!(raw.positions[2], DVec3::splat(9.0));
         assert_eq!(raw.positions[3], DVec3::Y);
         assert_eq!(faces(&raw), [[3, 1, 0], [0, 1, 3]]);
@@ -279,14 +298,19 @@ mod tests {
 
     #[test]
     fn all_the_usual_spellings_are_read() {
-        let text = "\u{feff}# made by hand\r\nmtllib none.mtl\r\no thing\r\nv 0 0 0 1.0 # w\r\n\tv 1 0 0 0.5 0.5 0.5\r\nv 1 1 \\\r\n0\r\n\
+        let text = "\u{feff}# made by hand\r\nmtllib none.mtl\r\no thing\r\nv 0 0 0 1.0 # w\r\n\tv \
+        1 0 0 0.5 0.5 0.5\r\nv 1 1 \\\r\n0\r\n\
             v 0 1 0 0.1 0.2 0.3 1\r\nvt 0 0\r\nvn 0 0 1\r\nusemtl red\r\ng left hand\r\nf 1/1/1 2//1 3/1 4/1/1#x\r\n\
             g\r\nf 1/-1/-1 2 \\\r\n 3\r\ng default\r\nf 1 2 4\r\ns off\r\np 1\r\nl 1 2\r\n";
         let raw = read(text.as_bytes()).expect("an OBJ");
         assert_eq!(raw.positions, [DVec3::ZERO, DVec3::X, DVec3::new(1., 1., 0.), DVec3::Y]);
         assert_eq!(faces(&raw), [&[0, 1, 2, 3][..], &[0, 1, 2], &[0, 1, 3]]);
-        let groups: Vec<_> = raw.groups.iter().map(|run| (run.first_face, run.name.as_deref())).collect();
-        assert_eq!(groups, [(0, Some("thing")), (0, Some("left hand")), (1, Some("thing")), (2, None)]);
+        let groups: Vec<_> =
+            raw.groups.iter().map(|run| (run.first_face, run.name.as_deref())).collect();
+        assert_eq!(
+            groups,
+            [(0, Some("thing")), (0, Some("left hand")), (1, Some("thing")), (2, None)]
+        );
         assert!(raw.seams.is_empty());
     }
 
@@ -294,7 +318,8 @@ mod tests {
     fn seams_are_the_lines_of_the_group_or_object_of_that_name() {
         let corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
         for name in ["g seam", "o seam", "o Seam\ng seam"] {
-            let raw = read(format!("{corners}l 1 2\n{name}\nl 1/1 2/2 -1\ng rest\nl 1 2\n").as_bytes());
+            let raw =
+                read(format!("{corners}l 1 2\n{name}\nl 1/1 2/2 -1\ng rest\nl 1 2\n").as_bytes());
             let ends: Vec<_> = raw.expect("an OBJ").seams.iter().map(|s| s.ends).collect();
             assert_eq!(ends[..2], [[0, 1], [1, 2]], "{name}");
         }

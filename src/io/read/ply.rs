@@ -1,5 +1,5 @@
-//! Stanford PLY: polygons as text or binary in either byte order. Properties and elements that a mesh does not need are
-//! skipped.
+//! Stanford PLY: polygons as text or binary in either byte order. Properties and elements that a
+//! mesh does not need are skipped.
 
 use glam::DVec3;
 
@@ -45,12 +45,16 @@ fn elements(header: &Header, mut values: impl Values) -> Result<RawMesh, Located
 
 /// Before anything is reserved: whether the rest of the file can hold so many elements at all.
 fn check_count(element: &Element, values: &impl Values) -> Result<(), Located> {
-    let least = element.properties.iter().map(|p| values.least_bytes(p)).sum::<usize>().max(1) as u64;
+    let least =
+        element.properties.iter().map(|p| values.least_bytes(p)).sum::<usize>().max(1) as u64;
     let bytes = values.remaining();
-    if element.count <= bytes as u64 / least || (element.properties.is_empty() && !element.is_needed()) {
+    if element.count <= bytes as u64 / least
+        || (element.properties.is_empty() && !element.is_needed())
+    {
         return Ok(());
     }
-    let fault = ContentFault::CountTooLarge { element: element.name.clone(), count: element.count, bytes };
+    let fault =
+        ContentFault::CountTooLarge { element: element.name.clone(), count: element.count, bytes };
     Err(Located::anywhere(fault))
 }
 
@@ -62,7 +66,10 @@ fn vertices(element: &Element, values: &mut impl Values, raw: &mut RawMesh) -> R
     }
     for (axis, property) in ["x", "y", "z"].into_iter().enumerate() {
         if !axes.contains(&Some(axis)) {
-            return Err(Located::anywhere(ContentFault::NoProperty { element: "vertex", property }));
+            return Err(Located::anywhere(ContentFault::NoProperty {
+                element: "vertex",
+                property,
+            }));
         }
     }
     raw.positions.reserve(element.count as usize);
@@ -70,7 +77,10 @@ fn vertices(element: &Element, values: &mut impl Values, raw: &mut RawMesh) -> R
         let mut position = DVec3::ZERO;
         for (property, axis) in element.properties.iter().zip(&axes) {
             match axis {
-                Some(axis) => position[*axis] = values.next(property.item).map_err(|e| e.within(element, index))?,
+                Some(axis) => {
+                    position[*axis] =
+                        values.next(property.item).map_err(|e| e.within(element, index))?
+                }
                 None => skip(element, index, property, values)?,
             }
         }
@@ -81,7 +91,9 @@ fn vertices(element: &Element, values: &mut impl Values, raw: &mut RawMesh) -> R
 }
 
 fn faces(element: &Element, values: &mut impl Values, raw: &mut RawMesh) -> Result<(), Located> {
-    let is_corners = |p: &Property| p.list_count.is_some() && ["vertex_indices", "vertex_index"].contains(&&*p.name);
+    let is_corners = |p: &Property| {
+        p.list_count.is_some() && ["vertex_indices", "vertex_index"].contains(&&*p.name)
+    };
     if element.count > 0 && !element.properties.iter().any(is_corners) {
         let property = "vertex_indices";
         return Err(Located::anywhere(ContentFault::NoProperty { element: "face", property }));
@@ -111,7 +123,9 @@ fn vertex_number(
 ) -> Result<u32, Located> {
     let value = values.next(property.item).map_err(|e| e.within(element, index))?;
     let is_number = value >= 0.0 && value < f64::from(u32::MAX) && value.fract() == 0.0;
-    let fault = || bad_value(element, index, value, "the number of a vertex, counted from 0", values.line());
+    let fault = || {
+        bad_value(element, index, value, "the number of a vertex, counted from 0", values.line())
+    };
     if is_number { Ok(value as u32) } else { Err(fault()) }
 }
 
@@ -134,31 +148,54 @@ fn list_length(
     Ok(length as usize)
 }
 
-fn bad_value(element: &Element, index: usize, value: f64, wanted: &'static str, line: Option<usize>) -> Located {
-    let fault = ContentFault::BadValue { text: value.to_string(), element: element.name.clone(), index, wanted };
+fn bad_value(
+    element: &Element,
+    index: usize,
+    value: f64,
+    wanted: &'static str,
+    line: Option<usize>,
+) -> Located {
+    let fault = ContentFault::BadValue {
+        text: value.to_string(),
+        element: element.name.clone(),
+        index,
+        wanted,
+    };
     Located { line, fault }
 }
 
-fn skip(element: &Element, index: usize, property: &Property, values: &mut impl Values) -> Result<(), Located> {
+fn skip(
+    element: &Element,
+    index: usize,
+    property: &Property,
+    values: &mut impl Values,
+) -> Result<(), Located> {
     let length = list_length(element, index, property, values)?;
-    (0..length).try_for_each(|_| values.next(property.item).map(drop).map_err(|e| e.within(element, index)))
+    (0..length).try_for_each(|_| {
+        values.next(property.item).map(drop).map_err(|e| e.within(element, index))
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const HEADER: &str = "element vertex 3\nproperty double x\nproperty uchar red\nproperty float y\nproperty int16 z\n\
+    const HEADER: &str = "element vertex 3\nproperty double x\nproperty uchar red\nproperty float \
+    y\nproperty int16 z\n\
         element extra 1\nproperty list uint short many\nproperty char one\n\
         element face 1\nproperty float weight\nproperty list int32 uint vertex_index\nend_header\n";
 
     fn text() -> String {
-        format!("ply\nformat ascii 1.0\ncomment x\n{HEADER}0.1 7 0 0\n1 7 0 -2\n0\n7 1 0\n2 5 6 -1\n0.5 3 0 1 2\n")
+        format!(
+            "ply\nformat ascii 1.0\ncomment x\n{HEADER}0.1 7 0 0\n1 7 0 -2\n0\n7 1 0\n2 5 6 \
+            -1\n0.5 3 0 1 2\n"
+        )
     }
 
     fn binary(is_big: bool) -> Vec<u8> {
         let order = if is_big { "big" } else { "little" };
-        let mut bytes = format!("ply\nformat binary_{order}_endian 1.0\nobj_info x\n{HEADER}").into_bytes();
+        let mut bytes =
+            format!("ply\nformat binary_{order}_endian 1.0\nobj_info x\n{HEADER}").into_bytes();
         let mut put = |value: &[u8]| {
             if is_big { bytes.extend(value.iter().rev()) } else { bytes.extend(value) }
         };
@@ -192,7 +229,9 @@ mod tests {
 
     #[test]
     fn a_file_cut_anywhere_is_refused_and_never_panics() {
-        let lengths = |bytes: &[u8]| (0..bytes.len()).filter(|&n| read(&bytes[..n]).is_ok()).collect::<Vec<_>>();
+        let lengths = |bytes: &[u8]| {
+            (0..bytes.len()).filter(|&n| read(&bytes[..n]).is_ok()).collect::<Vec<_>>()
+        };
         assert!(lengths(&binary(false)).is_empty());
         // Only the last line end can be missing from a text.
         let text = text();
@@ -206,7 +245,10 @@ mod tests {
             let head = format!("ply\nformat {format} 1.0\nelement vertex");
             let xyz = "property float x\nproperty float y\nproperty float z\nend_header\n";
             let huge = fault(&format!("{head} 4294967295\n{xyz}0 0 0\n"));
-            assert!(matches!(huge, ContentFault::CountTooLarge { count: 4_294_967_295, bytes: 6, .. }));
+            assert!(matches!(
+                huge,
+                ContentFault::CountTooLarge { count: 4_294_967_295, bytes: 6, .. }
+            ));
             let none = fault(&format!("{head} 4294967295\nend_header\n"));
             assert!(matches!(none, ContentFault::CountTooLarge { .. }));
             let longer = fault(&format!("{head} 99999999999999999999999\n{xyz}"));
@@ -220,7 +262,9 @@ mod tests {
 
     #[test]
     fn faults_carry_their_lines() {
-        let located = |from: &str, to: &str| read(text().replacen(from, to, 1).as_bytes()).expect_err("a fault");
+        let located = |from: &str, to: &str| {
+            read(text().replacen(from, to, 1).as_bytes()).expect_err("a fault")
+        };
         assert_eq!(located("1 7 0 -2", "1 7 zero -2").line, Some(17));
         assert_eq!(located("3 0 1 2", "3 0 -1 2").line, Some(21));
         assert_eq!(located("property double x", "property quad x").line, Some(5));
@@ -228,7 +272,10 @@ mod tests {
             located("property double x", "property double u").fault.to_string(),
             "`vertex` has no property `x`; export the model again with its vertices and faces"
         );
-        assert!(matches!(located("vertex_index", "corners").fault, ContentFault::NoProperty { .. }));
+        assert!(matches!(
+            located("vertex_index", "corners").fault,
+            ContentFault::NoProperty { .. }
+        ));
         assert_eq!(located("ascii", "ebcdic").line, Some(2));
         assert!(matches!(located("ply", "plx").fault, ContentFault::NotThisFormat { .. }));
     }

@@ -9,9 +9,10 @@ use crate::io::error::{ContentFault, IoError, Place, excerpt};
 
 /// Reads the points of a polyline, in mm.
 ///
-/// A file whose name ends in `.obj` is read as OBJ: its `l` lines, one after the other, tell which of its `v` points come in which order,
-/// counted from 1 (from the last back when negative); without `l` lines all of its points in order. Any other file has one point in a line,
-/// three numbers with commas or spaces between. `#` begins a comment.
+/// A file whose name ends in `.obj` is read as OBJ: its `l` lines, one after the other, tell which
+/// of its `v` points come in which order, counted from 1 (from the last back when negative);
+/// without `l` lines all of its points in order. Any other file has one point in a line, three
+/// numbers with commas or spaces between. `#` begins a comment.
 ///
 /// # Errors
 /// [`IoError`] when the file cannot be read, a line is no point, or there is none; with the line.
@@ -21,7 +22,10 @@ pub fn read_points(path: &Path) -> Result<Vec<DVec3>, IoError> {
     let (mut points, mut order) = (Vec::new(), Vec::new());
     let mut lines = Lines::new(&bytes);
     while let Some((line, text)) = lines.next_content() {
-        let at = |fault| IoError::Content { place: Place { path: path.to_owned(), line: Some(line) }, fault };
+        let at = |fault| IoError::Content {
+            place: Place { path: path.to_owned(), line: Some(line) },
+            fault,
+        };
         let mut rest = words(text);
         match (is_obj, is_obj.then(|| rest.next()).flatten()) {
             (false, _) => points.push(point(text).ok_or_else(|| at(fault(text)))?),
@@ -29,14 +33,16 @@ pub fn read_points(path: &Path) -> Result<Vec<DVec3>, IoError> {
             (true, Some(b"l")) => {
                 for word in rest {
                     let count = points.len();
-                    let missing = |index| ContentFault::NoSuchVertex { text: excerpt(text), index, count };
+                    let missing =
+                        |index| ContentFault::NoSuchVertex { text: excerpt(text), index, count };
                     order.push(index(word, count).map_err(|index| at(missing(index)))?);
                 }
             }
             (true, _) => {}
         }
     }
-    let points: Vec<DVec3> = if order.is_empty() { points } else { order.into_iter().map(|i| points[i]).collect() };
+    let points: Vec<DVec3> =
+        if order.is_empty() { points } else { order.into_iter().map(|i| points[i]).collect() };
     if points.is_empty() { Err(IoError::Empty { path: path.to_owned() }) } else { Ok(points) }
 }
 
@@ -54,7 +60,8 @@ fn point(text: &[u8]) -> Option<DVec3> {
     }
 }
 
-/// The place of a point that an `l` line names, from 0; or the number that names none, 0 for a word that is no number.
+/// The place of a point that an `l` line names, from 0; or the number that names none, 0 for a word
+/// that is no number.
 fn index(word: &[u8], count: usize) -> Result<usize, i64> {
     let word = word.split(|&b| b == b'/').next().unwrap_or(word);
     let index: i64 = std::str::from_utf8(word).ok().and_then(|w| w.parse().ok()).unwrap_or(0);
@@ -67,7 +74,8 @@ mod tests {
     use super::*;
 
     fn read(name: &str, text: &str) -> Result<Vec<DVec3>, IoError> {
-        let path = std::env::temp_dir().join(format!("kerfold-points-{}-{name}", std::process::id()));
+        let path =
+            std::env::temp_dir().join(format!("kerfold-points-{}-{name}", std::process::id()));
         std::fs::write(&path, text).expect("a file");
         let points = read_points(&path);
         std::fs::remove_file(&path).expect("the file");
@@ -77,18 +85,29 @@ mod tests {
     #[test]
     fn points_stand_in_lines_or_in_an_obj_file() {
         let wanted = [DVec3::new(1.0, 2.0, 3.0), DVec3::new(-4.0, 0.5, 6e1)];
-        assert_eq!(read("a.txt", "# axis\n1,2,3\n\n -4 0.5,6e1 # end\n").expect("two points"), wanted);
-        assert_eq!(read("b.obj", "v -4 0.5 60\nv 9 9 9\nv 1 2 3\nl 3 1\n").expect("two points"), wanted);
+        assert_eq!(
+            read("a.txt", "# axis\n1,2,3\n\n -4 0.5,6e1 # end\n").expect("two points"),
+            wanted
+        );
+        assert_eq!(
+            read("b.obj", "v -4 0.5 60\nv 9 9 9\nv 1 2 3\nl 3 1\n").expect("two points"),
+            wanted
+        );
         assert_eq!(read("c.obj", "v 1 2 3\nv -4 0.5 60\n").expect("two points"), wanted);
     }
 
     #[test]
     fn what_is_no_point_is_told_with_its_line() {
-        for (name, text) in [("d.txt", "1,2,3\n1,2\n"), ("e.txt", "0 0 0\n1 2 nan"), ("f.obj", "v 1 2 3\nl 1 2\n")] {
+        for (name, text) in
+            [("d.txt", "1,2,3\n1,2\n"), ("e.txt", "0 0 0\n1 2 nan"), ("f.obj", "v 1 2 3\nl 1 2\n")]
+        {
             let error = read(name, text).expect_err("no point").to_string();
             assert!(error.contains(":2: "), "{error}");
         }
         assert!(matches!(read("g.txt", "# nothing\n"), Err(IoError::Empty { .. })));
-        assert!(matches!(read_points(Path::new("there-is-no-such.txt")), Err(IoError::Missing { .. })));
+        assert!(matches!(
+            read_points(Path::new("there-is-no-such.txt")),
+            Err(IoError::Missing { .. })
+        ));
     }
 }

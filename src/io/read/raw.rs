@@ -45,15 +45,19 @@ impl RawMesh {
         &self.corners[start..self.ends[face]]
     }
 
-    /// Replaces every face by what `change` makes of its corners, and drops it when fewer than three are left.
-    /// Returns the number of dropped faces and the number of the first.
-    pub fn change_faces(&mut self, mut change: impl FnMut(&mut Vec<u32>)) -> Option<(usize, usize)> {
+    /// Replaces every face by what `change` makes of its corners, and drops it when fewer than
+    /// three are left. Returns the number of dropped faces and the number of the first.
+    pub fn change_faces(
+        &mut self,
+        mut change: impl FnMut(&mut Vec<u32>),
+    ) -> Option<(usize, usize)> {
         let old = std::mem::take(&mut self.corners);
         let old_ends = std::mem::take(&mut self.ends);
         let mut numbers = Vec::with_capacity(old_ends.len());
         let mut dropped = None;
         let (mut start, mut face) = (0, Vec::new());
-        let mut first_kept = Vec::with_capacity(if self.groups.is_empty() { 0 } else { old_ends.len() + 1 });
+        let mut first_kept =
+            Vec::with_capacity(if self.groups.is_empty() { 0 } else { old_ends.len() + 1 });
         for (index, &end) in old_ends.iter().enumerate() {
             if !self.groups.is_empty() {
                 first_kept.push(self.ends.len());
@@ -81,7 +85,10 @@ impl RawMesh {
 
     /// The number that a face has in the file.
     pub fn file_face(&self, face: usize) -> usize {
-        self.face_numbers.as_ref().and_then(|numbers| numbers.get(face)).map_or(face, |&n| n as usize)
+        self.face_numbers
+            .as_ref()
+            .and_then(|numbers| numbers.get(face))
+            .map_or(face, |&n| n as usize)
     }
 
     /// The line of a face, by its number in the file.

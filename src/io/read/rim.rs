@@ -19,7 +19,8 @@ pub(super) struct Coincidence {
 /// Compares all rim edges; `None` when no two lie on each other.
 pub(super) fn coincident_rims(mesh: &Mesh) -> Option<Coincidence> {
     let rims: Vec<HalfEdgeId> = mesh.holes().flat_map(|hole| mesh.face_half_edges(hole)).collect();
-    let key = |h: HalfEdgeId| [mesh.origin(h), mesh.target(h)].map(|v| position_key(mesh.position(v)));
+    let key =
+        |h: HalfEdgeId| [mesh.origin(h), mesh.target(h)].map(|v| position_key(mesh.position(v)));
     // Each rim edge can meet one other; those without a partner so far wait here.
     let mut waiting: HashMap<[[u64; 3]; 2], Vec<HalfEdgeId>> = HashMap::with_capacity(rims.len());
     let mut coincident = 0;

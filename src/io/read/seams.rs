@@ -8,14 +8,20 @@ use crate::mesh::{EdgeId, Mesh, SplitVertex, VertexId};
 
 /// Reads the edges that a seam file names, ascending, each once.
 ///
-/// A file whose name ends in `.obj` is read as OBJ: every `l` line is a seam along its vertices, counted from 1 (from the
-/// last back when negative) in the order of the model's own file; all other lines are passed over. Any other file is a
-/// list of edges, one in a line, each as the two numbers of its vertices counted from 0, as `pieces.json` and reports give
-/// them. `#` begins a comment. `splits` are the vertices that reading the model added.
+/// A file whose name ends in `.obj` is read as OBJ: every `l` line is a seam along its vertices,
+/// counted from 1 (from the last back when negative) in the order of the model's own file; all
+/// other lines are passed over. Any other file is a list of edges, one in a line, each as the two
+/// numbers of its vertices counted from 0, as `pieces.json` and reports give them. `#` begins a
+/// comment. `splits` are the vertices that reading the model added.
 ///
 /// # Errors
-/// [`IoError`] when the file cannot be read, a line is no seam, or the model has no such edge; with the line.
-pub fn read_seams(path: &Path, mesh: &Mesh, splits: &[SplitVertex]) -> Result<Vec<EdgeId>, IoError> {
+/// [`IoError`] when the file cannot be read, a line is no seam, or the model has no such edge; with
+/// the line.
+pub fn read_seams(
+    path: &Path,
+    mesh: &Mesh,
+    splits: &[SplitVertex],
+) -> Result<Vec<EdgeId>, IoError> {
     let bytes = std::fs::read(path).map_err(|source| IoError::reading(path, source))?;
     let is_obj = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("obj"));
     let given = mesh.vertex_slots() - splits.len();
@@ -51,7 +57,8 @@ fn obj_chain(text: &[u8], count: usize) -> Result<Option<Vec<usize>>, ContentFau
     let not_a_seam = || ContentFault::NotASeam { text: excerpt(text) };
     let vertex = |word: &[u8]| {
         let word = word.split(|&b| b == b'/').next().unwrap_or(word);
-        let index: i64 = std::str::from_utf8(word).ok().and_then(|w| w.parse().ok()).ok_or_else(not_a_seam)?;
+        let index: i64 =
+            std::str::from_utf8(word).ok().and_then(|w| w.parse().ok()).ok_or_else(not_a_seam)?;
         let from_0 = if index < 0 { index + count as i64 } else { index - 1 };
         let inside = usize::try_from(from_0).ok().filter(|&v| v < count);
         inside.ok_or_else(|| ContentFault::NoSuchVertex { text: excerpt(text), index, count })
@@ -62,7 +69,8 @@ fn obj_chain(text: &[u8], count: usize) -> Result<Option<Vec<usize>>, ContentFau
 
 /// The two vertices of a line of an edge list.
 fn edge(text: &[u8]) -> Result<Vec<usize>, ContentFault> {
-    let numbers: Option<Vec<usize>> = words(text).map(|w| std::str::from_utf8(w).ok()?.parse().ok()).collect();
+    let numbers: Option<Vec<usize>> =
+        words(text).map(|w| std::str::from_utf8(w).ok()?.parse().ok()).collect();
     numbers.filter(|n| n.len() == 2).ok_or_else(|| ContentFault::NotAnEdge { text: excerpt(text) })
 }
 
@@ -83,7 +91,8 @@ mod tests {
 
     fn read(name: &str, text: &str) -> Result<Vec<EdgeId>, String> {
         let mesh =
-            solid(&SolidParams { name: "cube".parse().expect("a name"), ..SolidParams::default() }).expect("a cube");
+            solid(&SolidParams { name: "cube".parse().expect("a name"), ..SolidParams::default() })
+                .expect("a cube");
         let path = std::env::temp_dir().join(format!("kerfold-{}-{name}", std::process::id()));
         std::fs::write(&path, text).expect("a file");
         let edges = read_seams(&path, &mesh, &[]).map_err(|e| e.to_string());
@@ -94,13 +103,18 @@ mod tests {
     #[test]
     fn lists_and_lines_name_the_same_edges() {
         let mesh =
-            solid(&SolidParams { name: "cube".parse().expect("a name"), ..SolidParams::default() }).expect("a cube");
-        let pairs: Vec<[usize; 2]> = mesh.edges().take(3).map(|e| mesh.edge_vertices(e).map(|v| v.index())).collect();
+            solid(&SolidParams { name: "cube".parse().expect("a name"), ..SolidParams::default() })
+                .expect("a cube");
+        let pairs: Vec<[usize; 2]> =
+            mesh.edges().take(3).map(|e| mesh.edge_vertices(e).map(|v| v.index())).collect();
         let list: String = pairs.iter().map(|[a, b]| format!("{a} {b} # a seam\n")).collect();
         let lines: String = pairs.iter().map(|[a, b]| format!("l {} {}\n", a + 1, b + 1)).collect();
         let expected: Vec<EdgeId> = mesh.edges().take(3).collect();
         assert_eq!(read("list.txt", &list).expect("edges"), expected);
-        assert_eq!(read("lines.obj", &format!("v 0 0 0\n{lines}{lines}")).expect("edges"), expected);
+        assert_eq!(
+            read("lines.obj", &format!("v 0 0 0\n{lines}{lines}")).expect("edges"),
+            expected
+        );
     }
 
     #[test]

@@ -1,4 +1,5 @@
-//! STL, text and binary: triangles without shared vertices, welded where their coordinates are equal.
+//! STL, text and binary: triangles without shared vertices, welded where their coordinates are
+//! equal.
 
 use glam::{DVec3, Vec3};
 
@@ -18,23 +19,30 @@ struct Soup {
     triangle_lines: Vec<u32>,
 }
 
-/// Returns the mesh, and the number of triangles that were dropped because two of their corners are one, with the first.
+/// Returns the mesh, and the number of triangles that were dropped because two of their corners are
+/// one, with the first.
 pub(super) fn read(bytes: &[u8]) -> Result<(RawMesh, Option<(usize, usize)>), Located> {
     let soup = if is_binary(bytes) || !is_text(bytes) { binary(bytes)? } else { text(bytes)? };
     if let Some(corner) = soup.corners.iter().position(|p| !p.is_finite()) {
         let line = soup.corner_lines.get(corner).map(|&line| line as usize);
-        return Err(Located { line, fault: ContentFault::TriangleNotFinite { triangle: corner / 3 } });
+        return Err(Located {
+            line,
+            fault: ContentFault::TriangleNotFinite { triangle: corner / 3 },
+        });
     }
     Ok(welded(soup))
 }
 
-/// Whether the length is what the number of triangles in a binary header asks for. Some binary files begin with `solid`.
+/// Whether the length is what the number of triangles in a binary header asks for. Some binary
+/// files begin with `solid`.
 pub(in crate::io) fn is_binary(bytes: &[u8]) -> bool {
-    announced(bytes).is_some_and(|count| (bytes.len() - HEADER - 4) as u64 == count * TRIANGLE as u64)
+    announced(bytes)
+        .is_some_and(|count| (bytes.len() - HEADER - 4) as u64 == count * TRIANGLE as u64)
 }
 
 fn is_text(bytes: &[u8]) -> bool {
-    bytes.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid")) && !bytes.contains(&0)
+    bytes.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"))
+        && !bytes.contains(&0)
 }
 
 fn announced(bytes: &[u8]) -> Option<u64> {
@@ -44,16 +52,21 @@ fn announced(bytes: &[u8]) -> Option<u64> {
 
 fn binary(bytes: &[u8]) -> Result<Soup, Located> {
     let Some(count) = announced(bytes) else {
-        return Err(Located::anywhere(ContentFault::NotThisFormat { format: "STL", text: excerpt(bytes) }));
+        return Err(Located::anywhere(ContentFault::NotThisFormat {
+            format: "STL",
+            text: excerpt(bytes),
+        }));
     };
     let body = &bytes[HEADER + 4..];
     // Some programs write more after the triangles, none writes less.
     if ((body.len() / TRIANGLE) as u64) < count {
-        let fault = ContentFault::CountTooLarge { element: "triangle".into(), count, bytes: body.len() };
+        let fault =
+            ContentFault::CountTooLarge { element: "triangle".into(), count, bytes: body.len() };
         return Err(Located::anywhere(fault));
     }
     let corners = body.chunks_exact(TRIANGLE).take(count as usize).flat_map(|triangle| {
-        let coordinate = |i: usize| triangle[4 * i..].first_chunk::<4>().map_or(0.0, |b| f32::from_le_bytes(*b));
+        let coordinate =
+            |i: usize| triangle[4 * i..].first_chunk::<4>().map_or(0.0, |b| f32::from_le_bytes(*b));
         // The first three numbers are the normal.
         [3, 6, 9].map(|i| Vec3::new(coordinate(i), coordinate(i + 1), coordinate(i + 2)).as_dvec3())
     });
@@ -74,7 +87,8 @@ fn text(bytes: &[u8]) -> Result<Soup, Located> {
         if is(b"vertex") {
             let mut coordinate = || words.next().and_then(number);
             let corner = (|| Some(DVec3::new(coordinate()?, coordinate()?, coordinate()?)))();
-            let corner = corner.ok_or_else(|| fault("a vertex needs three numbers, as in `vertex 0 1.5 2`"))?;
+            let corner = corner
+                .ok_or_else(|| fault("a vertex needs three numbers, as in `vertex 0 1.5 2`"))?;
             soup.corners.push(corner);
             soup.corner_lines.push(line as u32);
         } else if is(b"endloop") {
@@ -82,7 +96,8 @@ fn text(bytes: &[u8]) -> Result<Soup, Located> {
                 return Err(fault("a triangle needs three `vertex` lines"));
             }
             soup.triangle_lines.push(line as u32 - 3);
-        } else if [&b"solid"[..], b"facet", b"outer", b"endfacet", b"endsolid"].into_iter().any(is) {
+        } else if [&b"solid"[..], b"facet", b"outer", b"endfacet", b"endsolid"].into_iter().any(is)
+        {
             if started != 0 {
                 return Err(fault("a triangle needs three `vertex` lines and an `endloop`"));
             }
@@ -94,12 +109,17 @@ fn text(bytes: &[u8]) -> Result<Soup, Located> {
         0 => Ok(soup),
         _ => {
             let index = soup.triangle_lines.len();
-            Err(Located::anywhere(ContentFault::CutShort { element: "triangle".into(), index, count: index + 1 }))
+            Err(Located::anywhere(ContentFault::CutShort {
+                element: "triangle".into(),
+                index,
+                count: index + 1,
+            }))
         }
     }
 }
 
-/// Gives equal corners one number, in the order in which they first come, and drops triangles that lose a corner.
+/// Gives equal corners one number, in the order in which they first come, and drops triangles that
+/// lose a corner.
 fn welded(soup: Soup) -> (RawMesh, Option<(usize, usize)>) {
     let first = first_equal(soup.corners.iter());
     let mut raw = RawMesh { face_lines: soup.triangle_lines, ..RawMesh::default() };
@@ -131,7 +151,8 @@ fn welded(soup: Soup) -> (RawMesh, Option<(usize, usize)>) {
 mod tests {
     use super::*;
 
-    const TEXT: &str = "solid two parts\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   vertex 1 0 0\n   vertex 0 1 0\n  endloop\n \
+    const TEXT: &str = "solid two parts\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   \
+    vertex 1 0 0\n   vertex 0 1 0\n  endloop\n \
         endfacet\n FACET NORMAL 0 0 1\n OUTER LOOP\n VERTEX 1 0 -0\n VERTEX 1 1 0\n VERTEX 0 1 0\n ENDLOOP\n ENDFACET\nendsolid two parts\n";
 
     fn binary_file(header: &[u8], triangles: &[[f32; 9]]) -> Vec<u8> {
@@ -148,14 +169,24 @@ mod tests {
 
     #[test]
     fn text_and_binary_are_welded_alike() {
-        let triangles = [[0., 0., 0., 1., 0., 0., 0., 1., 0.], [1., 0., -0., 1., 1., 0., 0., 1., 0.]];
+        let triangles =
+            [[0., 0., 0., 1., 0., 0., 0., 1., 0.], [1., 0., -0., 1., 1., 0., 0., 1., 0.]];
         // The header of a binary file may begin as a text file does.
         let (from_binary, _) = read(&binary_file(b"solid two parts", &triangles)).expect("an STL");
         let (from_text, _) = read(TEXT.as_bytes()).expect("an STL");
-        assert_eq!(from_binary.positions, [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::new(1., 1., 0.)]);
+        assert_eq!(
+            from_binary.positions,
+            [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::new(1., 1., 0.)]
+        );
         assert_eq!(from_binary.corners, [0, 1, 2, 1, 3, 2]);
-        assert_eq!((&from_text.positions, &from_text.corners), (&from_binary.positions, &from_binary.corners));
-        assert_eq!((from_text.vertex_lines, from_text.face_lines), (vec![4, 5, 6, 12], vec![4, 11]));
+        assert_eq!(
+            (&from_text.positions, &from_text.corners),
+            (&from_binary.positions, &from_binary.corners)
+        );
+        assert_eq!(
+            (from_text.vertex_lines, from_text.face_lines),
+            (vec![4, 5, 6, 12], vec![4, 11])
+        );
     }
 
     #[test]
@@ -171,11 +202,17 @@ mod tests {
     fn what_is_broken_is_named() {
         let fault = |bytes: &[u8]| read(bytes).expect_err("a fault");
         let whole = binary_file(b"x", &[[0.; 9], [1.; 9]]);
-        assert!(matches!(fault(&whole[..120]).fault, ContentFault::CountTooLarge { count: 2, bytes: 36, .. }));
+        assert!(matches!(
+            fault(&whole[..120]).fault,
+            ContentFault::CountTooLarge { count: 2, bytes: 36, .. }
+        ));
         assert!(matches!(fault(b"nonsense").fault, ContentFault::NotThisFormat { .. }));
         let mut nan = [0.0; 9];
         nan[4] = f32::NAN;
-        assert_eq!(fault(&binary_file(b"", &[[0.; 9], nan])).fault, ContentFault::TriangleNotFinite { triangle: 1 });
+        assert_eq!(
+            fault(&binary_file(b"", &[[0.; 9], nan])).fault,
+            ContentFault::TriangleNotFinite { triangle: 1 }
+        );
         let altered = |from: &str, to: &str| fault(TEXT.replacen(from, to, 1).as_bytes());
         assert_eq!(altered("vertex 1 0 0", "vertex 1 zero 0").line, Some(5));
         assert_eq!(altered("   vertex 1 0 0\n", "").line, Some(6));

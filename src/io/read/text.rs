@@ -19,7 +19,8 @@ impl<'a> Lines<'a> {
 
     /// The next line that has more than white space and a comment, without the comment.
     pub fn next_content(&mut self) -> Option<(usize, &'a [u8])> {
-        self.map(|(number, line)| (number, without_comment(line).trim_ascii())).find(|(_, line)| !line.is_empty())
+        self.map(|(number, line)| (number, without_comment(line).trim_ascii()))
+            .find(|(_, line)| !line.is_empty())
     }
 }
 
@@ -30,7 +31,8 @@ impl<'a> Iterator for Lines<'a> {
         if self.rest.is_empty() {
             return None;
         }
-        let end = self.rest.iter().position(|&b| b == b'\n' || b == b'\r').unwrap_or(self.rest.len());
+        let end =
+            self.rest.iter().position(|&b| b == b'\n' || b == b'\r').unwrap_or(self.rest.len());
         let (line, after) = self.rest.split_at(end);
         self.rest = after.strip_prefix(b"\r\n").or(after.get(1..)).unwrap_or_default();
         self.number += 1;
@@ -59,7 +61,9 @@ mod tests {
 
     #[test]
     fn all_line_ends_count_the_same() {
-        let lines = |text: &'static str| Lines::new(text.as_bytes()).map(|(n, l)| (n, l.len())).collect::<Vec<_>>();
+        let lines = |text: &'static str| {
+            Lines::new(text.as_bytes()).map(|(n, l)| (n, l.len())).collect::<Vec<_>>()
+        };
         for text in ["ab\n\nc", "ab\r\n\r\nc\r\n", "ab\r\rc\r", "\u{feff}ab\n\nc\n"] {
             assert_eq!(lines(text), [(1, 2), (2, 0), (3, 1)], "{text:?}");
         }

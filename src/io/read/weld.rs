@@ -15,12 +15,15 @@ pub(super) struct Welded {
     pub faces: Option<(usize, usize)>,
 }
 
-/// Lets each vertex go into the nearest earlier one that stays and is at most `distance` away; 0 welds equal positions
-/// only. The vertices that stay are further apart than `distance`, keep their numbers and do not move. The others have no
-/// face any more.
+/// Lets each vertex go into the nearest earlier one that stays and is at most `distance` away; 0
+/// welds equal positions only. The vertices that stay are further apart than `distance`, keep their
+/// numbers and do not move. The others have no face any more.
 pub(super) fn weld(raw: &mut RawMesh, distance: f64) -> Welded {
-    let target =
-        if distance > 0.0 { nearest_earlier(&raw.positions, distance) } else { first_equal(raw.positions.iter()) };
+    let target = if distance > 0.0 {
+        nearest_earlier(&raw.positions, distance)
+    } else {
+        first_equal(raw.positions.iter())
+    };
     let vertices = target.iter().enumerate().filter(|&(v, &t)| v != t as usize).count();
     // A number beyond the vertices is left for the builder to tell.
     let place = |v: u32| target.get(v as usize).copied().unwrap_or(v);
@@ -52,7 +55,8 @@ pub(super) fn position_key(p: DVec3) -> [u64; 3] {
 fn nearest_earlier(positions: &[DVec3], distance: f64) -> Vec<u32> {
     let low = positions.iter().copied().reduce(DVec3::min).unwrap_or_default();
     let high = positions.iter().copied().reduce(DVec3::max).unwrap_or_default();
-    // Cells may be larger than the distance, never smaller, so that only neighbours are searched and the numbers stay small.
+    // Cells may be larger than the distance, never smaller, so that only neighbours are searched
+    // and the numbers stay small.
     let cell = distance.max((high - low).max_element() / (1_u64 << 40) as f64);
     let cell_of = |p: DVec3| ((p - low) / cell).floor().to_array().map(|x| x as i64);
     // For each cell the last vertex that stays there; for each such vertex the one before it.
@@ -81,10 +85,12 @@ fn nearest_earlier(positions: &[DVec3], distance: f64) -> Vec<u32> {
 }
 
 fn cells_around([x, y, z]: [i64; 3]) -> impl Iterator<Item = [i64; 3]> {
-    (-1..=1).flat_map(move |i| (-1..=1).flat_map(move |j| (-1..=1).map(move |k| [x + i, y + j, z + k])))
+    (-1..=1)
+        .flat_map(move |i| (-1..=1).flat_map(move |j| (-1..=1).map(move |k| [x + i, y + j, z + k])))
 }
 
-/// Removes corners that repeat the one before, and spikes that run out and back: neither bounds any area.
+/// Removes corners that repeat the one before, and spikes that run out and back: neither bounds any
+/// area.
 fn remove_spikes(face: &mut Vec<u32>) {
     let mut at = 0;
     let mut unchanged = 0;

@@ -29,16 +29,26 @@ pub(super) fn bars(chart: &Chart) -> String {
         let [r, g, b] = bar.colour();
         let _ = write!(
             svg,
-            "<rect x=\"{:.2}\" y=\"{:.2}\" width=\"{:.2}\" height=\"{tall:.2}\" fill=\"#{r:02x}{g:02x}{b:02x}\"/>",
+            "<rect x=\"{:.2}\" y=\"{:.2}\" width=\"{:.2}\" height=\"{tall:.2}\" \
+            fill=\"#{r:02x}{g:02x}{b:02x}\"/>",
             middle - thick / 2.0,
             base - tall,
             thick
         );
         let count = if bar.count == 0 { String::new() } else { bar.count.to_string() };
         if !count.is_empty() {
-            let _ = write!(svg, "<text x=\"{middle:.2}\" y=\"{:.2}\">{count}</text>", base - tall - 5.0);
+            let _ = write!(
+                svg,
+                "<text x=\"{middle:.2}\" y=\"{:.2}\">{count}</text>",
+                base - tall - 5.0
+            );
         }
-        let _ = writeln!(svg, "<text class=\"tick\" x=\"{middle:.2}\" y=\"{:.2}\">{}</text>", base + 15.0, bar.label);
+        let _ = writeln!(
+            svg,
+            "<text class=\"tick\" x=\"{middle:.2}\" y=\"{:.2}\">{}</text>",
+            base + 15.0,
+            bar.label
+        );
     }
     let _ = writeln!(svg, "<line x1=\"0\" y1=\"{base}\" x2=\"{width}\" y2=\"{base}\"/>");
     if let Some((at, words)) = *limit {
@@ -47,10 +57,12 @@ pub(super) fn bars(chart: &Chart) -> String {
         let _ = writeln!(
             svg,
             "<line class=\"limit\" x1=\"{x:.2}\" y1=\"2\" x2=\"{x:.2}\" y2=\"{base}\"/>\
-             <text class=\"limit\" x=\"{:.2}\" y=\"11\" style=\"text-anchor: {anchor}\">{words}</text>",
+             <text class=\"limit\" x=\"{:.2}\" y=\"11\" style=\"text-anchor: \
+             {anchor}\">{words}</text>",
             x + shift
         );
     }
-    let _ = writeln!(svg, "<text x=\"{}\" y=\"{}\">{axis}</text>\n</svg>", width / 2.0, height - 6.0);
+    let _ =
+        writeln!(svg, "<text x=\"{}\" y=\"{}\">{axis}</text>\n</svg>", width / 2.0, height - 6.0);
     svg
 }

@@ -29,7 +29,14 @@ fn page_of(mesh: &Mesh, rows: ReportRows, params: &CheckParams) -> (String, Repo
     let render = RenderParams::default();
     let pictures = report_pictures(mesh, &report, &render).expect("a model that can be drawn");
     let (title, command) = ("a <b> & \"c\"\u{1}.obj", "kerfold check 'a <b>.obj'");
-    let page = ReportPage { title, report: &report, details: &details, pictures: &pictures, rows, command };
+    let page = ReportPage {
+        title,
+        report: &report,
+        details: &details,
+        pictures: &pictures,
+        rows,
+        command,
+    };
     (check_html(&page), report, details)
 }
 
@@ -54,14 +61,18 @@ fn unbase64(text: &str) -> Vec<u8> {
 /// The figures of each row of a table, and its cells without one as `None`.
 fn rows(document: &Document<'_>, class: &str) -> Vec<Vec<Option<f64>>> {
     let figure = |cell: Node<'_, '_>| {
-        let data = cell.children().find(|n| n.has_tag_name(("http://www.w3.org/1999/xhtml", "data")));
+        let data =
+            cell.children().find(|n| n.has_tag_name(("http://www.w3.org/1999/xhtml", "data")));
         data.map_or_else(
             || cell.text().and_then(|t| t.parse().ok()),
             |d| d.attribute("value").and_then(|v| v.parse().ok()),
         )
     };
     let is = |n: &Node<'_, '_>, name: &str| n.tag_name().name() == name;
-    let table = document.descendants().find(|n| is(n, "table") && n.attribute("class") == Some(class)).expect(class);
+    let table = document
+        .descendants()
+        .find(|n| is(n, "table") && n.attribute("class") == Some(class))
+        .expect(class);
     let body = table.descendants().filter(|n| is(n, "tr")).skip(1);
     body.map(|row| row.children().filter(|n| is(n, "td")).map(figure).collect()).collect()
 }
@@ -70,23 +81,37 @@ fn rows(document: &Document<'_>, class: &str) -> Vec<Vec<Option<f64>>> {
 fn the_page_is_whole_and_every_picture_in_it_decodes() {
     let (html, report, _) = page_of(&bent(), ReportRows::Worst, &CheckParams::default());
     let document = parsed(&html);
-    let named = |name: &str| document.descendants().filter(|n| n.tag_name().name() == name).collect::<Vec<_>>();
+    let named = |name: &str| {
+        document.descendants().filter(|n| n.tag_name().name() == name).collect::<Vec<_>>()
+    };
     assert_eq!(named("h1")[0].text(), Some("a <b> & \"c\"\u{fffd}.obj"));
     let bent = report.faces.iter().filter(|f| f.breach.is_some()).count();
     assert!(bent > 0 && report.has_findings());
     let images = named("img");
-    assert_eq!(images.len(), 3 + 2 * report.faces.iter().filter(|f| f.planarity.mm > 0.0).count().min(12));
+    assert_eq!(
+        images.len(),
+        3 + 2 * report.faces.iter().filter(|f| f.planarity.mm > 0.0).count().min(12)
+    );
     for image in images {
-        let data =
-            image.attribute("src").and_then(|s| s.strip_prefix("data:image/png;base64,")).expect("inside the page");
+        let data = image
+            .attribute("src")
+            .and_then(|s| s.strip_prefix("data:image/png;base64,"))
+            .expect("inside the page");
         let picture = tiny_skia::Pixmap::decode_png(&unbase64(data)).expect("a PNG file");
-        assert!(picture.width() >= 320 && picture.pixels().iter().any(|p| *p != picture.pixels()[0]), "not blank");
+        assert!(
+            picture.width() >= 320 && picture.pixels().iter().any(|p| *p != picture.pixels()[0]),
+            "not blank"
+        );
         assert!(image.attribute("alt").is_some_and(|words| !words.is_empty()));
     }
     // Nothing is loaded and nothing runs.
     for node in document.descendants().filter(Node::is_element) {
         assert!(!["script", "link", "iframe", "object"].contains(&node.tag_name().name()));
-        assert!(node.attributes().all(|a| a.name() != "href" && (a.name() != "src" || a.value().starts_with("data:"))));
+        assert!(
+            node.attributes().all(
+                |a| a.name() != "href" && (a.name() != "src" || a.value().starts_with("data:"))
+            )
+        );
     }
     assert!(!html.contains("url(") && !html.contains("@import"));
     assert!(html.contains(&format!("Fail: {} findings", report.findings.len())));
@@ -98,24 +123,35 @@ fn the_figures_are_those_of_the_json() {
     open.set_position(VertexId::new(2), DVec3::new(1.3, 1.2, -0.9), true);
     for mesh in [bent(), octahedron(), open] {
         let (html, report, details) = page_of(&mesh, ReportRows::All, &CheckParams::default());
-        let json: Value = serde_json::from_str(&check_json_with(&report, Some(&details), "k")).expect("JSON");
+        let json: Value =
+            serde_json::from_str(&check_json_with(&report, Some(&details), "k")).expect("JSON");
         let document = parsed(&html);
         let told = |list: &Value, keys: &[&str]| -> Vec<Vec<Option<f64>>> {
             let row = |row: &Value| keys.iter().map(|key| row[key].as_f64()).collect();
             list.as_array().expect("a list").iter().map(row).collect()
         };
         let picked = |class: &str, columns: &[usize]| -> Vec<Vec<Option<f64>>> {
-            rows(&document, class).iter().map(|row| columns.iter().map(|&c| row[c]).collect()).collect()
+            rows(&document, class)
+                .iter()
+                .map(|row| columns.iter().map(|&c| row[c]).collect())
+                .collect()
         };
         let keys = ["face", "sides", "mm", "permille", "degrees", "percent"];
         assert_eq!(picked("faces", &[0, 1, 2, 3, 4, 5]), told(&json["planarity"]["faces"], &keys));
         let keys = ["vertex", "valence", "residual", "deficit_degrees"];
         assert_eq!(picked("nodes", &[0, 1, 3, 4]), told(&json["vertices"], &keys));
-        assert_eq!(picked("edges", &[1, 2]), told(&json["edges"], &["length_mm", "dihedral_degrees"]));
-        let largest = ["max_mm", "max_permille", "max_degrees", "max_percent"].map(|k| json["planarity"][k].as_f64());
+        assert_eq!(
+            picked("edges", &[1, 2]),
+            told(&json["edges"], &["length_mm", "dihedral_degrees"])
+        );
+        let largest = ["max_mm", "max_permille", "max_degrees", "max_percent"]
+            .map(|k| json["planarity"][k].as_f64());
         assert_eq!(rows(&document, "limits").iter().map(|r| r[1]).collect::<Vec<_>>(), largest);
         let limits = ["max_mm", "max_permille", "max_degrees"].map(|k| json["profile"][k].as_f64());
-        assert_eq!(rows(&document, "limits").iter().map(|r| r[2]).take(3).collect::<Vec<_>>(), limits);
+        assert_eq!(
+            rows(&document, "limits").iter().map(|r| r[2]).take(3).collect::<Vec<_>>(),
+            limits
+        );
     }
 }
 
@@ -126,7 +162,9 @@ fn every_panel_node_and_fold_stands_in_one_bar() {
     let document = parsed(&html);
     let mut sums = HashMap::new();
     for chart in document.descendants().filter(|n| n.attribute("class") == Some("chart")) {
-        let labels = chart.children().filter(|n| n.tag_name().name() == "text" && n.attribute("class").is_none());
+        let labels = chart
+            .children()
+            .filter(|n| n.tag_name().name() == "text" && n.attribute("class").is_none());
         // The last one is the axis.
         let counts: usize = labels.filter_map(|n| n.text()?.parse::<usize>().ok()).sum();
         sums.insert(chart.attribute("aria-label").expect("a name"), counts);
@@ -143,11 +181,15 @@ fn every_panel_node_and_fold_stands_in_one_bar() {
 #[test]
 fn long_lists_are_cut_and_say_so() {
     let params = CheckParams { require: vec![Requirement::Valence3], ..CheckParams::default() };
-    let mesh = solid(&SolidParams { name: "geodesic-3".parse().expect("a name"), edge: None, size: None });
+    let mesh =
+        solid(&SolidParams { name: "geodesic-3".parse().expect("a name"), edge: None, size: None });
     let mesh = mesh.expect("a solid");
     let (html, report, _) = page_of(&mesh, ReportRows::Worst, &params);
     let document = parsed(&html);
-    assert_eq!(["faces", "nodes", "edges", "findings"].map(|class| rows(&document, class).len()), [24, 24, 24, 12]);
+    assert_eq!(
+        ["faces", "nodes", "edges", "findings"].map(|class| rows(&document, class).len()),
+        [24, 24, 24, 12]
+    );
     assert!(html.contains(&format!("12 of {}", report.findings.len())));
     let residuals: Vec<f64> = rows(&document, "nodes").iter().filter_map(|row| row[3]).collect();
     assert!(residuals.len() == 24 && residuals.is_sorted_by(|a, b| a >= b), "{residuals:?}");

@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::words::{DEFINITIONS, count, figure, optional, text};
-use super::{Bar, Block, Chart, Content, PanelCard, ReportPage, ReportRows, Section, Table, Word, Words};
+use super::{
+    Bar, Block, Chart, Content, PanelCard, ReportPage, ReportRows, Section, Table, Word, Words,
+};
 use crate::check::{EdgeDetail, FaceReport, Finding, Report, Unit, Verdict, VertexDetail, short};
 
 /// Rows of each table when only the worst are listed.
@@ -85,8 +87,11 @@ fn limits<'a>(page: &ReportPage<'a>) -> Option<Section<'a>> {
         };
         vec![text(name), optional(largest), optional(limit), verdict]
     });
-    let kept: Vec<String> =
-        r.profiles.iter().map(|&(p, ok)| format!("{p}: {}", if ok { "kept" } else { "not kept" })).collect();
+    let kept: Vec<String> = r
+        .profiles
+        .iter()
+        .map(|&(p, ok)| format!("{p}: {}", if ok { "kept" } else { "not kept" }))
+        .collect();
     let broken = r.faces.iter().filter(|f| f.breach.is_some()).count();
     let all = count(r.faces.len(), "panel", "panels");
     Some(Section {
@@ -99,7 +104,8 @@ fn limits<'a>(page: &ReportPage<'a>) -> Option<Section<'a>> {
                 rows: rows.collect(),
             }),
             Block::Note(text(format!(
-                "All profiles, each with its own limits: {}. Limits are kerfold’s defaults or were given for this check; they \
+                "All profiles, each with its own limits: {}. Limits are kerfold’s defaults or were \
+                given for this check; they \
                  are not norms.",
                 kept.join(" · ")
             ))),
@@ -122,7 +128,8 @@ fn deviations<'a>(page: &ReportPage<'a>) -> Option<Section<'a>> {
     let bar = |(i, &count): (usize, &usize)| Bar { label: label(i), count, is_kept: i < LIMIT };
     let mut blocks = vec![
         Block::Text(text(
-            "Number of panels by how much of the tightest limit they use; beyond 100 % a limit is broken.",
+            "Number of panels by how much of the tightest limit they use; beyond 100 % a limit is \
+            broken.",
         )),
         Block::Chart(Chart {
             name: "Panels by share of the limit",
@@ -139,7 +146,9 @@ fn deviations<'a>(page: &ReportPage<'a>) -> Option<Section<'a>> {
 fn distances<'a>(r: &Report) -> Vec<Block<'a>> {
     const BINS: usize = 20;
     if r.worst.mm <= ROUNDING * r.model.size_mm.max_element() {
-        return vec![Block::Text(text("No corner is off the plane of its panel by more than rounding."))];
+        return vec![Block::Text(text(
+            "No corner is off the plane of its panel by more than rounding.",
+        ))];
     }
     let mut counts = [0; BINS];
     for f in &r.faces {
@@ -151,7 +160,8 @@ fn distances<'a>(r: &Report) -> Vec<Block<'a>> {
         count,
         is_kept: r.limits.mm.is_none_or(|limit| limit > i as f64 * width),
     };
-    let limit = r.limits.mm.filter(|&limit| limit < r.worst.mm).map(|limit| (limit / width, "limit in mm"));
+    let limit =
+        r.limits.mm.filter(|&limit| limit < r.worst.mm).map(|limit| (limit / width, "limit in mm"));
     vec![
         Block::Text(text("Number of panels by the largest distance of a corner from the plane.")),
         Block::Chart(Chart {
@@ -187,7 +197,8 @@ fn panels<'a>(page: &ReportPage<'a>) -> Option<Section<'a>> {
         title: "The worst panels".to_owned(),
         blocks: vec![
             Block::Text(text(
-                "Those that use most of their limits, worst first; seen along their normals, close by and on the model.",
+                "Those that use most of their limits, worst first; seen along their normals, close \
+                by and on the model.",
             )),
             Block::Panels(cards),
         ],
@@ -209,11 +220,17 @@ fn findings<'a>(page: &ReportPage<'a>) -> Option<Section<'a>> {
         let groups = rows.chunk_by(|a, b| a.check == b.check);
         rows = groups.flat_map(|group| group.iter().take(FINDINGS).copied()).collect();
     }
-    let mut blocks = page.share_listed(rows.len(), all.len(), "by check, each with the worst first");
+    let mut blocks =
+        page.share_listed(rows.len(), all.len(), "by check, each with the worst first");
     let row = |f: &&Finding| {
         let unit = format!(" {}", if f.unit == Unit::Permille { "‰" } else { f.unit.name() });
         let measure = |x: f64| vec![Word::Figure(x), Word::Text(unit.clone())];
-        vec![text(f.check.to_string()), text(f.message.clone()), measure(f.measured), measure(f.limit)]
+        vec![
+            text(f.check.to_string()),
+            text(f.message.clone()),
+            measure(f.measured),
+            measure(f.limit),
+        ]
     };
     blocks.push(Block::Table(Table {
         class: "findings",
@@ -225,13 +242,19 @@ fn findings<'a>(page: &ReportPage<'a>) -> Option<Section<'a>> {
 
 fn nodes<'a>(page: &ReportPage<'a>) -> Option<Section<'a>> {
     let (r, all) = (page.report, &page.details.vertices);
-    let bar = |(valence, &count): (&usize, &usize)| Bar { label: valence.to_string(), count, is_kept: *valence <= 3 };
+    let bar = |(valence, &count): (&usize, &usize)| Bar {
+        label: valence.to_string(),
+        count,
+        is_kept: *valence <= 3,
+    };
     let worst = all.iter().filter_map(|v| v.residual).fold(0.0, f64::max);
     let deficits = || all.iter().filter_map(|v| v.deficit_degrees);
     let [least, most] = [deficits().reduce(f64::min), deficits().reduce(f64::max)].map(optional);
     let mut rows: Vec<&VertexDetail> = all.iter().collect();
     if page.rows == ReportRows::Worst {
-        let key = |v: &VertexDetail| (v.residual.unwrap_or(f64::INFINITY), v.deficit_degrees.map_or(0.0, f64::abs));
+        let key = |v: &VertexDetail| {
+            (v.residual.unwrap_or(f64::INFINITY), v.deficit_degrees.map_or(0.0, f64::abs))
+        };
         // Residuals of three planes are rounding; they must not decide the order.
         let rank = |v: &VertexDetail| if v.valence > 3 { key(v) } else { (0.0, key(v).1) };
         rows.sort_by(|a, b| rank(b).0.total_cmp(&rank(a).0).then(rank(b).1.total_cmp(&rank(a).1)));
@@ -240,15 +263,25 @@ fn nodes<'a>(page: &ReportPage<'a>) -> Option<Section<'a>> {
     let row = |v: &&VertexDetail| {
         let place = if v.is_on_rim { "rim" } else { "inside" };
         let (residual, deficit) = (optional(v.residual), optional(v.deficit_degrees));
-        vec![text(v.vertex.to_string()), text(v.valence.to_string()), text(place), residual, deficit]
+        vec![
+            text(v.vertex.to_string()),
+            text(v.valence.to_string()),
+            text(place),
+            residual,
+            deficit,
+        ]
     };
     let nodes = count(r.model.vertices, "node", "nodes");
     let crowded = all.iter().filter(|v| v.valence > 3).count();
     let mut words = text(format!(
-        "{crowded} of {nodes} have more than three edges. At a node with three edges, plates of constant thickness meet exactly; \
+        "{crowded} of {nodes} have more than three edges. At a node with three edges, plates of \
+        constant thickness meet exactly; \
          at others they may miss each other: here by up to "
     ));
-    words.extend([Word::Figure(worst), " mm per mm of thickness. The angle deficits run from ".into()]);
+    words.extend([
+        Word::Figure(worst),
+        " mm per mm of thickness. The angle deficits run from ".into(),
+    ]);
     words.extend(least.into_iter().chain(text("° to ")).chain(most).chain(text("°.")));
     let mut blocks = vec![
         Block::Text(words),
@@ -259,7 +292,11 @@ fn nodes<'a>(page: &ReportPage<'a>) -> Option<Section<'a>> {
             limit: None,
         }),
     ];
-    blocks.extend(page.share_listed(rows.len(), all.len(), "largest conical residual first, then largest deficit"));
+    blocks.extend(page.share_listed(
+        rows.len(),
+        all.len(),
+        "largest conical residual first, then largest deficit",
+    ));
     blocks.push(Block::Table(Table {
         class: "nodes",
         head: &["Node", "Valence", "Where", "Conical residual, mm/mm", "Angle deficit, °"],
@@ -290,8 +327,10 @@ fn edges<'a>(page: &ReportPage<'a>) -> Option<Section<'a>> {
     };
     let rims = all.iter().filter(|e| e.dihedral_degrees.is_none()).count();
     let edges = count(all.len(), "edge", "edges");
-    let mut blocks =
-        vec![Block::Text(text(format!("{edges}, {rims} without an angle (rims)."))), Block::Chart(dihedrals(all))];
+    let mut blocks = vec![
+        Block::Text(text(format!("{edges}, {rims} without an angle (rims)."))),
+        Block::Chart(dihedrals(all)),
+    ];
     blocks.extend(page.share_listed(rows.len(), all.len(), "those farthest from flat first"));
     blocks.push(Block::Table(Table {
         class: "edges",
@@ -307,9 +346,14 @@ fn dihedrals(edges: &[EdgeDetail]) -> Chart {
     for angle in edges.iter().filter_map(|e| e.dihedral_degrees) {
         *counts.entry((angle / BIN) as usize).or_insert(0) += 1;
     }
-    let range = counts.keys().next().copied().unwrap_or(0)..=counts.keys().last().copied().unwrap_or(0);
+    let range =
+        counts.keys().next().copied().unwrap_or(0)..=counts.keys().last().copied().unwrap_or(0);
     let count_of = |bin: &usize| counts.get(bin).copied().unwrap_or(0);
-    let bar = |bin: usize| Bar { label: format!("{}", bin as f64 * BIN), count: count_of(&bin), is_kept: true };
+    let bar = |bin: usize| Bar {
+        label: format!("{}", bin as f64 * BIN),
+        count: count_of(&bin),
+        is_kept: true,
+    };
     Chart {
         name: "Edges by dihedral angle",
         axis: "dihedral angle, in degrees, from the number shown to 10 more",
@@ -332,7 +376,8 @@ fn faces<'a>(page: &ReportPage<'a>) -> Option<Section<'a>> {
         cells.extend([optional(p.percent), share, vec![Word::Verdict(f.breach.is_none())]]);
         cells
     };
-    let mut blocks = page.share_listed(rows.len(), r.faces.len(), "those that use most of their limits first");
+    let mut blocks =
+        page.share_listed(rows.len(), r.faces.len(), "those that use most of their limits first");
     blocks.push(Block::Table(Table {
         class: "faces",
         head: &["Panel", "Sides", "mm", "‰", "°", "%", "% of the limit", "Planarity"],
@@ -342,7 +387,10 @@ fn faces<'a>(page: &ReportPage<'a>) -> Option<Section<'a>> {
 }
 
 fn definitions<'a>(_: &ReportPage<'a>) -> Option<Section<'a>> {
-    Some(Section { title: "What the figures mean".to_owned(), blocks: vec![Block::Terms(&DEFINITIONS)] })
+    Some(Section {
+        title: "What the figures mean".to_owned(),
+        blocks: vec![Block::Terms(&DEFINITIONS)],
+    })
 }
 
 impl ReportPage<'_> {

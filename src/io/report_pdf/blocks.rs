@@ -27,8 +27,12 @@ const CARD_LINE: f64 = 11.0;
 /// How much of a block must be on the page of its heading.
 pub(super) fn least_room(block: &Block<'_>) -> f64 {
     match block {
-        Block::Text(words) => BODY.font.wrap(&plain(words), BODY.size, WIDTH).len() as f64 * BODY.leading() + GAP,
-        Block::Note(words) => SMALL.font.wrap(&plain(words), SMALL.size, WIDTH).len() as f64 * SMALL.leading() + GAP,
+        Block::Text(words) => {
+            BODY.font.wrap(&plain(words), BODY.size, WIDTH).len() as f64 * BODY.leading() + GAP
+        }
+        Block::Note(words) => {
+            SMALL.font.wrap(&plain(words), SMALL.size, WIDTH).len() as f64 * SMALL.leading() + GAP
+        }
         Block::Table(_) | Block::Terms(_) => 4.0 * (LINE_HEIGHT + ROW_EXTRA),
         Block::Chart(_) => CHART[0],
         Block::Panels(cards) => cards.first().map_or(0.0, card_height),
@@ -37,19 +41,28 @@ pub(super) fn least_room(block: &Block<'_>) -> f64 {
 
 /// A table, its head once more on every page.
 pub(super) fn table(paper: &mut Paper, table: &Table) {
-    let cells: Vec<Vec<String>> = table.rows.iter().map(|row| row.iter().map(|words| plain(words)).collect()).collect();
+    let cells: Vec<Vec<String>> =
+        table.rows.iter().map(|row| row.iter().map(|words| plain(words)).collect()).collect();
     let columns = columns(table, &cells);
     head(paper, table, &columns);
     for (row, cells) in table.rows.iter().zip(&cells) {
-        let lines: Vec<Vec<String>> =
-            columns.iter().zip(cells).map(|(c, text)| CELL.font.wrap(text, CELL.size, c.room())).collect();
+        let lines: Vec<Vec<String>> = columns
+            .iter()
+            .zip(cells)
+            .map(|(c, text)| CELL.font.wrap(text, CELL.size, c.room()))
+            .collect();
         let height = lines.iter().map(Vec::len).max().unwrap_or(1) as f64 * LINE_HEIGHT + ROW_EXTRA;
         if paper.need(height) {
             head(paper, table, &columns);
         }
         for ((column, lines), words) in columns.iter().zip(&lines).zip(row) {
             for (k, line) in lines.iter().enumerate() {
-                column.write(paper, paper.y + (k + 1) as f64 * LINE_HEIGHT - 1.0, cell_pen(words), line);
+                column.write(
+                    paper,
+                    paper.y + (k + 1) as f64 * LINE_HEIGHT - 1.0,
+                    cell_pen(words),
+                    line,
+                );
             }
         }
         paper.y += height;
@@ -98,7 +111,8 @@ impl Column {
 /// Columns as wide as their widest cell; what is left goes to the wide one, or to all alike.
 fn columns(table: &Table, cells: &[Vec<String>]) -> Vec<Column> {
     let natural = |i: usize| {
-        let cells = cells.iter().filter_map(|row| row.get(i)).map(|text| CELL.font.width(text, CELL.size));
+        let cells =
+            cells.iter().filter_map(|row| row.get(i)).map(|text| CELL.font.width(text, CELL.size));
         cells.fold(HEAD.font.width(table.head[i], HEAD.size), f64::max) + 2.0 * PADDING
     };
     let mut widths: Vec<f64> = (0..table.head.len()).map(natural).collect();
@@ -146,7 +160,8 @@ pub(super) fn chart(paper: &mut Paper, chart: &Chart) {
         let x = LEFT + at * step;
         paper.dashes(x, paper.y + 2.0, base, BAD);
         let pen = Pen { colour: BAD, ..COUNT };
-        let (anchor, shift) = if at * step > WIDTH / 2.0 { (Anchor::End, -4.0) } else { (Anchor::Start, 4.0) };
+        let (anchor, shift) =
+            if at * step > WIDTH / 2.0 { (Anchor::End, -4.0) } else { (Anchor::Start, 4.0) };
         paper.text([x + shift, paper.y + 9.0], anchor, pen, words);
     }
     paper.text([LEFT + WIDTH / 2.0, base + 24.0], Anchor::Middle, SMALL, chart.axis);
@@ -188,7 +203,11 @@ fn draw_card(paper: &mut Paper, card: &PanelCard<'_>, x: f64, height: f64) {
     let pictures = [&card.pictures.close, &card.pictures.place];
     for (i, png) in pictures.into_iter().enumerate() {
         if let Some(raster) = Raster::of_png(png) {
-            paper.image([x + 8.0 + i as f64 * (picture_width() + 6.0), top + 24.0], picture_width(), raster);
+            paper.image(
+                [x + 8.0 + i as f64 * (picture_width() + 6.0), top + 24.0],
+                picture_width(),
+                raster,
+            );
         }
     }
     let mut base = top + 24.0 + 0.75 * picture_width() + CARD_LINE + 2.0;

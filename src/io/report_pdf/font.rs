@@ -1,7 +1,8 @@
-//! Text in the two fonts that every PDF reader has, Helvetica and its bold, so that none is embedded.
+//! Text in the two fonts that every PDF reader has, Helvetica and its bold, so that none is
+//! embedded.
 //!
-//! Widths are those of Adobe's metrics for its core fonts, in thousandths of the size, by code of the encoding (WinAnsi,
-//! which is code page 1252).
+//! Widths are those of Adobe's metrics for its core fonts, in thousandths of the size, by code of
+//! the encoding (WinAnsi, which is code page 1252).
 
 use std::fmt::Write as _;
 
@@ -44,7 +45,8 @@ impl Font {
         f64::from(widths[usize::from(code) - FIRST])
     }
 
-    /// A text in lines no longer than the room, divided between words; a word that is longer is divided anywhere.
+    /// A text in lines no longer than the room, divided between words; a word that is longer is
+    /// divided anywhere.
     pub(super) fn wrap(self, text: &str, size: f64, room: f64) -> Vec<String> {
         let mut lines = vec![String::new()];
         let mut used = 0.0;
@@ -88,7 +90,8 @@ pub(super) fn string(text: &str) -> String {
     out + ")"
 }
 
-/// The code of a character; signs that the encoding lacks become their nearest kin, letters that it lacks a question mark.
+/// The code of a character; signs that the encoding lacks become their nearest kin, letters that it
+/// lacks a question mark.
 fn code(c: char) -> u8 {
     match c {
         ' '..='~' => c as u8,
@@ -138,13 +141,20 @@ mod tests {
 
     #[test]
     fn signs_of_reports_have_codes_and_widths() {
-        assert_eq!(string("a (b) 5 ‰ \u{2212}3° “x” 日"), r"(a \(b\) 5 \211 \2263\260 \223x\224 ?)");
+        assert_eq!(
+            string("a (b) 5 ‰ \u{2212}3° “x” 日"),
+            r"(a \(b\) 5 \211 \2263\260 \223x\224 ?)"
+        );
         assert!((Font::Regular.width("0000", 10.0) - 22.24).abs() < 1e-9);
         assert!((Font::Bold.width("W", 1000.0) - 944.0).abs() < 1e-9);
         for font in Font::ALL {
             let codes = (' '..='~').chain('\u{a0}'..='\u{ff}').chain(HIGH.chars()).map(code);
             assert!(codes.clone().all(|code| font.advance(code) > 0.0));
-            assert_eq!(codes.filter(|&code| code == b'?').count(), 2, "the question mark and the soft hyphen");
+            assert_eq!(
+                codes.filter(|&code| code == b'?').count(),
+                2,
+                "the question mark and the soft hyphen"
+            );
         }
     }
 
@@ -154,7 +164,10 @@ mod tests {
         for room in [30.0, 60.0, 200.0, 1000.0] {
             let lines = Font::Regular.wrap(text, 10.0, room);
             assert_eq!(lines.concat(), text);
-            assert!(lines.iter().all(|line| Font::Regular.width(line.trim_end(), 10.0) <= room), "{lines:?}");
+            assert!(
+                lines.iter().all(|line| Font::Regular.width(line.trim_end(), 10.0) <= room),
+                "{lines:?}"
+            );
         }
         assert_eq!(Font::Regular.wrap(text, 10.0, 1000.0).len(), 1);
     }

@@ -100,7 +100,11 @@ impl Paper {
         };
         let (font, size) = (pen.font.short(), decimal(pen.size));
         let (colour, x, y) = (fill(pen.colour), decimal(x), decimal(PAGE[1] - y));
-        let _ = writeln!(self.pages[page], "BT {colour} /{font} {size} Tf {x} {y} Td {} Tj ET", string(text));
+        let _ = writeln!(
+            self.pages[page],
+            "BT {colour} /{font} {size} Tf {x} {y} Td {} Tj ET",
+            string(text)
+        );
     }
 
     /// Text in as many lines as it needs, from page to page.
@@ -170,17 +174,27 @@ impl Paper {
 
     fn file(&self, title: &str, command: &str) -> Vec<u8> {
         let mut file = Objects::packed();
-        // 1 the catalogue, 2 the pages, 3 the information, then the fonts, the pictures, and two objects a page.
+        // 1 the catalogue, 2 the pages, 3 the information, then the fonts, the pictures, and two
+        // objects a page.
         let fonts = 4;
         let images = fonts + Font::ALL.len();
         let page_at = |i: usize| images + self.images.len() + 2 * i;
-        file.add("<< /Type /Catalog /Pages 2 0 R /Lang (en) /ViewerPreferences << /DisplayDocTitle true >> >>");
-        let kids: Vec<String> = (0..self.pages.len()).map(|i| format!("{} 0 R", page_at(i))).collect();
+        file.add(
+            "<< /Type /Catalog /Pages 2 0 R /Lang (en) /ViewerPreferences << /DisplayDocTitle \
+        true >> >>",
+        );
+        let kids: Vec<String> =
+            (0..self.pages.len()).map(|i| format!("{} 0 R", page_at(i))).collect();
         let [width, height] = PAGE.map(decimal);
         let named = |names: Vec<String>, first: usize| -> String {
-            names.iter().enumerate().map(|(i, name)| format!(" /{name} {} 0 R", first + i)).collect()
+            names
+                .iter()
+                .enumerate()
+                .map(|(i, name)| format!(" /{name} {} 0 R", first + i))
+                .collect()
         };
-        let font_names = named(Font::ALL.iter().map(|font| font.short().to_owned()).collect(), fonts);
+        let font_names =
+            named(Font::ALL.iter().map(|font| font.short().to_owned()).collect(), fonts);
         let image_names = named((0..self.images.len()).map(|i| format!("I{i}")).collect(), images);
         file.add(&format!(
             "<< /Type /Pages /Count {} /Kids [{}] /MediaBox [0 0 {width} {height}] \
@@ -192,17 +206,23 @@ impl Paper {
         file.add(&format!("<< /Title {title} /Subject {command} /Creator (kerfold) >>"));
         for font in Font::ALL {
             let name = font.name();
-            file.add(&format!("<< /Type /Font /Subtype /Type1 /BaseFont /{name} /Encoding /WinAnsiEncoding >>"));
+            file.add(&format!(
+                "<< /Type /Font /Subtype /Type1 /BaseFont /{name} /Encoding /WinAnsiEncoding >>"
+            ));
         }
         for Raster { width, height, rgb } in &self.images {
             let kind = format!(
-                "/Type /XObject /Subtype /Image /Width {width} /Height {height} /ColorSpace /DeviceRGB /BitsPerComponent 8 "
+                "/Type /XObject /Subtype /Image /Width {width} /Height {height} /ColorSpace \
+                /DeviceRGB /BitsPerComponent 8 "
             );
             file.add_stream(&(kind + "/Filter /FlateDecode"), &compress_to_vec_zlib(rgb, PACKING));
         }
         for (i, page) in self.pages.iter().enumerate() {
             file.add(&format!("<< /Type /Page /Parent 2 0 R /Contents {} 0 R >>", page_at(i) + 1));
-            file.add_stream("/Filter /FlateDecode", &compress_to_vec_zlib(page.as_bytes(), PACKING));
+            file.add_stream(
+                "/Filter /FlateDecode",
+                &compress_to_vec_zlib(page.as_bytes(), PACKING),
+            );
         }
         file.finish()
     }

@@ -1,7 +1,7 @@
 //! Pictures as a PDF holds them: rows of red, green and blue, taken from a PNG file.
 //!
-//! Reads what our own pictures are: eight bits a channel, three or four channels, rows one after the other (PNG
-//! specification, third edition: 5.3 chunks, 9.2 filters).
+//! Reads what our own pictures are: eight bits a channel, three or four channels, rows one after
+//! the other (PNG specification, third edition: 5.3 chunks, 9.2 filters).
 
 use miniz_oxide::inflate::decompress_to_vec_zlib_with_limit;
 
@@ -18,7 +18,8 @@ pub(super) struct Raster {
 const LARGEST: usize = 1 << 15;
 
 impl Raster {
-    /// Reads a PNG file; what is not opaque lies on white. `None` for what is no PNG file of the kind described above.
+    /// Reads a PNG file; what is not opaque lies on white. `None` for what is no PNG file of the
+    /// kind described above.
     pub(super) fn of_png(png: &[u8]) -> Option<Self> {
         let mut rest = png.strip_prefix(b"\x89PNG\r\n\x1a\n")?;
         let (mut head, mut packed) = (None, Vec::new());
@@ -38,7 +39,8 @@ impl Raster {
             6 => 4,
             _ => return None,
         };
-        let [width, height] = [[w0, w1, w2, w3], [h0, h1, h2, h3]].map(|b| u32::from_be_bytes(b) as usize);
+        let [width, height] =
+            [[w0, w1, w2, w3], [h0, h1, h2, h3]].map(|b| u32::from_be_bytes(b) as usize);
         if width == 0 || height == 0 || width > LARGEST || height > LARGEST {
             return None;
         }
@@ -105,7 +107,13 @@ mod tests {
         let mut pixmap = tiny_skia::Pixmap::new(37, 23).expect("a size");
         for (i, pixel) in pixmap.pixels_mut().iter_mut().enumerate() {
             let at = |k: usize| ((i * k * k) % 251) as u8;
-            *pixel = tiny_skia::ColorU8::from_rgba(at(3), at(7), at(1), if i % 5 == 0 { 0 } else { 255 }).premultiply();
+            *pixel = tiny_skia::ColorU8::from_rgba(
+                at(3),
+                at(7),
+                at(1),
+                if i % 5 == 0 { 0 } else { 255 },
+            )
+            .premultiply();
         }
         let png = pixmap.encode_png().expect("a file");
         let raster = Raster::of_png(&png).expect("a picture");

@@ -16,19 +16,28 @@ impl Made {
     fn of(mesh: &Mesh) -> Self {
         let params = CheckParams { require: vec![Requirement::Valence3], ..CheckParams::default() };
         let report = check(mesh, &params).expect("good limits");
-        let pictures = report_pictures(mesh, &report, &RenderParams::default()).expect("a model that can be drawn");
+        let pictures = report_pictures(mesh, &report, &RenderParams::default())
+            .expect("a model that can be drawn");
         Self { details: details(mesh), report, pictures }
     }
 
     fn page(&self, rows: ReportRows) -> ReportPage<'_> {
         let Self { report, details, pictures } = self;
-        ReportPage { title: "a (b) \\ é 日.obj", report, details, pictures, rows, command: "kerfold check 'a.obj'" }
+        ReportPage {
+            title: "a (b) \\ é 日.obj",
+            report,
+            details,
+            pictures,
+            rows,
+            command: "kerfold check 'a.obj'",
+        }
     }
 }
 
 /// A geodesic sphere whose corners were pulled about, divided into quads.
 fn bent() -> Mesh {
-    let params = SolidParams { name: "cuboctahedron".parse().expect("a name"), edge: None, size: None };
+    let params =
+        SolidParams { name: "cuboctahedron".parse().expect("a name"), edge: None, size: None };
     let mut mesh = solid(&params).expect("a solid");
     let v = mesh.vertices().next().expect("a corner");
     mesh.set_position(v, mesh.position(v) * 1.2, true);
@@ -43,9 +52,11 @@ fn streams(pdf: &[u8]) -> Vec<(String, Vec<u8>)> {
         let begin = find(start, b"stream\n").expect("a stream") + 7;
         let words = String::from_utf8_lossy(&pdf[start + 8..begin]).into_owned();
         let length: usize = words.split(' ').next().and_then(|n| n.parse().ok()).expect("a length");
-        let object = (0..start).rev().find(|&i| pdf[i..].starts_with(b"<< ")).expect("a dictionary");
+        let object =
+            (0..start).rev().find(|&i| pdf[i..].starts_with(b"<< ")).expect("a dictionary");
         let dictionary = String::from_utf8_lossy(&pdf[object..begin]).into_owned();
-        let bytes = miniz_oxide::inflate::decompress_to_vec_zlib(&pdf[begin..begin + length]).expect("packed");
+        let bytes = miniz_oxide::inflate::decompress_to_vec_zlib(&pdf[begin..begin + length])
+            .expect("packed");
         found.push((dictionary, bytes));
         at = begin + length;
     }
@@ -66,7 +77,8 @@ fn the_file_is_whole() {
     let pdf = check_pdf(&made.page(ReportRows::Worst));
     assert!(pdf.starts_with(b"%PDF-1.5\n") && pdf.ends_with(b"%%EOF\n"));
     // The table of places points at every object.
-    let table = (0..pdf.len()).rev().find(|&i| pdf[i..].starts_with(b"\nxref\n")).expect("a table") + 1;
+    let table =
+        (0..pdf.len()).rev().find(|&i| pdf[i..].starts_with(b"\nxref\n")).expect("a table") + 1;
     let text = String::from_utf8(pdf[table..].to_vec()).expect("ASCII");
     let places = text.lines().filter_map(|line| line.strip_suffix(" 00000 n "));
     let mut count = 0;
@@ -100,7 +112,10 @@ fn everything_that_the_content_says_is_on_the_pages() {
         let content = content(&page);
         is_there(content.title);
         is_there(&content.verdict.1);
-        content.facts.iter().for_each(|(name, value)| [*name, &plain(value)].into_iter().for_each(is_there));
+        content
+            .facts
+            .iter()
+            .for_each(|(name, value)| [*name, &plain(value)].into_iter().for_each(is_there));
         content.views.iter().for_each(|view| is_there(&view.caption));
         for section in &content.sections {
             is_there(&section.title);
@@ -108,15 +123,24 @@ fn everything_that_the_content_says_is_on_the_pages() {
                 match block {
                     Block::Text(words) | Block::Note(words) => is_there(&plain(words)),
                     Block::Table(table) => {
-                        assert!(!table.rows.is_empty() && table.rows.iter().all(|r| r.len() == table.head.len()));
+                        assert!(
+                            !table.rows.is_empty()
+                                && table.rows.iter().all(|r| r.len() == table.head.len())
+                        );
                         table.rows.iter().flatten().for_each(|words| is_there(&plain(words)));
                     }
                     Block::Chart(chart) => {
                         is_there(chart.axis);
-                        chart.bars.iter().filter(|b| b.count > 0).for_each(|b| is_there(&b.count.to_string()));
+                        chart
+                            .bars
+                            .iter()
+                            .filter(|b| b.count > 0)
+                            .for_each(|b| is_there(&b.count.to_string()));
                     }
                     Block::Panels(cards) => cards.iter().for_each(|card| is_there(&card.name)),
-                    Block::Terms(list) => list.iter().for_each(|(a, b)| [*a, *b].into_iter().for_each(is_there)),
+                    Block::Terms(list) => {
+                        list.iter().for_each(|(a, b)| [*a, *b].into_iter().for_each(is_there))
+                    }
                 }
             }
         }
@@ -136,8 +160,12 @@ fn long_tables_go_on_with_their_head_and_nothing_leaves_the_paper() {
     for (_, page) in streams(&pdf).iter().filter(|(dictionary, _)| !dictionary.contains("/Image")) {
         let text = String::from_utf8(page.clone()).expect("ASCII");
         for line in text.lines().filter_map(|line| line.split_once(" Td ")) {
-            let place: Vec<f64> = line.0.rsplit(' ').take(2).filter_map(|n| n.parse().ok()).collect();
-            assert!((20.0..820.0).contains(&place[0]) && (40.0..560.0).contains(&place[1]), "{line:?}");
+            let place: Vec<f64> =
+                line.0.rsplit(' ').take(2).filter_map(|n| n.parse().ok()).collect();
+            assert!(
+                (20.0..820.0).contains(&place[0]) && (40.0..560.0).contains(&place[1]),
+                "{line:?}"
+            );
         }
     }
 }

@@ -1,7 +1,9 @@
-//! Binary glTF 2.0 (GLB): named nodes in a tree, faces with colours, and animations, in single precision.
+//! Binary glTF 2.0 (GLB): named nodes in a tree, faces with colours, and animations, in single
+//! precision.
 //!
-//! A [`GlbScene`] is in millimetres with z up, as everything here. The file is in metres with y up, as glTF asks; one node
-//! around everything turns and scales it. Normals are left out: readers then shade every triangle flat, as plates and folded paper are.
+//! A [`GlbScene`] is in millimetres with z up, as everything here. The file is in metres with y up,
+//! as glTF asks; one node around everything turns and scales it. Normals are left out: readers then
+//! shade every triangle flat, as plates and folded paper are.
 //!
 //! Source: the glTF 2.0 specification of the Khronos Group.
 
@@ -55,7 +57,8 @@ pub struct GlbNode {
 pub struct GlbSurface {
     /// Points in the node's own frame, in mm.
     pub points: Vec<DVec3>,
-    /// Triangles by the places of their corners, counter-clockwise from outside, with their material.
+    /// Triangles by the places of their corners, counter-clockwise from outside, with their
+    /// material.
     pub triangles: Vec<[u32; 3]>,
     /// The material of the triangles; the reader's own when missing.
     pub material: Option<GlbMaterialId>,
@@ -90,7 +93,8 @@ pub struct GlbTrack {
 /// Values of a [`GlbTrack`], as many as it has moments.
 #[derive(Debug, Clone, PartialEq)]
 pub enum GlbValues {
-    /// Rotations relative to the parent, of unit length; readers turn from one to the next by the shorter way.
+    /// Rotations relative to the parent, of unit length; readers turn from one to the next by the
+    /// shorter way.
     Rotations(Vec<DQuat>),
     /// Translations relative to the parent, in mm.
     Translations(Vec<DVec3>),
@@ -103,8 +107,17 @@ impl GlbScene {
     }
 
     /// Adds a material.
-    pub fn add_material(&mut self, name: impl Into<String>, colour: [u8; 3], opacity: f64) -> GlbMaterialId {
-        self.materials.push(GlbMaterial { name: name.into(), colour, opacity: opacity.clamp(0.0, 1.0) });
+    pub fn add_material(
+        &mut self,
+        name: impl Into<String>,
+        colour: [u8; 3],
+        opacity: f64,
+    ) -> GlbMaterialId {
+        self.materials.push(GlbMaterial {
+            name: name.into(),
+            colour,
+            opacity: opacity.clamp(0.0, 1.0),
+        });
         GlbMaterialId(self.materials.len() - 1)
     }
 
@@ -150,11 +163,19 @@ pub fn glb_bytes(scene: &GlbScene, command: &str) -> Result<Vec<u8>, IoError> {
     let generator = json!({ "version": "2.0", "generator": "kerfold", "extras": { "command": one_line(command) } });
     root.insert("asset".to_owned(), generator);
     root.insert("scene".to_owned(), json!(0));
-    root.insert("scenes".to_owned(), json!([{ "name": one_line(&scene.name), "nodes": [scene.nodes.len()] }]));
+    root.insert(
+        "scenes".to_owned(),
+        json!([{ "name": one_line(&scene.name), "nodes": [scene.nodes.len()] }]),
+    );
     root.insert("nodes".to_owned(), Value::Array(nodes));
     // glTF forbids empty lists.
     let materials: Vec<Value> = scene.materials.iter().map(material).collect();
-    let lists = [("meshes", meshes), ("materials", materials), ("accessors", accessors), ("bufferViews", views)];
+    let lists = [
+        ("meshes", meshes),
+        ("materials", materials),
+        ("accessors", accessors),
+        ("bufferViews", views),
+    ];
     for (key, list) in lists.into_iter().filter(|(_, list)| !list.is_empty()) {
         root.insert(key.to_owned(), Value::Array(list));
     }
@@ -266,9 +287,12 @@ impl File {
             (TRIANGLES, surface.triangles.as_flattened(), surface.material),
             (LINES, surface.lines.as_flattened(), surface.line_material),
         ];
-        for (mode, places, material) in parts.into_iter().filter(|(_, places, _)| !places.is_empty()) {
+        for (mode, places, material) in
+            parts.into_iter().filter(|(_, places, _)| !places.is_empty())
+        {
             let indices = self.indices(places);
-            let mut primitive = json!({ "attributes": { "POSITION": points }, "indices": indices, "mode": mode });
+            let mut primitive =
+                json!({ "attributes": { "POSITION": points }, "indices": indices, "mode": mode });
             if let Some(material) = material {
                 primitive["material"] = json!(material.0);
             }
@@ -285,18 +309,25 @@ impl File {
             let input = self.moments(&track.times, name)?;
             let (output, path) = match &track.values {
                 GlbValues::Rotations(values) => {
-                    let numbers = values.iter().map(|q| singles(q.to_array(), name)).collect::<Result<Vec<_>, _>>()?;
+                    let numbers = values
+                        .iter()
+                        .map(|q| singles(q.to_array(), name))
+                        .collect::<Result<Vec<_>, _>>()?;
                     (self.floats(&numbers, "VEC4", None), "rotation")
                 }
                 GlbValues::Translations(values) => {
-                    let numbers = values.iter().map(|p| singles(p.to_array(), name)).collect::<Result<Vec<_>, _>>()?;
+                    let numbers = values
+                        .iter()
+                        .map(|p| singles(p.to_array(), name))
+                        .collect::<Result<Vec<_>, _>>()?;
                     (self.floats(&numbers, "VEC3", None), "translation")
                 }
             };
             channels.push(json!({ "sampler": samplers.len(), "target": { "node": track.node.0, "path": path } }));
             samplers.push(json!({ "input": input, "output": output, "interpolation": "LINEAR" }));
         }
-        let animation = json!({ "name": one_line(&scene.name), "channels": channels, "samplers": samplers });
+        let animation =
+            json!({ "name": one_line(&scene.name), "channels": channels, "samplers": samplers });
         Ok((!channels.is_empty()).then_some(animation))
     }
 
@@ -312,10 +343,16 @@ impl File {
     }
 
     /// An accessor with its bounds.
-    fn floats<const N: usize>(&mut self, numbers: &[[f32; N]], kind: &str, target: Option<u32>) -> usize {
+    fn floats<const N: usize>(
+        &mut self,
+        numbers: &[[f32; N]],
+        kind: &str,
+        target: Option<u32>,
+    ) -> usize {
         let view = self.view(numbers.as_flattened().iter().flat_map(|x| x.to_le_bytes()), target);
         let bound = |pick: fn(f32, f32) -> f32| {
-            let all = numbers.iter().copied().reduce(|a, b| std::array::from_fn(|i| pick(a[i], b[i])));
+            let all =
+                numbers.iter().copied().reduce(|a, b| std::array::from_fn(|i| pick(a[i], b[i])));
             all.map_or_else(Vec::new, |bound| bound.to_vec())
         };
         self.accessors.push(json!({
@@ -327,8 +364,7 @@ impl File {
 
     fn indices(&mut self, places: &[u32]) -> usize {
         let view = self.view(places.iter().flat_map(|i| i.to_le_bytes()), Some(34963));
-        let accessor =
-            json!({ "bufferView": view, "componentType": UNSIGNED, "count": places.len(), "type": "SCALAR" });
+        let accessor = json!({ "bufferView": view, "componentType": UNSIGNED, "count": places.len(), "type": "SCALAR" });
         self.accessors.push(accessor);
         self.accessors.len() - 1
     }
@@ -337,7 +373,8 @@ impl File {
     fn view(&mut self, bytes: impl Iterator<Item = u8>, target: Option<u32>) -> usize {
         let start = self.bytes.len();
         self.bytes.extend(bytes);
-        let mut view = json!({ "buffer": 0, "byteOffset": start, "byteLength": self.bytes.len() - start });
+        let mut view =
+            json!({ "buffer": 0, "byteOffset": start, "byteLength": self.bytes.len() - start });
         if let Some(target) = target {
             view["target"] = json!(target);
         }
@@ -348,7 +385,11 @@ impl File {
 
 fn singles<const N: usize>(numbers: [f64; N], name: &str) -> Result<[f32; N], IoError> {
     let single = numbers.map(|x| x as f32);
-    if single.iter().all(|x| x.is_finite()) { Ok(single) } else { Err(IoError::TooFarForGlb { name: name.to_owned() }) }
+    if single.iter().all(|x| x.is_finite()) {
+        Ok(single)
+    } else {
+        Err(IoError::TooFarForGlb { name: name.to_owned() })
+    }
 }
 
 #[cfg(test)]
@@ -378,14 +419,24 @@ mod tests {
         };
         let hand = scene.add_node(node("hand", Some(arm), Some(surface)));
         let turns = vec![DQuat::IDENTITY, DQuat::from_rotation_x(1.0)];
-        scene.add_track(GlbTrack { node: hand, times: vec![0.0, 2.0], values: GlbValues::Rotations(turns) });
+        scene.add_track(GlbTrack {
+            node: hand,
+            times: vec![0.0, 2.0],
+            values: GlbValues::Rotations(turns),
+        });
         let places = vec![DVec3::ZERO, DVec3::Z];
-        scene.add_track(GlbTrack { node: arm, times: vec![0.0, 2.0], values: GlbValues::Translations(places) });
+        scene.add_track(GlbTrack {
+            node: arm,
+            times: vec![0.0, 2.0],
+            values: GlbValues::Translations(places),
+        });
         scene
     }
 
     fn chunks(file: &[u8]) -> (Value, &[u8]) {
-        let word = |at: usize| u32::from_le_bytes([file[at], file[at + 1], file[at + 2], file[at + 3]]) as usize;
+        let word = |at: usize| {
+            u32::from_le_bytes([file[at], file[at + 1], file[at + 2], file[at + 3]]) as usize
+        };
         assert_eq!((&file[..4], word(4), word(8)), (&b"glTF"[..], 2, file.len()));
         let text = word(12);
         assert_eq!((text % 4, &file[16..20]), (0, &b"JSON"[..]));
@@ -404,21 +455,30 @@ mod tests {
         assert_eq!(root["nodes"][0]["children"], json!([1]));
         assert_eq!(root["nodes"][1]["translation"], json!([0.0, 5.0, 0.0]));
         assert_eq!(root["meshes"][0]["primitives"].as_array().map(Vec::len), Some(2));
-        assert_eq!(root["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"], json!([1.0, 0.0, 0.0, 1.0]));
+        assert_eq!(
+            root["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"],
+            json!([1.0, 0.0, 0.0, 1.0])
+        );
         assert_eq!(root["materials"][1]["alphaMode"], "BLEND");
         assert_eq!(root["accessors"][0]["max"], json!([1.0, 1.0, 0.0]));
         let samplers = root["animations"][0]["samplers"].as_array().expect("samplers");
         assert_eq!(samplers[0]["input"], samplers[1]["input"], "equal moments are written once");
         assert_eq!(root["buffers"][0]["byteLength"], json!(bytes.len()));
-        for (view, accessor) in
-            root["bufferViews"].as_array().into_iter().flatten().zip(root["accessors"].as_array().into_iter().flatten())
+        for (view, accessor) in root["bufferViews"]
+            .as_array()
+            .into_iter()
+            .flatten()
+            .zip(root["accessors"].as_array().into_iter().flatten())
         {
             let wide = match accessor["type"].as_str() {
                 Some("SCALAR") => 4,
                 Some("VEC3") => 12,
                 _ => 16,
             };
-            assert_eq!(view["byteLength"], json!(wide * accessor["count"].as_u64().expect("a count")));
+            assert_eq!(
+                view["byteLength"],
+                json!(wide * accessor["count"].as_u64().expect("a count"))
+            );
         }
     }
 

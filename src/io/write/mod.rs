@@ -1,5 +1,5 @@
-//! Writing mesh files: one writer for each format. Elements are numbered densely in the order of their ids; holes are not
-//! written.
+//! Writing mesh files: one writer for each format. Elements are numbered densely in the order of
+//! their ids; holes are not written.
 
 use std::path::Path;
 
@@ -20,7 +20,8 @@ mod stl;
 /// How a mesh file is written.
 #[derive(Debug, Clone, Default)]
 pub struct WriteOptions {
-    /// The whole command line that made the mesh (`kerfold solid cube -o cube.obj`), for a comment in the file.
+    /// The whole command line that made the mesh (`kerfold solid cube -o cube.obj`), for a comment
+    /// in the file.
     pub command: Option<String>,
     /// How PLY files are encoded.
     pub ply: PlyEncoding,
@@ -51,24 +52,29 @@ fn one_line(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }
 
-/// Writes a mesh to a file in the format of its extension, or as OBJ to standard output when the path is `-`.
-/// The file is whole or not there ([`output::write_file`]).
+/// Writes a mesh to a file in the format of its extension, or as OBJ to standard output when the
+/// path is `-`. The file is whole or not there ([`output::write_file`]).
 ///
 /// # Errors
 /// When the extension is not known or the file cannot be written.
 pub fn write_mesh(path: &Path, mesh: &Mesh, options: &WriteOptions) -> Result<(), IoError> {
-    let format = MeshFormat::of_path(path).ok_or_else(|| IoError::UnknownFormat { path: path.to_owned() })?;
+    let format = MeshFormat::of_path(path)
+        .ok_or_else(|| IoError::UnknownFormat { path: path.to_owned() })?;
     output::write_file(path, &mesh_bytes(format, mesh, options)?)
 }
 
 /// The content of a mesh file.
 ///
-/// OBJ, PLY and OFF keep every digit of the coordinates; OBJ alone keeps groups and seams; STL rounds to single precision
-/// and cuts faces into triangles.
+/// OBJ, PLY and OFF keep every digit of the coordinates; OBJ alone keeps groups and seams; STL
+/// rounds to single precision and cuts faces into triangles.
 ///
 /// # Errors
 /// [`IoError::TooFarForStl`] when a coordinate does not fit.
-pub fn mesh_bytes(format: MeshFormat, mesh: &Mesh, options: &WriteOptions) -> Result<Vec<u8>, IoError> {
+pub fn mesh_bytes(
+    format: MeshFormat,
+    mesh: &Mesh,
+    options: &WriteOptions,
+) -> Result<Vec<u8>, IoError> {
     Ok(match format {
         MeshFormat::Obj => obj::write(mesh, options),
         MeshFormat::Ply => ply::write(mesh, options),

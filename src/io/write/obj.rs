@@ -16,7 +16,12 @@ pub(super) fn write(mesh: &Mesh, options: &WriteOptions) -> Vec<u8> {
     text
 }
 
-fn write_into(text: &mut Vec<u8>, mesh: &Mesh, polygons: &Polygons, options: &WriteOptions) -> std::io::Result<()> {
+fn write_into(
+    text: &mut Vec<u8>,
+    mesh: &Mesh,
+    polygons: &Polygons,
+    options: &WriteOptions,
+) -> std::io::Result<()> {
     if let Some(command) = options.comment() {
         writeln!(text, "# {command}")?;
     }
@@ -36,8 +41,10 @@ fn write_into(text: &mut Vec<u8>, mesh: &Mesh, polygons: &Polygons, options: &Wr
         }
         text.push(b'\n');
     }
-    let seams =
-        mesh.edges().filter(|&e| mesh.is_seam(e)).map(|e| mesh.edge_vertices(e).map(|v| polygons.numbers[v] + 1));
+    let seams = mesh
+        .edges()
+        .filter(|&e| mesh.is_seam(e))
+        .map(|e| mesh.edge_vertices(e).map(|v| polygons.numbers[v] + 1));
     for (i, [a, b]) in seams.filter(|[a, b]| a != b).enumerate() {
         if i == 0 {
             writeln!(text, "g seam")?;

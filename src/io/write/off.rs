@@ -8,11 +8,17 @@ use crate::mesh::Mesh;
 
 pub(super) fn write(mesh: &Mesh, options: &WriteOptions) -> Vec<u8> {
     let mut text = Vec::new();
-    write_into(&mut text, mesh, &Polygons::of(mesh), options).expect("writing into memory does not fail");
+    write_into(&mut text, mesh, &Polygons::of(mesh), options)
+        .expect("writing into memory does not fail");
     text
 }
 
-fn write_into(text: &mut Vec<u8>, mesh: &Mesh, polygons: &Polygons, options: &WriteOptions) -> std::io::Result<()> {
+fn write_into(
+    text: &mut Vec<u8>,
+    mesh: &Mesh,
+    polygons: &Polygons,
+    options: &WriteOptions,
+) -> std::io::Result<()> {
     writeln!(text, "OFF")?;
     if let Some(command) = options.comment() {
         writeln!(text, "# {command}")?;

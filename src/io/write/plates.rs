@@ -1,4 +1,5 @@
-//! Plates as meshes: OBJ with a group for each panel, STL, and GLB with names, colours and lettering.
+//! Plates as meshes: OBJ with a group for each panel, STL, and GLB with names, colours and
+//! lettering.
 
 use std::io::Write as _;
 
@@ -22,7 +23,8 @@ pub struct NamedPlate<'a> {
     pub plate: &'a Plate,
 }
 
-/// An OBJ with a group for each plate. Faces stay polygons where they are convex and without holes, else they are triangles.
+/// An OBJ with a group for each plate. Faces stay polygons where they are convex and without holes,
+/// else they are triangles.
 pub fn plates_obj(plates: &[NamedPlate<'_>], command: &str) -> Vec<u8> {
     let mut text = Vec::new();
     write_obj(&mut text, plates, command).expect("writing into memory does not fail");
@@ -111,25 +113,33 @@ const COLOURS: [[u8; 3]; 12] = [
     [180, 180, 180],
 ];
 
-/// A GLB with a node for each plate: its name, the colour of its group, its edges, and its name lettered on the front.
+/// A GLB with a node for each plate: its name, the colour of its group, its edges, and its name
+/// lettered on the front.
 ///
 /// # Errors
 /// [`IoError`] when a number does not fit into single precision.
 pub fn plates_glb(plates: &[NamedPlate<'_>], command: &str) -> Result<Vec<u8>, IoError> {
     let mut scene = GlbScene::new("panels");
     let used = plates.iter().map(|p| p.group + 1).max().unwrap_or(0).min(COLOURS.len());
-    let colours: Vec<_> = (0..used).map(|i| scene.add_material(format!("colour {}", i + 1), COLOURS[i], 1.0)).collect();
+    let colours: Vec<_> = (0..used)
+        .map(|i| scene.add_material(format!("colour {}", i + 1), COLOURS[i], 1.0))
+        .collect();
     let ink = scene.add_material("lines", [40, 40, 40], 1.0);
     for named in plates {
         let body = solid(named.plate);
-        // Every node stands where its plate does, so that single precision has its digits for the plate.
+        // Every node stands where its plate does, so that single precision has its digits for the
+        // plate.
         let origin = named.plate.frame.origin;
-        let mut surface =
-            GlbSurface { material: colours.get(named.group % COLOURS.len()).copied(), ..GlbSurface::default() };
+        let mut surface = GlbSurface {
+            material: colours.get(named.group % COLOURS.len()).copied(),
+            ..GlbSurface::default()
+        };
         surface.points = body.points.iter().map(|&p| p - origin).collect();
         surface.triangles = body.faces.iter().flat_map(|face| triangles(&body, face)).collect();
-        let loops = body.faces.iter().take(2).flat_map(|f| std::iter::once(&f.outline).chain(&f.holes));
-        surface.lines = loops.flat_map(|l| (0..l.len()).map(|i| [l[i], l[(i + 1) % l.len()]])).collect();
+        let loops =
+            body.faces.iter().take(2).flat_map(|f| std::iter::once(&f.outline).chain(&f.holes));
+        surface.lines =
+            loops.flat_map(|l| (0..l.len()).map(|i| [l[i], l[(i + 1) % l.len()]])).collect();
         let n = named.plate.front.len() as u32;
         surface.lines.extend((0..n).map(|i| [i, n + i]));
         letter(&mut surface, named, origin);
@@ -145,12 +155,13 @@ pub fn plates_glb(plates: &[NamedPlate<'_>], command: &str) -> Result<Vec<u8>, I
     glb_bytes(&scene, command)
 }
 
-/// The share of the free room on the front that the name takes, and how far it floats above the front, relative to its height.
+/// The share of the free room on the front that the name takes, and how far it floats above the
+/// front, relative to its height.
 const NAME_SHARE: f64 = 0.5;
 const FLOAT: f64 = 0.02;
 
-/// What is up for somebody who reads a plate from outside, as in the views of the assembly map: the sky, and for plates that
-/// rather lie than stand what is away from the front.
+/// What is up for somebody who reads a plate from outside, as in the views of the assembly map: the
+/// sky, and for plates that rather lie than stand what is away from the front.
 fn upwards(normal: DVec3) -> DVec3 {
     let lies = normal.z.abs() >= normal.x.abs().max(normal.y.abs());
     if lies { DVec3::Y * normal.z.signum() } else { DVec3::Z }
@@ -161,7 +172,8 @@ fn letter(surface: &mut GlbSurface, named: &NamedPlate<'_>, origin: DVec3) {
     let up = upwards(frame.normal);
     let up = DVec2::new(up.dot(frame.x), up.dot(frame.y)).normalize_or(DVec2::Y);
     let right = -up.perp();
-    let turned: Vec<DVec2> = named.plate.inner.iter().map(|p| DVec2::new(p.dot(right), p.dot(up))).collect();
+    let turned: Vec<DVec2> =
+        named.plate.inner.iter().map(|p| DVec2::new(p.dot(right), p.dot(up))).collect();
     let (at, room) = label_room(&turned);
     let Ok(unit) = lettering(&named.name, 1.0) else { return };
     let size = unit.high - unit.low;
@@ -185,7 +197,8 @@ fn flat(body: &Solid, face: &SolidFace) -> Vec<Vec<DVec2>> {
     let first = body.points[face.outline[0] as usize];
     let Some(plane) = Plane::new(face.normal, first) else { return Vec::new() };
     let frame = Frame::on_plane(&plane);
-    let flatten = |l: &Vec<u32>| l.iter().map(|&i| frame.flatten(body.points[i as usize])).collect();
+    let flatten =
+        |l: &Vec<u32>| l.iter().map(|&i| frame.flatten(body.points[i as usize])).collect();
     std::iter::once(&face.outline).chain(&face.holes).map(flatten).collect()
 }
 
@@ -194,7 +207,10 @@ fn is_simple_polygon(body: &Solid, face: &SolidFace) -> bool {
     let contours = flat(body, face);
     let [outline] = contours.as_slice() else { return false };
     let n = outline.len();
-    (0..n).all(|i| (outline[(i + 1) % n] - outline[i]).perp_dot(outline[(i + 2) % n] - outline[(i + 1) % n]) >= 0.0)
+    (0..n).all(|i| {
+        (outline[(i + 1) % n] - outline[i]).perp_dot(outline[(i + 2) % n] - outline[(i + 1) % n])
+            >= 0.0
+    })
 }
 
 /// The triangles of a face, counter-clockwise from outside.
@@ -205,7 +221,8 @@ fn triangles(body: &Solid, face: &SolidFace) -> Vec<[u32; 3]> {
     {
         return vec![[a, b, c], [a, c, d]];
     }
-    let corners: Vec<u32> = std::iter::once(&face.outline).chain(&face.holes).flatten().copied().collect();
+    let corners: Vec<u32> =
+        std::iter::once(&face.outline).chain(&face.holes).flatten().copied().collect();
     let found = triangulate_contours(&flat(body, face));
     found.into_iter().map(|t| t.map(|i| corners[i])).collect()
 }

@@ -11,14 +11,24 @@ pub(super) fn write(mesh: &Mesh, options: &WriteOptions) -> Vec<u8> {
     let mut bytes = Vec::new();
     write_header(&mut bytes, &polygons, options).expect("writing into memory does not fail");
     match options.ply {
-        PlyEncoding::Text => write_text(&mut bytes, &polygons).expect("writing into memory does not fail"),
-        PlyEncoding::BinaryLittleEndian => write_binary(&mut bytes, &polygons, f64::to_le_bytes, u32::to_le_bytes),
-        PlyEncoding::BinaryBigEndian => write_binary(&mut bytes, &polygons, f64::to_be_bytes, u32::to_be_bytes),
+        PlyEncoding::Text => {
+            write_text(&mut bytes, &polygons).expect("writing into memory does not fail")
+        }
+        PlyEncoding::BinaryLittleEndian => {
+            write_binary(&mut bytes, &polygons, f64::to_le_bytes, u32::to_le_bytes)
+        }
+        PlyEncoding::BinaryBigEndian => {
+            write_binary(&mut bytes, &polygons, f64::to_be_bytes, u32::to_be_bytes)
+        }
     }
     bytes
 }
 
-fn write_header(bytes: &mut Vec<u8>, polygons: &Polygons, options: &WriteOptions) -> std::io::Result<()> {
+fn write_header(
+    bytes: &mut Vec<u8>,
+    polygons: &Polygons,
+    options: &WriteOptions,
+) -> std::io::Result<()> {
     let encoding = match options.ply {
         PlyEncoding::Text => "ascii",
         PlyEncoding::BinaryLittleEndian => "binary_little_endian",
@@ -49,7 +59,12 @@ fn write_text(bytes: &mut Vec<u8>, polygons: &Polygons) -> std::io::Result<()> {
     Ok(())
 }
 
-fn write_binary(bytes: &mut Vec<u8>, polygons: &Polygons, double: fn(f64) -> [u8; 8], uint: fn(u32) -> [u8; 4]) {
+fn write_binary(
+    bytes: &mut Vec<u8>,
+    polygons: &Polygons,
+    double: fn(f64) -> [u8; 8],
+    uint: fn(u32) -> [u8; 4],
+) {
     bytes.extend(polygons.positions.iter().flat_map(|p| p.to_array()).flat_map(double));
     for (_, corners) in polygons.faces() {
         // Ids of a mesh fit into u32.

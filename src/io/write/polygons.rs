@@ -14,8 +14,9 @@ pub(super) struct Polygons {
 }
 
 impl Polygons {
-    /// The living vertices and the faces that are not holes, ascending. Corners that repeat the one before are left out,
-    /// and so are faces with fewer than three different corners, which no file format can hold.
+    /// The living vertices and the faces that are not holes, ascending. Corners that repeat the one
+    /// before are left out, and so are faces with fewer than three different corners, which no file
+    /// format can hold.
     pub fn of(mesh: &Mesh) -> Self {
         let mut positions = Vec::with_capacity(mesh.vertex_count());
         let mut numbers = VertexMap::filled(mesh.vertex_slots(), usize::MAX);
@@ -23,8 +24,12 @@ impl Polygons {
             numbers[v] = positions.len();
             positions.push(mesh.position(v));
         }
-        let mut polygons =
-            Self { positions, numbers, faces: Vec::with_capacity(mesh.face_count()), corners: Vec::new() };
+        let mut polygons = Self {
+            positions,
+            numbers,
+            faces: Vec::with_capacity(mesh.face_count()),
+            corners: Vec::new(),
+        };
         for f in mesh.faces() {
             polygons.push_face(f, mesh.face_vertices(f));
         }

@@ -1,7 +1,9 @@
-//! Plates as STEP (ISO 10303-21, AP214): one product with one named solid for each plate, in millimetres.
+//! Plates as STEP (ISO 10303-21, AP214): one product with one named solid for each plate, in
+//! millimetres.
 //!
-//! Every solid is an advanced boundary representation: planes bounded by lines, and round holes as cylinders between two
-//! circles with one seam. Numbers have all their digits, so the surfaces meet to rounding.
+//! Every solid is an advanced boundary representation: planes bounded by lines, and round holes as
+//! cylinders between two circles with one seam. Numbers have all their digits, so the surfaces meet
+//! to rounding.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -67,10 +69,12 @@ impl Step {
     fn context(&mut self) -> Context {
         let application = self.add("APPLICATION_CONTEXT('automotive design')");
         self.add(&format!(
-            "APPLICATION_PROTOCOL_DEFINITION('international standard','automotive_design',2000,#{application})"
+            "APPLICATION_PROTOCOL_DEFINITION('international \
+            standard','automotive_design',2000,#{application})"
         ));
         let product = self.add(&format!("PRODUCT_CONTEXT('',#{application},'mechanical')"));
-        let definition = self.add(&format!("PRODUCT_DEFINITION_CONTEXT('part definition',#{application},'design')"));
+        let definition = self
+            .add(&format!("PRODUCT_DEFINITION_CONTEXT('part definition',#{application},'design')"));
         let length = self.add("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))");
         let angle = self.add("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))");
         let solid_angle = self.add("(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())");
@@ -95,7 +99,8 @@ impl Step {
         ));
         let product = self.add(&format!("PRODUCT({name},{name},'',(#{}))", context.product));
         let formation = self.add(&format!("PRODUCT_DEFINITION_FORMATION('','',#{product})"));
-        let definition = self.add(&format!("PRODUCT_DEFINITION('design','',#{formation},#{})", context.definition));
+        let definition = self
+            .add(&format!("PRODUCT_DEFINITION('design','',#{formation},#{})", context.definition));
         let defined = self.add(&format!("PRODUCT_DEFINITION_SHAPE('','',#{definition})"));
         self.add(&format!("SHAPE_DEFINITION_REPRESENTATION(#{defined},#{shape})"));
         product
@@ -127,11 +132,18 @@ impl Step {
             }
             let mut bounds = vec![self.bound("FACE_OUTER_BOUND", &loop_edges)];
             match face.side {
-                SolidSide::Front => bounds
-                    .extend(bores.iter().map(|b| self.bound("FACE_BOUND", &[(b.front, false)])).collect::<Vec<_>>()),
-                SolidSide::Back => {
-                    bounds.extend(bores.iter().map(|b| self.bound("FACE_BOUND", &[(b.back, true)])).collect::<Vec<_>>())
-                }
+                SolidSide::Front => bounds.extend(
+                    bores
+                        .iter()
+                        .map(|b| self.bound("FACE_BOUND", &[(b.front, false)]))
+                        .collect::<Vec<_>>(),
+                ),
+                SolidSide::Back => bounds.extend(
+                    bores
+                        .iter()
+                        .map(|b| self.bound("FACE_BOUND", &[(b.back, true)]))
+                        .collect::<Vec<_>>(),
+                ),
                 SolidSide::Cut | SolidSide::Bore => {}
             }
             let [a, b] = [0, 1].map(|i| solid.points[face.outline[i] as usize]);
@@ -140,7 +152,8 @@ impl Step {
             faces.push(self.add(&format!("ADVANCED_FACE('',({}),#{plane},.T.)", list(&bounds))));
         }
         for bore in &bores {
-            let round = [(bore.front, true), (bore.seam, false), (bore.back, false), (bore.seam, true)];
+            let round =
+                [(bore.front, true), (bore.seam, false), (bore.back, false), (bore.seam, true)];
             let bound = self.bound("FACE_OUTER_BOUND", &round);
             faces.push(self.add(&format!("ADVANCED_FACE('',(#{bound}),#{},.F.)", bore.surface)));
         }
@@ -153,7 +166,8 @@ impl Step {
         let (axis, x) = (plate.frame.normal, plate.frame.x);
         let [front, back] = [plate.on_front(hole.centre), plate.on_back(hole.centre)];
         let on_circle = |centre: DVec3| centre + x * hole.radius;
-        let [front_vertex, back_vertex] = [front, back].map(|centre| self.vertex(on_circle(centre)));
+        let [front_vertex, back_vertex] =
+            [front, back].map(|centre| self.vertex(on_circle(centre)));
         let mut circle = |vertex: usize, centre: DVec3| {
             let placement = self.placement(centre, axis, x);
             let circle = self.add(&format!("CIRCLE('',#{placement},{})", real(hole.radius)));
@@ -162,7 +176,8 @@ impl Step {
         let (front_edge, back_edge) = (circle(front_vertex, front), circle(back_vertex, back));
         let seam = self.line(back_vertex, front_vertex, on_circle(back), on_circle(front));
         let placement = self.placement(back, axis, x);
-        let surface = self.add(&format!("CYLINDRICAL_SURFACE('',#{placement},{})", real(hole.radius)));
+        let surface =
+            self.add(&format!("CYLINDRICAL_SURFACE('',#{placement},{})", real(hole.radius)));
         Bore { front: front_edge, back: back_edge, seam, surface }
     }
 
@@ -258,7 +273,9 @@ mod tests {
 
     #[test]
     fn numbers_have_a_point() {
-        for (value, text) in [(1.0, "1.0"), (1e-7, "1.E-7"), (2.5e-9, "2.5E-9"), (-0.0, "0.0"), (1e22, "1.E22")] {
+        for (value, text) in
+            [(1.0, "1.0"), (1e-7, "1.E-7"), (2.5e-9, "2.5E-9"), (-0.0, "0.0"), (1e22, "1.E22")]
+        {
             assert_eq!(real(value), text);
         }
     }
@@ -273,7 +290,10 @@ mod tests {
             frame: Frame { origin: DVec3::ZERO, x: DVec3::X, y: DVec3::Y, normal: DVec3::Z },
             half_edges: vec![],
             reference: square.clone(),
-            back: square.iter().map(|&p| DVec2::splat(10.0) + (p - DVec2::splat(10.0)) * 0.8).collect(),
+            back: square
+                .iter()
+                .map(|&p| DVec2::splat(10.0) + (p - DVec2::splat(10.0)) * 0.8)
+                .collect(),
             blank: square.clone(),
             inner: square.clone(),
             front: square,
@@ -281,10 +301,13 @@ mod tests {
             ends: vec![1, 2, 3, 0],
             holes: vec![hole(DVec2::new(5.0, 5.0)), hole(DVec2::new(15.0, 5.0))],
         };
-        let bytes = step_bytes([StepPart { name: "P01", plate: &plate }].into_iter(), "kerfold panels");
+        let bytes =
+            step_bytes([StepPart { name: "P01", plate: &plate }].into_iter(), "kerfold panels");
         let text = String::from_utf8(bytes).expect("ASCII");
         let ids = |line: &str| -> Vec<usize> {
-            let digits = |t: &str| t.split(|c: char| !c.is_ascii_digit()).next().and_then(|d| d.parse().ok());
+            let digits = |t: &str| {
+                t.split(|c: char| !c.is_ascii_digit()).next().and_then(|d| d.parse().ok())
+            };
             line.split('#').skip(1).filter_map(digits).collect()
         };
         let mut defined = std::collections::BTreeSet::new();
@@ -294,7 +317,10 @@ mod tests {
             assert!(defined.insert(ids[0]), "{line}");
         }
         let count = |word: &str| text.matches(word).count();
-        assert_eq!((count("ADVANCED_FACE("), count("CYLINDRICAL_SURFACE("), count("PLANE('',#")), (6 + 2, 2, 6));
+        assert_eq!(
+            (count("ADVANCED_FACE("), count("CYLINDRICAL_SURFACE("), count("PLANE('',#")),
+            (6 + 2, 2, 6)
+        );
         assert_eq!(count("ORIENTED_EDGE("), 2 * count("EDGE_CURVE("));
     }
 

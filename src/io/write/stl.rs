@@ -40,15 +40,19 @@ pub(super) fn write(mesh: &Mesh, options: &WriteOptions) -> Result<Vec<u8>, IoEr
 
 fn triangles(points: &[DVec3], frame: Option<&Frame>) -> Vec<[usize; 3]> {
     match frame {
-        Some(frame) if points.len() > 3 => triangulate(&points.iter().map(|&p| frame.flatten(p)).collect::<Vec<_>>()),
+        Some(frame) if points.len() > 3 => {
+            triangulate(&points.iter().map(|&p| frame.flatten(p)).collect::<Vec<_>>())
+        }
         _ => (2..points.len()).map(|i| [0, i - 1, i]).collect(),
     }
 }
 
-/// The 80 bytes of free text. They must not begin with `solid`, as text files do, and end between characters.
+/// The 80 bytes of free text. They must not begin with `solid`, as text files do, and end between
+/// characters.
 fn header(comment: &str) -> Vec<u8> {
     let text = format!("binary STL: {comment}");
-    let end = (0..=HEADER.min(text.len())).rev().find(|&end| text.is_char_boundary(end)).unwrap_or(0);
+    let end =
+        (0..=HEADER.min(text.len())).rev().find(|&end| text.is_char_boundary(end)).unwrap_or(0);
     let mut bytes = text.as_bytes()[..end].to_vec();
     bytes.resize(HEADER, b' ');
     bytes

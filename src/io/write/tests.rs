@@ -23,7 +23,8 @@ fn ell() -> Mesh {
 
 fn reread(format: MeshFormat, name: &str, mesh: &Mesh, options: &WriteOptions) -> Mesh {
     let bytes = mesh_bytes(format, mesh, options).expect("written");
-    let read = read_mesh_bytes(Path::new(name), &bytes, &ReadOptions::default()).expect("read back");
+    let read =
+        read_mesh_bytes(Path::new(name), &bytes, &ReadOptions::default()).expect("read back");
     assert_sound(&read.mesh);
     assert!(read.notes.is_empty(), "{:?}", read.notes);
     read.mesh
@@ -37,13 +38,18 @@ fn content(mesh: &Mesh) -> Content {
     let place = |v: VertexId| order.binary_search(&v).expect("a vertex of the mesh");
     let face = |f| (mesh.face_vertices(f).map(place).collect(), mesh.group(f).map(str::to_owned));
     let seams = mesh.edges().filter(|&e| mesh.is_seam(e)).map(|e| mesh.edge_vertices(e).map(place));
-    (order.iter().map(|&v| mesh.position(v)).collect(), mesh.faces().map(face).collect(), seams.collect())
+    (
+        order.iter().map(|&v| mesh.position(v)).collect(),
+        mesh.faces().map(face).collect(),
+        seams.collect(),
+    )
 }
 
 #[test]
 fn an_obj_comes_back_as_it_was_and_byte_for_byte() {
     let mesh = ell();
-    let options = WriteOptions { command: Some("kerfold x\n -o y".into()), ..WriteOptions::default() };
+    let options =
+        WriteOptions { command: Some("kerfold x\n -o y".into()), ..WriteOptions::default() };
     let back = reread(MeshFormat::Obj, "a.obj", &mesh, &options);
     assert_eq!(content(&back), content(&mesh));
     let bytes = |mesh| mesh_bytes(MeshFormat::Obj, mesh, &options).expect("written");
@@ -51,7 +57,10 @@ fn an_obj_comes_back_as_it_was_and_byte_for_byte() {
     let text = String::from_utf8(bytes(&mesh)).expect("text");
     assert!(text.starts_with("# kerfold x  -o y\nv 0.1 0.2 0\nv 2 0 0\n"), "{text}");
     assert!(text.contains("v 0.1 0.2 0.3333333333333333\n"), "{text}");
-    assert!(text.contains("g caps and more\nf 6 5 4 3 2 1\nf 7 8 9 10 11 12\ng default\nf 1 2 8 7\n"), "{text}");
+    assert!(
+        text.contains("g caps and more\nf 6 5 4 3 2 1\nf 7 8 9 10 11 12\ng default\nf 1 2 8 7\n"),
+        "{text}"
+    );
     assert!(text.ends_with("g seam\nl 7 1\n"), "{text}");
 }
 
@@ -62,10 +71,20 @@ fn ply_and_off_keep_every_digit_and_the_order() {
     let plain: Vec<_> = faces.into_iter().map(|(corners, _)| (corners, None)).collect();
     let command = Some("kerfold made this".to_owned());
     for ply in [PlyEncoding::Text, PlyEncoding::BinaryLittleEndian, PlyEncoding::BinaryBigEndian] {
-        let back = reread(MeshFormat::Ply, "a.ply", &mesh, &WriteOptions { command: command.clone(), ply });
+        let back = reread(
+            MeshFormat::Ply,
+            "a.ply",
+            &mesh,
+            &WriteOptions { command: command.clone(), ply },
+        );
         assert_eq!(content(&back), (positions.clone(), plain.clone(), vec![]));
     }
-    let back = reread(MeshFormat::Off, "a.off", &mesh, &WriteOptions { command, ..WriteOptions::default() });
+    let back = reread(
+        MeshFormat::Off,
+        "a.off",
+        &mesh,
+        &WriteOptions { command, ..WriteOptions::default() },
+    );
     assert_eq!(content(&back), (positions, plain, vec![]));
 }
 
@@ -80,21 +99,25 @@ fn an_stl_encloses_the_same_volume_even_when_faces_are_concave() {
     assert!((measure::surface_area(&back) - measure::surface_area(&mesh)).abs() < 1e-6);
     let long = WriteOptions { command: Some("solid ä".repeat(30)), ..WriteOptions::default() };
     reread(MeshFormat::Stl, "a.stl", &mesh, &long);
-    let far = Mesh::from_faces([DVec3::ZERO, DVec3::X * 1e39, DVec3::Y], [[0, 1, 2]]).expect("a triangle");
+    let far = Mesh::from_faces([DVec3::ZERO, DVec3::X * 1e39, DVec3::Y], [[0, 1, 2]])
+        .expect("a triangle");
     let error = mesh_bytes(MeshFormat::Stl, &far, &WriteOptions::default()).expect_err("too far");
     assert!(matches!(error, IoError::TooFarForStl { vertex: 1 }));
 }
 
 #[test]
 fn loops_two_gons_and_holes_are_not_written() {
-    let mut mesh = Mesh::from_faces([DVec3::ZERO, DVec3::X, DVec3::Y], [[0, 1, 2]]).expect("a triangle");
+    let mut mesh =
+        Mesh::from_faces([DVec3::ZERO, DVec3::X, DVec3::Y], [[0, 1, 2]]).expect("a triangle");
     let h = mesh.face_half_edges(FaceId::new(0)).next().expect("an edge");
     let at = crate::mesh::Corner::At;
     // A second edge beside the first makes a 2-gon, a loop at its end repeats a corner.
     mesh.insert_edge(at(h), at(mesh.next(h))).expect("an edge");
     let corner = mesh.face_half_edges(FaceId::new(0)).next().expect("an edge");
     mesh.insert_edge(at(corner), at(corner)).expect("a loop");
-    let text = String::from_utf8(mesh_bytes(MeshFormat::Obj, &mesh, &WriteOptions::default()).expect("written"));
+    let text = String::from_utf8(
+        mesh_bytes(MeshFormat::Obj, &mesh, &WriteOptions::default()).expect("written"),
+    );
     let text = text.expect("text");
     assert_eq!(text.matches("\nf ").count(), 1, "{text}");
     let back = reread(MeshFormat::Obj, "a.obj", &mesh, &WriteOptions::default());
@@ -103,8 +126,12 @@ fn loops_two_gons_and_holes_are_not_written() {
 
 #[test]
 fn an_unknown_extension_is_refused() {
-    let error = write_mesh(Path::new("a.step"), &ell(), &WriteOptions::default()).expect_err("unknown");
-    assert_eq!(error.to_string(), "a.step: unknown mesh format; use a name that ends in .obj, .ply, .stl or .off");
+    let error =
+        write_mesh(Path::new("a.step"), &ell(), &WriteOptions::default()).expect_err("unknown");
+    assert_eq!(
+        error.to_string(),
+        "a.step: unknown mesh format; use a name that ends in .obj, .ply, .stl or .off"
+    );
 }
 
 proptest! {

@@ -2,7 +2,8 @@
 
 use crate::mesh::{FaceKind, HalfEdgeId};
 
-/// The walks of faces and holes, for [`Mesh::assemble`]: all half-edges in one vector, with the ends of the walks.
+/// The walks of faces and holes, for [`Mesh::assemble`]: all half-edges in one vector, with the
+/// ends of the walks.
 #[derive(Default)]
 pub(in crate::mesh) struct FaceList {
     half_edges: Vec<HalfEdgeId>,
@@ -47,6 +48,8 @@ impl FaceList {
     /// The walks in order.
     pub(in crate::mesh) fn iter(&self) -> impl Iterator<Item = (&[HalfEdgeId], FaceKind)> {
         let starts = std::iter::once(0).chain(self.ends.iter().map(|&(end, _)| end));
-        starts.zip(&self.ends).map(|(start, &(end, kind))| (&self.half_edges[start as usize..end as usize], kind))
+        starts
+            .zip(&self.ends)
+            .map(|(start, &(end, kind))| (&self.half_edges[start as usize..end as usize], kind))
     }
 }

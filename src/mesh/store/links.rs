@@ -1,8 +1,8 @@
 //! The fundamental operators: the only file that writes links.
 //!
-//! Source: Srinivasan 2004, II.5 (`CreateVertex`, `DeleteVertex`, `InsertEdge`, `DeleteEdge`), after Akleman, Chen and
-//! Srinivasan 2003. Every operator here takes a sound mesh to a sound mesh, whatever its arguments: that is what
-//! "manifold by construction" rests on.
+//! Source: Srinivasan 2004, II.5 (`CreateVertex`, `DeleteVertex`, `InsertEdge`, `DeleteEdge`),
+//! after Akleman, Chen and Srinivasan 2003. Every operator here takes a sound mesh to a sound mesh,
+//! whatever its arguments: that is what "manifold by construction" rests on.
 
 use glam::DVec3;
 
@@ -41,7 +41,7 @@ codes!(error LinkError {
 });
 
 impl Mesh {
-    // ---- fundamental operators (Srinivasan 2004, II.5) -------------------------------------------------------------
+    // ---- fundamental operators (Srinivasan 2004, II.5) ------------------------------------------
 
     /// Makes a point sphere: V + 1, F + 1, one component more.
     pub fn create_vertex(&mut self, position: DVec3) -> (VertexId, FaceId) {
@@ -64,9 +64,10 @@ impl Mesh {
 
     /// Inserts an edge from corner `from` to corner `to`: E + 1.
     ///
-    /// Within one face it divides the face (F + 1): the part on the left of the new edge, seen from `from` to `to`, is the
-    /// new face and inherits kind, plane and group. Between two faces it merges them into the face of `from` (F − 1) and
-    /// so adds a handle or joins two components. The first half-edge of the new edge leaves `from`.
+    /// Within one face it divides the face (F + 1): the part on the left of the new edge, seen from
+    /// `from` to `to`, is the new face and inherits kind, plane and group. Between two faces it
+    /// merges them into the face of `from` (F − 1) and so adds a handle or joins two components.
+    /// The first half-edge of the new edge leaves `from`.
     ///
     /// # Errors
     /// [`LinkError::NotLone`] when a [`Corner::Lone`] names a vertex with edges.
@@ -75,7 +76,8 @@ impl Mesh {
         let (u, v) = (self.corner_vertex(from), self.corner_vertex(to));
         let e = self.new_edge(u, v);
         let [h, t] = e.half_edges();
-        // Around u the walk arrives (from before) and leaves into h; around v it arrives at h's end and leaves (to after).
+        // Around u the walk arrives (from before) and leaves into h; around v it arrives at h's end
+        // and leaves (to after).
         let (a, b) = (self.corner_half_edge(from), self.corner_half_edge(to));
         if from == to {
             // A self-loop: h bounds the new one-sided face, t joins the old walk.
@@ -107,9 +109,9 @@ impl Mesh {
 
     /// Deletes an edge: E − 1.
     ///
-    /// Between two faces it merges them (F − 1); the face of the edge's first half-edge goes, so that deleting undoes
-    /// [`Self::insert_edge`]. With the same face on both
-    /// sides it divides that face into two (F + 1), which cuts a handle or a component apart; an end that loses its last
+    /// Between two faces it merges them (F − 1); the face of the edge's first half-edge goes, so
+    /// that deleting undoes [`Self::insert_edge`]. With the same face on both sides it divides that
+    /// face into two (F + 1), which cuts a handle or a component apart; an end that loses its last
     /// edge becomes a point sphere.
     pub fn delete_edge(&mut self, e: EdgeId) {
         self.delete_edge_of(e.half_edge());
@@ -120,12 +122,16 @@ impl Mesh {
         let (e, t) = (h.edge(), h.twin());
         let (g, f) = (self.face(h), self.face(t));
         let (u, v) = (self.origin(h), self.origin(t));
-        let (before_h, after_h, before_t, after_t) = (self.prev(h), self.next(h), self.prev(t), self.next(t));
+        let (before_h, after_h, before_t, after_t) =
+            (self.prev(h), self.next(h), self.prev(t), self.next(t));
         self.free_edge(e);
         // The walk that came into u before h goes on with what followed t, and the same at v.
-        let at_u = (before_h != h && before_h != t && after_t != h && after_t != t).then_some((before_h, after_t));
-        let at_v = (before_t != t && before_t != h && after_h != t && after_h != h).then_some((before_t, after_h));
-        // A self-loop around nothing: what came before one side goes on with what followed the same side.
+        let at_u = (before_h != h && before_h != t && after_t != h && after_t != t)
+            .then_some((before_h, after_t));
+        let at_v = (before_t != t && before_t != h && after_h != t && after_h != h)
+            .then_some((before_t, after_h));
+        // A self-loop around nothing: what came before one side goes on with what followed the same
+        // side.
         let through = if after_t == t && before_h != h {
             Some((before_h, after_h))
         } else if after_h == h && before_t != t {
@@ -142,7 +148,12 @@ impl Mesh {
     }
 
     /// The ends of a deleted edge get another outgoing half-edge, or wait to be made point spheres.
-    fn restart_after_delete(&mut self, u: VertexId, v: VertexId, joined: [Option<(HalfEdgeId, HalfEdgeId)>; 3]) {
+    fn restart_after_delete(
+        &mut self,
+        u: VertexId,
+        v: VertexId,
+        joined: [Option<(HalfEdgeId, HalfEdgeId)>; 3],
+    ) {
         self.vertices[u.index()].start = Link::FREE;
         self.vertices[v.index()].start = Link::FREE;
         for (_, after) in joined.into_iter().flatten() {
@@ -161,12 +172,14 @@ impl Mesh {
     ) {
         let loops: Vec<HalfEdgeId> = self.distinct_loops(joined);
         let lone: Vec<VertexId> = if u == v { vec![u] } else { vec![u, v] };
-        let lone: Vec<VertexId> = lone.into_iter().filter(|w| self.vertices[w.index()].start == Link::FREE).collect();
+        let lone: Vec<VertexId> =
+            lone.into_iter().filter(|w| self.vertices[w.index()].start == Link::FREE).collect();
         let pieces = loops.len() + lone.len();
         if f != g {
             self.free_face(g);
         }
-        let faces: Vec<FaceId> = (0..pieces).map(|i| if i == 0 { f } else { self.new_face_like(f) }).collect();
+        let faces: Vec<FaceId> =
+            (0..pieces).map(|i| if i == 0 { f } else { self.new_face_like(f) }).collect();
         for (&start, &face) in loops.iter().zip(&faces) {
             self.assign_loop(start, face);
         }
@@ -186,10 +199,11 @@ impl Mesh {
         loops
     }
 
-    // ---- built straight on the fundamentals ------------------------------------------------------------------------
+    // ---- built straight on the fundamentals -----------------------------------------------------
 
-    /// Divides an edge by a new vertex at `position`: V + 1, E + 1. The edge keeps its origin; the new edge leads on to its
-    /// target and inherits the seam mark. Same as `create_vertex`, two `insert_edge` and a `delete_edge`, in constant time.
+    /// Divides an edge by a new vertex at `position`: V + 1, E + 1. The edge keeps its origin; the
+    /// new edge leads on to its target and inherits the seam mark. Same as `create_vertex`, two
+    /// `insert_edge` and a `delete_edge`, in constant time.
     pub fn split_edge(&mut self, e: EdgeId, position: DVec3) -> (VertexId, EdgeId) {
         let [h, t] = e.half_edges();
         let end = self.origin(t);
@@ -212,8 +226,8 @@ impl Mesh {
         (m, added)
     }
 
-    /// Joins the two edges of a valence-2 vertex into one and removes the vertex: V − 1, E − 1. The inverse of
-    /// [`Self::split_edge`]; the edge with the lower id stays.
+    /// Joins the two edges of a valence-2 vertex into one and removes the vertex: V − 1, E − 1. The
+    /// inverse of [`Self::split_edge`]; the edge with the lower id stays.
     ///
     /// # Errors
     /// [`LinkError::NotValenceTwo`] when the vertex has another number of edges, or one self-loop.
@@ -224,7 +238,8 @@ impl Mesh {
             return Err(LinkError::NotValenceTwo(v));
         }
         let (stay, go) = if out.edge() < other.edge() { (out, other) } else { (other, out) };
-        // stay leaves v; its twin enters v and is followed by go. After the join, stay leaves the far end of go.
+        // stay leaves v; its twin enters v and is followed by go. After the join, stay leaves the
+        // far end of go.
         let (far, back) = (self.target(go), go.twin());
         let (after_go, before_back) = (self.next(go), self.prev(back));
         if after_go == back {
@@ -243,8 +258,9 @@ impl Mesh {
         Ok(stay.edge())
     }
 
-    /// Contracts an edge to the origin of its first half-edge: V − 1, E − 1. Faces lose one side, so a triangle becomes a
-    /// 2-gon. The constant-time core of `CollapseEdge` (Srinivasan 2004, III.6).
+    /// Contracts an edge to the origin of its first half-edge: V − 1, E − 1. Faces lose one side,
+    /// so a triangle becomes a 2-gon. The constant-time core of `CollapseEdge` (Srinivasan 2004,
+    /// III.6).
     ///
     /// # Errors
     /// [`LinkError::SelfLoop`] when both ends are one vertex.
@@ -259,7 +275,8 @@ impl Mesh {
             self.half_edges[out.index()].origin = u;
         }
         let (f, g) = (self.face(h), self.face(t));
-        // One after the other: where the two follow each other, the second removal closes what the first opened.
+        // One after the other: where the two follow each other, the second removal closes what the
+        // first opened.
         for side in [h, t] {
             self.link(self.prev(side), self.next(side));
         }
@@ -282,9 +299,10 @@ impl Mesh {
 
     /// Pulls a vertex apart between two of its corners in the same face: V + 1, F + 1.
     ///
-    /// `a` and `b` leave the same vertex and lie on the same face, which touches itself there; the face becomes two faces
-    /// and the half-edges from `b` up to `a`, around the vertex, get a vertex of their own. Returns the new vertex and the
-    /// new face, which holds `b`. `None` when the corners do not share vertex and face, or are the same.
+    /// `a` and `b` leave the same vertex and lie on the same face, which touches itself there; the
+    /// face becomes two faces and the half-edges from `b` up to `a`, around the vertex, get a
+    /// vertex of their own. Returns the new vertex and the new face, which holds `b`. `None` when
+    /// the corners do not share vertex and face, or are the same.
     pub fn split_vertex(&mut self, a: HalfEdgeId, b: HalfEdgeId) -> Option<(VertexId, FaceId)> {
         let (v, f) = (self.origin(a), self.face(a));
         if a == b || self.origin(b) != v || self.face(b) != f {
@@ -311,10 +329,11 @@ impl Mesh {
         Some((split_off, new))
     }
 
-    /// Assembles a mesh from consistently oriented faces in one go: the bulk twin of `insert_edge` for the builder.
+    /// Assembles a mesh from consistently oriented faces in one go: the bulk twin of `insert_edge`
+    /// for the builder.
     ///
-    /// `edges` lists each edge once as (origin, target) and `faces` the half-edges of each face and hole in order; the
-    /// builder has checked that every half-edge appears exactly once.
+    /// `edges` lists each edge once as (origin, target) and `faces` the half-edges of each face and
+    /// hole in order; the builder has checked that every half-edge appears exactly once.
     pub(in crate::mesh) fn assemble(
         positions: Vec<Option<DVec3>>,
         edges: Vec<(VertexId, VertexId)>,
@@ -324,11 +343,20 @@ impl Mesh {
         let unset = HalfEdgeId(NONE);
         mesh.half_edges = Vec::with_capacity(2 * edges.len());
         for (a, b) in edges {
-            let pair = [a, b].map(|origin| HalfEdge { next: unset, prev: unset, origin, face: FaceId(NONE) });
+            let pair = [a, b].map(|origin| HalfEdge {
+                next: unset,
+                prev: unset,
+                origin,
+                face: FaceId(NONE),
+            });
             mesh.half_edges.extend(pair);
         }
         let absent: Vec<usize> = (0..positions.len()).filter(|&v| positions[v].is_none()).collect();
-        let vertex = |p: Option<DVec3>| Vertex { position: p.unwrap_or_default(), start: Link::FREE, is_given: true };
+        let vertex = |p: Option<DVec3>| Vertex {
+            position: p.unwrap_or_default(),
+            start: Link::FREE,
+            is_given: true,
+        };
         // In the memory of the positions, which are as large.
         mesh.vertices = positions.into_iter().map(vertex).collect();
         for (h, half_edge) in mesh.half_edges.iter().enumerate() {
@@ -355,13 +383,20 @@ impl Mesh {
         mesh
     }
 
-    /// Closes the gaps that deleted elements left, keeping the order of what lives. Returns where everything went.
+    /// Closes the gaps that deleted elements left, keeping the order of what lives. Returns where
+    /// everything went.
     pub fn compact(&mut self) -> Renumbering {
-        let has_vertex: Vec<bool> = (0..self.vertices.len()).map(|i| self.vertices[i].start != Link::FREE).collect();
-        let has_edge: Vec<bool> = (0..self.seams.len()).map(|i| self.half_edges[2 * i].next.0 != NONE).collect();
-        let has_face: Vec<bool> = (0..self.faces.len()).map(|i| self.faces[i].start != Link::FREE).collect();
-        let map =
-            Renumbering { vertices: renumber(&has_vertex), edges: renumber(&has_edge), faces: renumber(&has_face) };
+        let has_vertex: Vec<bool> =
+            (0..self.vertices.len()).map(|i| self.vertices[i].start != Link::FREE).collect();
+        let has_edge: Vec<bool> =
+            (0..self.seams.len()).map(|i| self.half_edges[2 * i].next.0 != NONE).collect();
+        let has_face: Vec<bool> =
+            (0..self.faces.len()).map(|i| self.faces[i].start != Link::FREE).collect();
+        let map = Renumbering {
+            vertices: renumber(&has_vertex),
+            edges: renumber(&has_edge),
+            faces: renumber(&has_face),
+        };
         retain(&mut self.vertices, &has_vertex);
         retain(&mut self.faces, &has_face);
         retain(&mut self.seams, &has_edge);
@@ -385,7 +420,8 @@ impl Mesh {
             f.start = relink(f.start, &map.vertices);
         }
         self.compact_planes();
-        (self.free_vertices, self.free_edges, self.free_faces) = (Vec::new(), Vec::new(), Vec::new());
+        (self.free_vertices, self.free_edges, self.free_faces) =
+            (Vec::new(), Vec::new(), Vec::new());
         map
     }
 
@@ -404,7 +440,7 @@ impl Mesh {
         self.planes = planes;
     }
 
-    // ---- slots and links -------------------------------------------------------------------------------------------
+    // ---- slots and links ------------------------------------------------------------------------
 
     fn loop_from(&self, start: HalfEdgeId) -> impl Iterator<Item = HalfEdgeId> + '_ {
         std::iter::successors(Some(start), move |&h| Some(self.next(h)).filter(|&n| n != start))
@@ -473,7 +509,12 @@ impl Mesh {
     #[inline]
     fn new_edge(&mut self, from: VertexId, to: VertexId) -> EdgeId {
         let unset = HalfEdgeId(NONE);
-        let pair = [from, to].map(|origin| HalfEdge { next: unset, prev: unset, origin, face: FaceId(NONE) });
+        let pair = [from, to].map(|origin| HalfEdge {
+            next: unset,
+            prev: unset,
+            origin,
+            face: FaceId(NONE),
+        });
         if let Some(e) = self.free_edges.pop() {
             let h = e.half_edge().index();
             self.half_edges[h..h + 2].copy_from_slice(&pair);

@@ -35,12 +35,18 @@ impl Cutter {
         End { position, distance: plane.signed_distance(position), is_given: self.mesh.is_given(v) }
     }
 
-    /// The point where an edge meets the plane, given its ends and what planes its faces carry: on the edge, and, where an end was
-    /// constructed itself, moved onto the planes of the faces as far as rounding explains (the meeting point of three planes,
-    /// solved on residuals), so that errors do not add up from cut to cut. An edge between given vertices is true as it is,
-    /// while the planes of its faces are not: those of a needle lean by many digits.
+    /// The point where an edge meets the plane, given its ends and what planes its faces carry: on
+    /// the edge, and, where an end was constructed itself, moved onto the planes of the faces as
+    /// far as rounding explains (the meeting point of three planes, solved on residuals), so that
+    /// errors do not add up from cut to cut. An edge between given vertices is true as it is, while
+    /// the planes of its faces are not: those of a needle lean by many digits.
     #[inline]
-    pub(in crate::op) fn crossing_between(&self, plane: &Plane, ends: [End; 2], carried: [Option<&Plane>; 2]) -> DVec3 {
+    pub(in crate::op) fn crossing_between(
+        &self,
+        plane: &Plane,
+        ends: [End; 2],
+        carried: [Option<&Plane>; 2],
+    ) -> DVec3 {
         let on_edge = point_on_edge(ends);
         let [Some(f), Some(g)] = carried else { return on_edge };
         if ends[0].is_given && ends[1].is_given {
@@ -58,9 +64,13 @@ impl Cutter {
 /// The point of an edge that divides it in the ratio of its ends' distances from the plane.
 #[inline]
 fn point_on_edge([a, b]: [End; 2]) -> DVec3 {
-    // From the nearer end, so that the error is relative to the short way. Exact signs may differ from rounded distances in
-    // the last digit, hence the clamp.
+    // From the nearer end, so that the error is relative to the short way. Exact signs may differ
+    // from rounded distances in the last digit, hence the clamp.
     let (start, end) = if a.distance.abs() <= b.distance.abs() { (a, b) } else { (b, a) };
     let t = (start.distance / (start.distance - end.distance)).clamp(0.0, 1.0);
-    if t.is_finite() { start.position + (end.position - start.position) * t } else { start.position }
+    if t.is_finite() {
+        start.position + (end.position - start.position) * t
+    } else {
+        start.position
+    }
 }

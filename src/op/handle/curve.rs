@@ -1,6 +1,7 @@
-//! The axis of a handle: a Hermite curve, or several end to end (centripetal Catmull-Rom: Yuksel, Schaefer & Keyser 2011,
-//! "Parameterization and applications of Catmull-Rom curves"), with a frame that does not turn around it (double reflection: Wang, Jüttler, Zheng & Liu 2008,
-//! "Computation of rotation minimizing frames").
+//! The axis of a handle: a Hermite curve, or several end to end (centripetal Catmull-Rom: Yuksel,
+//! Schaefer & Keyser 2011, "Parameterization and applications of Catmull-Rom curves"), with a frame
+//! that does not turn around it (double reflection: Wang, Jüttler, Zheng & Liu 2008, "Computation
+//! of rotation minimizing frames").
 
 use glam::DVec3;
 
@@ -87,7 +88,11 @@ fn normals(mesh: &Mesh, faces: [FaceId; 2]) -> Result<[DVec3; 2], OpError> {
 
 impl Curve {
     /// The curve between two faces with weights in mm; `None` when it has no length.
-    pub fn between(mesh: &Mesh, faces: [FaceId; 2], weights: [f64; 2]) -> Result<Option<Self>, OpError> {
+    pub fn between(
+        mesh: &Mesh,
+        faces: [FaceId; 2],
+        weights: [f64; 2],
+    ) -> Result<Option<Self>, OpError> {
         let normals = normals(mesh, faces)?;
         let ends = faces.map(|f| face_centroid(mesh, f));
         let tangents = [normals[0] * weights[0], -normals[1] * weights[1]];
@@ -96,12 +101,18 @@ impl Curve {
         Ok((size > 0.0 && size.is_finite()).then_some(curve))
     }
 
-    /// The curve from one face to another through points; `None` when it has no length. It leaves along the first face's normal and arrives
-    /// along the second's, each to the side on which the nearest point lies.
-    pub fn through(mesh: &Mesh, faces: [FaceId; 2], points: &[DVec3]) -> Result<Option<Self>, OpError> {
+    /// The curve from one face to another through points; `None` when it has no length. It leaves
+    /// along the first face's normal and arrives along the second's, each to the side on which the
+    /// nearest point lies.
+    pub fn through(
+        mesh: &Mesh,
+        faces: [FaceId; 2],
+        points: &[DVec3],
+    ) -> Result<Option<Self>, OpError> {
         let normals = normals(mesh, faces)?;
         let [start, end] = faces.map(|f| face_centroid(mesh, f));
-        let same = mesh.bounds().map_or(0.0, |(low, high)| RoundingBound::of_box(low, high).length());
+        let same =
+            mesh.bounds().map_or(0.0, |(low, high)| RoundingBound::of_box(low, high).length());
         let mut way = vec![start];
         for &p in points.iter().chain([&end]) {
             // Points at one place, and centroids that were given as well, are one.
@@ -113,7 +124,10 @@ impl Curve {
             way.pop();
             way.push(end);
         }
-        if way.len() < 2 || way.iter().any(|p| !p.is_finite()) || way.windows(2).any(|w| w[0] == w[1]) {
+        if way.len() < 2
+            || way.iter().any(|p| !p.is_finite())
+            || way.windows(2).any(|w| w[0] == w[1])
+        {
             return Ok(None);
         }
         let last = way.len() - 1;
@@ -130,7 +144,10 @@ impl Curve {
             _ if i == last => along(-normals[1], legs[last - 1]),
             _ => slope(i) * knots[leg],
         };
-        let span = |i: usize| Span { ends: [way[i], way[i + 1]], tangents: [tangent(i, i), tangent(i + 1, i)] };
+        let span = |i: usize| Span {
+            ends: [way[i], way[i + 1]],
+            tangents: [tangent(i, i), tangent(i + 1, i)],
+        };
         let mut curve = Self { spans: (0..last).map(span).collect(), normals, lengths: Vec::new() };
         curve.measure();
         Ok(Some(curve))
@@ -154,9 +171,12 @@ impl Curve {
             None => (0, t),
             Some(whole) => {
                 let wanted = t * whole;
-                let step = self.lengths.partition_point(|&l| l <= wanted).clamp(1, self.lengths.len() - 1) - 1;
+                let step =
+                    self.lengths.partition_point(|&l| l <= wanted).clamp(1, self.lengths.len() - 1)
+                        - 1;
                 let (from, to) = (self.lengths[step], self.lengths[step + 1]);
-                let part = if to > from { ((wanted - from) / (to - from)).clamp(0.0, 1.0) } else { 0.0 };
+                let part =
+                    if to > from { ((wanted - from) / (to - from)).clamp(0.0, 1.0) } else { 0.0 };
                 let span = step / LENGTH_STEPS;
                 (span, ((step % LENGTH_STEPS) as f64 + part) / LENGTH_STEPS as f64)
             }
@@ -177,7 +197,13 @@ impl Curve {
             at = next;
             if i % STEPS == 0 {
                 let normal = self.normals[usize::from(i > 0)];
-                samples.push(Sample { point: at.0, along: at.1, x: across, y: at.1.cross(across), normal });
+                samples.push(Sample {
+                    point: at.0,
+                    along: at.1,
+                    x: across,
+                    y: at.1.cross(across),
+                    normal,
+                });
             }
         }
         samples
@@ -197,7 +223,8 @@ fn carried(from: (DVec3, DVec3), to: (DVec3, DVec3), across: DVec3) -> DVec3 {
     (whole - to.1 * whole.dot(to.1)).normalize_or(to.1.any_orthonormal_vector())
 }
 
-/// Segments, counted from 1, of which a corner does not go forward as seen from both of its sections.
+/// Segments, counted from 1, of which a corner does not go forward as seen from both of its
+/// sections.
 pub(super) fn crossing_segments(rings: &[Vec<DVec3>], samples: &[Sample]) -> Vec<usize> {
     // Faces at the ends need not be planar; elsewhere only rounding is allowed for.
     let slack = |ring: &[DVec3], at: &Sample| {
@@ -207,8 +234,11 @@ pub(super) fn crossing_segments(rings: &[Vec<DVec3>], samples: &[Sample]) -> Vec
     };
     let passes_through = |k: usize| {
         let (near, far) = (&samples[k], &samples[k + 1]);
-        let behind = rings[k + 1].iter().any(|p| (*p - near.point).dot(near.along) < -slack(&rings[k], near));
-        let before = rings[k].iter().any(|p| (*p - far.point).dot(far.along) > slack(&rings[k + 1], far));
+        let behind = rings[k + 1]
+            .iter()
+            .any(|p| (*p - near.point).dot(near.along) < -slack(&rings[k], near));
+        let before =
+            rings[k].iter().any(|p| (*p - far.point).dot(far.along) > slack(&rings[k + 1], far));
         behind || before
     };
     (0..rings.len() - 1).filter(|&k| passes_through(k)).map(|k| k + 1).collect()

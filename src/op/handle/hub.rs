@@ -1,15 +1,18 @@
 //! A handle among three or more faces: a tube from each of them to one hub.
 //!
-//! The hub is a convex solid of its own: around one point lie as many regular polygons as there are faces, each turned towards its face, with
-//! as many sides, and small enough to be apart from the others; the hub is their convex hull, so each of them is one of its faces. Tubes
-//! join the faces to them. A hub and the first tube leave the genus as it is, and each further tube adds one: k faces of one component
-//! add k − 1, and faces of different components become one component.
+//! The hub is a convex solid of its own: around one point lie as many regular polygons as there are
+//! faces, each turned towards its face, with as many sides, and small enough to be apart from the
+//! others; the hub is their convex hull, so each of them is one of its faces. Tubes join the faces
+//! to them. A hub and the first tube leave the genus as it is, and each further tube adds one: k
+//! faces of one component add k − 1, and faces of different components become one component.
 //!
-//! Faces that look to one side get a hub outside, as far above all of them as they are wide (or as the first weight says). Faces that look
-//! all ways, or negative weights, get a hollow hub in their midst, turned inside out, and tunnels to it. No source: Srinivasan 2004 leaves it
-//! as future work (VIII.4).
+//! Faces that look to one side get a hub outside, as far above all of them as they are wide (or as
+//! the first weight says). Faces that look all ways, or negative weights, get a hollow hub in their
+//! midst, turned inside out, and tunnels to it. No source: Srinivasan 2004 leaves it as future work
+//! (VIII.4).
 //!
-//! Element ids are those of the mesh without gaps, since the hub is built in; the hub takes numbers behind them.
+//! Element ids are those of the mesh without gaps, since the hub is built in; the hub takes numbers
+//! behind them.
 
 use std::f64::consts::TAU;
 
@@ -18,19 +21,23 @@ use glam::{DQuat, DVec3};
 use super::{Course, FaceCorner, HandleParams, HandleReport, Join, OpContext, OpError, find, join};
 use crate::geom::hull::{Numbers, convex_hull};
 use crate::measure::face_centroid;
-use crate::mesh::{FaceId, FaceMap, HalfEdgeId, HalfEdgeMap, Mesh, VertexId, VertexMap, WalkBuilder};
+use crate::mesh::{
+    FaceId, FaceMap, HalfEdgeId, HalfEdgeMap, Mesh, VertexId, VertexMap, WalkBuilder,
+};
 use crate::select::Made;
 
 /// The mean of the normals is shorter than this where faces look all ways.
 const ALL_WAYS: f64 = 0.25;
 /// A face looks to the hub's side when its normal has this share of the way.
 const LOOKS_THERE: f64 = 0.05;
-/// The hub's polygons take this share of the room between two directions, and at most so much (radians).
+/// The hub's polygons take this share of the room between two directions, and at most so much
+/// (radians).
 const ROOM: f64 = 0.45;
 const WIDEST: f64 = 0.6;
 /// Directions nearer to each other than this leave no room (radians).
 const NARROWEST: f64 = 0.2;
-/// The hub takes this share of the way to the nearest face at most, and its polygons are so large compared with the smallest face.
+/// The hub takes this share of the way to the nearest face at most, and its polygons are so large
+/// compared with the smallest face.
 const LARGEST: f64 = 0.5;
 const PORT: f64 = 0.9;
 
@@ -58,8 +65,10 @@ pub(super) fn hub(
     context: &OpContext<'_>,
 ) -> Result<(Mesh, Made, HandleReport), OpError> {
     let refuse = |reason| OpError::NoHandle { from: params.from.face, to: params.to.face, reason };
-    let corners: Vec<FaceCorner> = [params.from, params.to].into_iter().chain(params.also.iter().copied()).collect();
-    let ends: Vec<End> = corners.iter().map(|&corner| End::of(mesh, corner)).collect::<Result<_, _>>()?;
+    let corners: Vec<FaceCorner> =
+        [params.from, params.to].into_iter().chain(params.also.iter().copied()).collect();
+    let ends: Vec<End> =
+        corners.iter().map(|&corner| End::of(mesh, corner)).collect::<Result<_, _>>()?;
     if (1..corners.len()).any(|i| corners[..i].iter().any(|c| c.face == corners[i].face)) {
         return Err(refuse("one face is named twice among those to be joined; name each once"));
     }
@@ -69,22 +78,31 @@ pub(super) fn hub(
     let no_room = "there is no room for a hub between them; choose other faces";
     let hull = convex_hull(&points, Numbers::Constructed).map_err(|_| refuse(no_room))?;
     let polygons: Vec<Vec<u32>> = hull.iter().map(<[u32]>::to_vec).collect();
-    let (mut made_mesh, joined, hub_faces) = with_component(mesh, &points, &polygons, hub.is_inside);
+    let (mut made_mesh, joined, hub_faces) =
+        with_component(mesh, &points, &polygons, hub.is_inside);
     let port_of = |port: &std::ops::Range<usize>| {
-        let is_port = |p: &Vec<u32>| p.len() == port.len() && p.iter().all(|&i| port.contains(&(i as usize)));
+        let is_port =
+            |p: &Vec<u32>| p.len() == port.len() && p.iter().all(|&i| port.contains(&(i as usize)));
         polygons.iter().position(is_port).map(|i| hub_faces[i])
     };
-    let port_faces: Vec<FaceId> = ports.iter().map(port_of).collect::<Option<_>>().ok_or_else(|| refuse(no_room))?;
-    let mut made =
-        Made { faces: hub_faces.iter().copied().filter(|f| !port_faces.contains(f)).collect(), ..Made::default() };
-    made.vertices = (0..points.len()).map(|i| VertexId::new(made_mesh.vertex_slots() - points.len() + i)).collect();
+    let port_faces: Vec<FaceId> =
+        ports.iter().map(port_of).collect::<Option<_>>().ok_or_else(|| refuse(no_room))?;
+    let mut made = Made {
+        faces: hub_faces.iter().copied().filter(|f| !port_faces.contains(f)).collect(),
+        ..Made::default()
+    };
+    made.vertices = (0..points.len())
+        .map(|i| VertexId::new(made_mesh.vertex_slots() - points.len() + i))
+        .collect();
     let mut report = HandleReport::default();
-    let course = weights.map_or(Course::Free { sign: if hub.is_inside { -1.0 } else { 1.0 } }, Course::Weighed);
+    let course = weights
+        .map_or(Course::Free { sign: if hub.is_inside { -1.0 } else { 1.0 } }, Course::Weighed);
     for (i, (end, &port)) in ends.iter().zip(&port_faces).enumerate() {
         context.progress.report("joining faces", i, ends.len());
         let from = joined.corner(end.corner);
         let to = FaceCorner { face: port.index() as u32, vertex: None };
-        let tube = Join { from, to, segments: params.segments, twist: params.twist.radians(), course };
+        let tube =
+            Join { from, to, segments: params.segments, twist: params.twist.radians(), course };
         let (next, new, told) = join(&made_mesh, &tube, context)?;
         made_mesh = next;
         made.faces.extend(new.faces);
@@ -115,7 +133,8 @@ impl End {
 impl Hub {
     fn among(ends: &[End], weights: Option<[f64; 2]>) -> Result<Self, &'static str> {
         let count = ends.len() as f64;
-        let middle = ends[0].centroid + ends.iter().map(|e| e.centroid - ends[0].centroid).sum::<DVec3>() / count;
+        let middle = ends[0].centroid
+            + ends.iter().map(|e| e.centroid - ends[0].centroid).sum::<DVec3>() / count;
         let mean = ends.iter().map(|e| e.normal).sum::<DVec3>() / count;
         let is_inside = weights.map_or(mean.length() < ALL_WAYS, |w| w[0] < 0.0);
         if is_inside {
@@ -124,9 +143,8 @@ impl Hub {
             return if ends.iter().all(faces_it) {
                 Ok(hub)
             } else {
-                Err(
-                    "the middle of the faces does not lie behind all of them, so that no tunnels can meet there; choose other faces",
-                )
+                Err("the middle of the faces does not lie behind all of them, so that no tunnels \
+                    can meet there; choose other faces")
             };
         }
         let up = mean.normalize_or_zero();
@@ -135,7 +153,8 @@ impl Hub {
             let share = up.dot(e.normal);
             if share <= LOOKS_THERE {
                 return Err(
-                    "the faces look to different sides, so that no hub outside can be seen from all; negative weights lead tunnels inside",
+                    "the faces look to different sides, so that no hub outside can be seen from \
+                    all; negative weights lead tunnels inside",
                 );
             }
             let height = weights.map_or(2.0 * e.radius, |w| w[0]);
@@ -145,12 +164,16 @@ impl Hub {
     }
 
     /// The corners of all polygons, and for each face which of them are its own.
-    fn polygons(&self, ends: &[End]) -> Result<(Vec<DVec3>, Vec<std::ops::Range<usize>>), &'static str> {
+    fn polygons(
+        &self,
+        ends: &[End],
+    ) -> Result<(Vec<DVec3>, Vec<std::ops::Range<usize>>), &'static str> {
         let aims: Vec<DVec3> = ends
             .iter()
             .map(|e| {
                 let above = (self.centre - e.centroid).dot(e.normal);
-                let from = if self.is_inside { e.centroid } else { e.centroid + e.normal * (0.5 * above) };
+                let from =
+                    if self.is_inside { e.centroid } else { e.centroid + e.normal * (0.5 * above) };
                 from - self.centre
             })
             .collect();
@@ -163,7 +186,8 @@ impl Hub {
         // NaN, for an aim without length, is refused, too.
         if nearest.is_nan() || nearest < NARROWEST {
             return Err(
-                "two of the faces lead to the hub from the same side and leave no room between their tubes; leave one out",
+                "two of the faces lead to the hub from the same side and leave no room between \
+                their tubes; leave one out",
             );
         }
         let width = (ROOM * nearest).min(WIDEST);
@@ -175,7 +199,8 @@ impl Hub {
             let towards = aim.normalize();
             let leaves = if self.is_inside { end.normal } else { -end.normal };
             let across = DQuat::from_rotation_arc(leaves, towards) * end.first;
-            let x = (across - towards * across.dot(towards)).normalize_or(towards.any_orthonormal_vector());
+            let x = (across - towards * across.dot(towards))
+                .normalize_or(towards.any_orthonormal_vector());
             let y = towards.cross(x);
             let start = points.len();
             for k in 0..end.sides {
@@ -203,7 +228,8 @@ impl Joined {
     }
 }
 
-/// The mesh, without gaps, and a component more. Returns where its elements went, and the new faces in the order of the polygons.
+/// The mesh, without gaps, and a component more. Returns where its elements went, and the new faces
+/// in the order of the polygons.
 fn with_component(
     mesh: &Mesh,
     points: &[DVec3],

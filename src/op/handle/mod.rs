@@ -1,12 +1,14 @@
 //! Handles: a curved tube of several segments between two faces (Srinivasan 2004, IV).
 //!
-//! The axis is the Hermite curve through the centroids that leaves the first face along its normal and reaches the second against its normal,
-//! each weighed by a length. The two outlines are taken as polar coordinates (distance and angle that goes on around) across the ends of the
-//! curve, in a frame that is carried along it without turning, and interpolated; so faces that are opposite, parallel or on one line
-//! are no special case. Negative weights lead the curve inwards: a hole instead of a handle. Without weights the distance of the centroids is
-//! taken, or up to sixteen times as much: the least of some steps at which no section crosses the next. Instead of weights, points can be given that
-//! the axis runs through (centripetal Catmull-Rom spline; its ends keep to the normals), with segments of one length. Among three or more
-//! faces, see `hub`.
+//! The axis is the Hermite curve through the centroids that leaves the first face along its normal
+//! and reaches the second against its normal, each weighed by a length. The two outlines are taken
+//! as polar coordinates (distance and angle that goes on around) across the ends of the curve, in a
+//! frame that is carried along it without turning, and interpolated; so faces that are opposite,
+//! parallel or on one line are no special case. Negative weights lead the curve inwards: a hole
+//! instead of a handle. Without weights the distance of the centroids is taken, or up to sixteen
+//! times as much: the least of some steps at which no section crosses the next. Instead of weights,
+//! points can be given that the axis runs through (centripetal Catmull-Rom spline; its ends keep to
+//! the normals), with segments of one length. Among three or more faces, see `hub`.
 //!
 //! Between faces of n sides with s segments:
 //!
@@ -14,10 +16,12 @@
 //!   vertices  V + n(s−1)    edges  E + n(2s−1)    faces  F + ns − 2    genus + 1, or two components become one
 //! ```
 //!
-//! Of faces with different numbers of sides the one with fewer has its longest sides halved first: V + 1, E + 1 for each. Needs: two faces
-//! with an area. Keeps: ids, groups and planes of all other faces; the tube has the group of the first face. Planarity: quads are planar by luck.
-//! Degenerate cases, all errors that say why: one segment between faces that share a corner would be flat; weights of different signs would
-//! turn the tube inside out; a curve without length. Neighbouring sections that pass through each other are reported with their segment.
+//! Of faces with different numbers of sides the one with fewer has its longest sides halved first:
+//! V + 1, E + 1 for each. Needs: two faces with an area. Keeps: ids, groups and planes of all other
+//! faces; the tube has the group of the first face. Planarity: quads are planar by luck. Degenerate
+//! cases, all errors that say why: one segment between faces that share a corner would be flat;
+//! weights of different signs would turn the tube inside out; a curve without length. Neighbouring
+//! sections that pass through each other are reported with their segment.
 
 mod curve;
 mod hub;
@@ -52,9 +56,11 @@ pub struct HandleReport {
     pub halved: usize,
     /// The mean angle by which the tube turns around its axis, in degrees.
     pub twist_degrees: f64,
-    /// The default weights that were taken, in mm, where the distance of the centroids would have made the handle cross itself.
+    /// The default weights that were taken, in mm, where the distance of the centroids would have
+    /// made the handle cross itself.
     pub lengthened: Option<f64>,
-    /// Segments, counted from 1, whose two sections pass through each other; with a hub, of any of its tubes.
+    /// Segments, counted from 1, whose two sections pass through each other; with a hub, of any of
+    /// its tubes.
     pub crossing: Vec<usize>,
 }
 
@@ -63,16 +69,21 @@ impl HandleReport {
     pub fn notes(&self) -> Vec<String> {
         let mut notes = Vec::new();
         if self.halved > 0 {
-            notes.push(format!("{} sides were halved, so that both faces have the same number", self.halved));
+            notes.push(format!(
+                "{} sides were halved, so that both faces have the same number",
+                self.halved
+            ));
         }
         if let Some(mm) = self.lengthened {
             notes.push(format!(
-                "weights of {mm:.4} mm were taken, since with the distance of the faces it would cross itself"
+                "weights of {mm:.4} mm were taken, since with the distance of the faces it would \
+                cross itself"
             ));
         }
         if !self.crossing.is_empty() {
             notes.push(format!(
-                "the handle crosses itself in segment {}: it bends more sharply there than it is wide; take other weights or fewer segments ({})",
+                "the handle crosses itself in segment {}: it bends more sharply there than it is \
+                wide; take other weights or fewer segments ({})",
                 first_few(&self.crossing, 8),
                 OpFinding::HandleCrosses.code()
             ));
@@ -84,15 +95,20 @@ impl HandleReport {
 /// Makes a handle. Returns the mesh, what was made (the tube), and a report.
 ///
 /// # Errors
-/// [`OpError::CountOutOfRange`] for the segments; [`OpError::NoSuchElement`]; [`OpError::NoArea`]; [`OpError::NoHandle`] with the reason;
-/// [`OpError::Exclude`] for an axis with weights or further faces; [`OpError::Cancelled`].
+/// [`OpError::CountOutOfRange`] for the segments; [`OpError::NoSuchElement`]; [`OpError::NoArea`];
+/// [`OpError::NoHandle`] with the reason; [`OpError::Exclude`] for an axis with weights or further
+/// faces; [`OpError::Cancelled`].
 pub fn handle(
     mesh: &Mesh,
     params: &HandleParams,
     context: &OpContext<'_>,
 ) -> Result<(Mesh, Made, HandleReport), OpError> {
     if !(1..=MOST_SEGMENTS).contains(&params.segments) {
-        return Err(OpError::CountOutOfRange { what: "segments", count: params.segments, limit: MOST_SEGMENTS });
+        return Err(OpError::CountOutOfRange {
+            what: "segments",
+            count: params.segments,
+            limit: MOST_SEGMENTS,
+        });
     }
     let course = match (&params.axis, params.weights) {
         (Some(_), Some(_)) => return Err(OpError::Exclude { first: "an axis", second: "weights" }),
@@ -110,8 +126,13 @@ pub fn handle(
     if !params.also.is_empty() {
         return hub::hub(mesh, params, context);
     }
-    let tube =
-        Join { from: params.from, to: params.to, segments: params.segments, twist: params.twist.radians(), course };
+    let tube = Join {
+        from: params.from,
+        to: params.to,
+        segments: params.segments,
+        twist: params.twist.radians(),
+        course,
+    };
     join(mesh, &tube, context)
 }
 
@@ -143,22 +164,31 @@ struct Plan {
     twist: f64,
 }
 
-fn join(mesh: &Mesh, params: &Join<'_>, context: &OpContext<'_>) -> Result<(Mesh, Made, HandleReport), OpError> {
+fn join(
+    mesh: &Mesh,
+    params: &Join<'_>,
+    context: &OpContext<'_>,
+) -> Result<(Mesh, Made, HandleReport), OpError> {
     if context.progress.is_cancelled() {
         return Err(OpError::Cancelled);
     }
-    let mut tube = Tube { ends: [find(mesh, params.from)?, find(mesh, params.to)?], mesh: mesh.clone() };
+    let mut tube =
+        Tube { ends: [find(mesh, params.from)?, find(mesh, params.to)?], mesh: mesh.clone() };
     let refuse = |reason| OpError::NoHandle { from: params.from.face, to: params.to.face, reason };
     let [f, g] = tube.ends.map(|h| mesh.face(h));
     if f == g {
         return Err(refuse("they are the same face; choose two"));
     }
-    if params.segments == 1 && mesh.face_vertices(f).any(|v| mesh.face_vertices(g).any(|w| v == w)) {
+    if params.segments == 1 && mesh.face_vertices(f).any(|v| mesh.face_vertices(g).any(|w| v == w))
+    {
         return Err(refuse(
-            "they share a corner, so that a tube of one segment would be flat; use at least two segments",
+            "they share a corner, so that a tube of one segment would be flat; use at least two \
+            segments",
         ));
     }
-    let halved = tube.even_out().ok_or_else(|| refuse("one of them has all of its sides in common with the other"))?;
+    let halved = tube
+        .even_out()
+        .ok_or_else(|| refuse("one of them has all of its sides in common with the other"))?;
     let mut report = HandleReport { halved, ..HandleReport::default() };
     let no_length = "the axis has no length; give other weights or points";
     let plan = match params.course {
@@ -199,12 +229,17 @@ fn find(mesh: &Mesh, corner: FaceCorner) -> Result<HalfEdgeId, OpError> {
     let missing = |what: &'static str, id: u32| OpError::NoSuchElement { what, id: id as usize };
     let f = FaceId::new(corner.face as usize);
     let is_there = f.index() < mesh.face_slots() && mesh.has_face(f) && !mesh.is_hole(f);
-    let start = is_there.then(|| mesh.face_start(f)).flatten().ok_or_else(|| missing("face", corner.face))?;
+    let start = is_there
+        .then(|| mesh.face_start(f))
+        .flatten()
+        .ok_or_else(|| missing("face", corner.face))?;
     match corner.vertex {
         None => Ok(start),
         Some(v) => {
             let at = |h: &HalfEdgeId| mesh.origin(*h) == VertexId::new(v as usize);
-            mesh.face_half_edges(f).find(at).ok_or_else(|| missing("corner of the face at vertex", v))
+            mesh.face_half_edges(f)
+                .find(at)
+                .ok_or_else(|| missing("corner of the face at vertex", v))
         }
     }
 }
@@ -223,12 +258,14 @@ impl Tube {
         let first = Outline::of(&self.loop_of(0), &samples[0]);
         let second = Outline::of(&self.loop_of(1), &samples[segments]);
         if first.turn().signum() != second.turn().signum() {
-            let reason = "the axis leaves one face outwards and reaches the other from inside; give weights of the same sign, or other points";
+            let reason = "the axis leaves one face outwards and reaches the other from inside; \
+            give weights of the same sign, or other points";
             return Err(OpError::NoHandle { from: params.from.face, to: params.to.face, reason });
         }
         let (shift, second) = second.turned_to(&first, params.twist, params.to.vertex.is_none());
-        let sections: Vec<Vec<DVec3>> =
-            (1..segments).map(|k| first.between(&second, k as f64 / segments as f64, &samples[k])).collect();
+        let sections: Vec<Vec<DVec3>> = (1..segments)
+            .map(|k| first.between(&second, k as f64 / segments as f64, &samples[k]))
+            .collect();
         let mut end = self.loop_of(1);
         end.rotate_left(shift);
         let mut rings = vec![self.loop_of(0)];
@@ -238,8 +275,8 @@ impl Tube {
         Ok(Plan { shift, sections, crossing, twist: first.twist_to(&second) })
     }
 
-    /// Halves the longest sides of the face with fewer until both have as many; a side that both share would give one to each. `None` when there
-    /// is no other.
+    /// Halves the longest sides of the face with fewer until both have as many; a side that both
+    /// share would give one to each. `None` when there is no other.
     fn even_out(&mut self) -> Option<usize> {
         let sides = self.ends.map(|h| self.mesh.sides(self.mesh.face(h)));
         let short = usize::from(sides[1] < sides[0]);
@@ -252,24 +289,32 @@ impl Tube {
                 a.distance_squared(b)
             };
             // Sides that differ by rounding only count as equal, and the first of them is taken.
-            let own: Vec<HalfEdgeId> =
-                self.mesh.face_half_edges(f).filter(|&h| self.mesh.face(h.twin()) != other).collect();
+            let own: Vec<HalfEdgeId> = self
+                .mesh
+                .face_half_edges(f)
+                .filter(|&h| self.mesh.face(h.twin()) != other)
+                .collect();
             let longest = own.iter().map(|&h| length(h)).fold(0.0, f64::max);
             let side = own.into_iter().find(|&h| length(h) >= longest * (1.0 - 1e-9))?;
             let corner = self.mesh.origin(self.ends[short]);
             self.mesh.subdivide_edge(side.edge());
             // The edge keeps its first half-edge; the corner's may be the new one.
             let at = |h: &HalfEdgeId| self.mesh.origin(*h) == corner;
-            self.ends[short] = self.mesh.face_half_edges(f).find(at).expect("the corner is still there");
+            self.ends[short] =
+                self.mesh.face_half_edges(f).find(at).expect("the corner is still there");
         }
         Some(missing)
     }
 
-    /// The corners of an end in the order of the tube: around the first face as it runs, around the second the other way.
+    /// The corners of an end in the order of the tube: around the first face as it runs, around the
+    /// second the other way.
     fn corners(&self, end: usize) -> Vec<HalfEdgeId> {
         let start = self.ends[end];
-        let step = |&h: &HalfEdgeId| Some(if end == 0 { self.mesh.next(h) } else { self.mesh.prev(h) });
-        std::iter::successors(Some(start), step).take(self.mesh.sides(self.mesh.face(start))).collect()
+        let step =
+            |&h: &HalfEdgeId| Some(if end == 0 { self.mesh.next(h) } else { self.mesh.prev(h) });
+        std::iter::successors(Some(start), step)
+            .take(self.mesh.sides(self.mesh.face(start)))
+            .collect()
     }
 
     fn loop_of(&self, end: usize) -> Vec<DVec3> {
@@ -289,22 +334,27 @@ impl Tube {
             .filter(|f| !ends.contains(f))
             .filter_map(|f| mesh.carried_plane(f).map(|plane| (f, plane)))
             .collect();
-        // New faces are made like the one that they are cut off, plane included; those of a tube have planes of their own.
+        // New faces are made like the one that they are cut off, plane included; those of a tube
+        // have planes of their own.
         mesh.clear_planes();
         let mut made = Made::default();
         let mut from = self.ends[0];
         for section in sections {
-            let (front, back) = mesh.create_face_manifold(section).expect("faces have at least three sides");
+            let (front, back) =
+                mesh.create_face_manifold(section).expect("faces have at least three sides");
             let corners: Vec<HalfEdgeId> = mesh.face_half_edges(front).collect();
             let start = (0..corners.len())
                 .find(|&i| {
-                    (0..section.len())
-                        .all(|j| mesh.position(mesh.origin(corners[(i + j) % corners.len()])) == section[j])
+                    (0..section.len()).all(|j| {
+                        mesh.position(mesh.origin(corners[(i + j) % corners.len()])) == section[j]
+                    })
                 })
                 .expect("the section was made of these points");
             let vertex = mesh.origin(corners[start]);
-            let to =
-                mesh.face_half_edges(back).find(|&h| mesh.origin(h) == vertex).expect("front and back share corners");
+            let to = mesh
+                .face_half_edges(back)
+                .find(|&h| mesh.origin(h) == vertex)
+                .expect("front and back share corners");
             for &corner in &corners {
                 made.vertices.push(mesh.origin(corner));
                 mesh.set_position(mesh.origin(corner), mesh.position(mesh.origin(corner)), false);

@@ -9,8 +9,8 @@ use super::curve::Sample;
 /// Twists that differ by no more are equal, and the first corner is taken.
 const SAME_TWIST: f64 = 1e-9;
 
-/// Corners by distance from the axis, angle around it, and height along it. Angles go on around: no corner is more than half a turn from the
-/// one before.
+/// Corners by distance from the axis, angle around it, and height along it. Angles go on around: no
+/// corner is more than half a turn from the one before.
 #[derive(Debug, Clone)]
 pub(super) struct Outline {
     corners: Vec<(f64, f64, f64)>,
@@ -24,7 +24,8 @@ fn wrapped(angle: f64, around: f64) -> f64 {
 }
 
 impl Outline {
-    /// The outline of a face at an end of the axis. Where the axis does not leave at right angles the face is turned upright first.
+    /// The outline of a face at an end of the axis. Where the axis does not leave at right angles
+    /// the face is turned upright first.
     pub fn of(points: &[DVec3], end: &Sample) -> Self {
         let normal = if end.normal.dot(end.along) < 0.0 { -end.normal } else { end.normal };
         let upright = DQuat::from_rotation_arc(normal, end.along);
@@ -42,7 +43,8 @@ impl Outline {
         Self { corners, turn }
     }
 
-    /// The angle of the whole way around: a full turn, either way, for a face that is seen as a star from its centroid.
+    /// The angle of the whole way around: a full turn, either way, for a face that is seen as a
+    /// star from its centroid.
     pub fn turn(&self) -> f64 {
         self.turn
     }
@@ -56,11 +58,13 @@ impl Outline {
     /// The same outline begun `shift` corners later.
     fn begun_at(&self, shift: usize) -> Self {
         let mut corners = self.corners[shift..].to_vec();
-        corners.extend(self.corners[..shift].iter().map(|&(r, angle, z)| (r, angle + self.turn, z)));
+        corners
+            .extend(self.corners[..shift].iter().map(|&(r, angle, z)| (r, angle + self.turn, z)));
         Self { corners, turn: self.turn }
     }
 
-    /// The outline turned by whole turns, and if free begun at another corner, so that the twist from `first` is nearest to `twist`.
+    /// The outline turned by whole turns, and if free begun at another corner, so that the twist
+    /// from `first` is nearest to `twist`.
     pub fn turned_to(&self, first: &Self, twist: f64, is_free: bool) -> (usize, Self) {
         let candidates = if is_free { self.corners.len() } else { 1 };
         let mut best: Option<(f64, usize, Self)> = None;

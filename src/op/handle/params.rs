@@ -15,25 +15,28 @@ pub struct HandleParams {
     /// The face to begin at, and, if wanted, the corner that is joined first: `0` or `0:3`.
     #[arg(long, value_name = "FACE[:VERTEX]")]
     pub from: FaceCorner,
-    /// The face to end at, and, if wanted, the corner that the first one is joined to; else the twist decides.
+    /// The face to end at, and, if wanted, the corner that the first one is joined to; else the
+    /// twist decides.
     #[arg(long, value_name = "FACE[:VERTEX]")]
     pub to: FaceCorner,
     /// How many segments, 1 to 10000.
     #[arg(long, default_value_t = default_segments())]
     #[serde(default = "default_segments")]
     pub segments: u32,
-    /// Further faces that the handle joins, with corners if wanted: a tube from each face to one hub outside the model; with negative
-    /// weights, or when the faces look all ways, tunnels that meet inside.
+    /// Further faces that the handle joins, with corners if wanted: a tube from each face to one
+    /// hub outside the model; with negative weights, or when the faces look all ways, tunnels that
+    /// meet inside.
     #[arg(long, value_name = "FACE[:VERTEX],...", value_delimiter = ',')]
     #[serde(default)]
     pub also: Vec<FaceCorner>,
-    /// Points that the axis runs through on its way from face to face: a file with `x,y,z` in each line, or an OBJ file with an `l`
-    /// line; in a recipe the points themselves, too, in mm.
+    /// Points that the axis runs through on its way from face to face: a file with `x,y,z` in each
+    /// line, or an OBJ file with an `l` line; in a recipe the points themselves, too, in mm.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["weights", "also"])]
     #[serde(default)]
     pub axis: Option<HandleAxis>,
-    /// How far the axis keeps to the normals at its two ends; negative for a hole. When left out, the distance of the centroids, or up to
-    /// sixteen times as much where the handle would cross itself.
+    /// How far the axis keeps to the normals at its two ends; negative for a hole. When left out,
+    /// the distance of the centroids, or up to sixteen times as much where the handle would cross
+    /// itself.
     #[arg(long, value_name = "LENGTH,LENGTH", allow_hyphen_values = true)]
     #[serde(default)]
     pub weights: Option<Weights>,
@@ -60,8 +63,13 @@ impl FromStr for FaceCorner {
     type Err = UnitError;
 
     fn from_str(text: &str) -> Result<Self, UnitError> {
-        let error = |_| UnitError { text: text.to_owned(), wanted: "a face and a vertex", example: "4 or 4:7" };
-        let (face, vertex) = text.split_once(':').map_or((text, None), |(face, vertex)| (face, Some(vertex)));
+        let error = |_| UnitError {
+            text: text.to_owned(),
+            wanted: "a face and a vertex",
+            example: "4 or 4:7",
+        };
+        let (face, vertex) =
+            text.split_once(':').map_or((text, None), |(face, vertex)| (face, Some(vertex)));
         let vertex = vertex.map(|v| v.trim().parse().map_err(error)).transpose()?;
         Ok(Self { face: face.trim().parse().map_err(error)?, vertex })
     }
@@ -97,7 +105,11 @@ impl FromStr for Weights {
     type Err = UnitError;
 
     fn from_str(text: &str) -> Result<Self, UnitError> {
-        let error = || UnitError { text: text.to_owned(), wanted: "a pair of lengths", example: "30mm,-20mm" };
+        let error = || UnitError {
+            text: text.to_owned(),
+            wanted: "a pair of lengths",
+            example: "30mm,-20mm",
+        };
         let (a, b) = text.split_once(',').ok_or_else(error)?;
         Ok(Self([a.parse()?, b.parse()?]))
     }
@@ -144,14 +156,19 @@ impl FromStr for HandleAxis {
 impl<'de> Deserialize<'de> for HandleAxis {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         #[derive(Deserialize)]
-        #[serde(untagged, expecting = "the name of a file, or a list of points like [[0, 0, 50], [30, 0, 80]]")]
+        #[serde(
+            untagged,
+            expecting = "the name of a file, or a list of points like [[0, 0, 50], [30, 0, 80]]"
+        )]
         enum Typed {
             File(PathBuf),
             Points(Vec<[f64; 3]>),
         }
         Ok(match Typed::deserialize(deserializer)? {
             Typed::File(path) => Self::File(path),
-            Typed::Points(points) => Self::Points(points.into_iter().map(DVec3::from_array).collect()),
+            Typed::Points(points) => {
+                Self::Points(points.into_iter().map(DVec3::from_array).collect())
+            }
         })
     }
 }

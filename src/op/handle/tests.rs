@@ -20,7 +20,12 @@ fn run(mesh: &Mesh, params: &HandleParams) -> (Mesh, HandleReport) {
     assert!(made.faults().is_empty(), "{:?}", &made.faults()[..made.faults().len().min(4)]);
     assert!(made.is_closed());
     let adds = params.segments > 1 && report.crossing.is_empty();
-    assert!(!adds || volume(&made) > volume(mesh), "{params:?}: {} of {}", volume(&made), volume(mesh));
+    assert!(
+        !adds || volume(&made) > volume(mesh),
+        "{params:?}: {} of {}",
+        volume(&made),
+        volume(mesh)
+    );
     assert_eq!(new.faces.len() % params.segments as usize, 0);
     (made, report)
 }
@@ -48,18 +53,23 @@ fn handles_between_all_pairs(numbers: &[u32]) {
                     let wanted = params(&from.to_string(), &to.to_string(), segments);
                     let corners = |f: usize| mesh.face_vertices(FaceId::new(f));
                     if segments == 1 && corners(from).any(|v| corners(to).any(|w| v == w)) {
-                        let refused = handle(mesh, &wanted, &OpContext::default()).expect_err("flat");
+                        let refused =
+                            handle(mesh, &wanted, &OpContext::default()).expect_err("flat");
                         assert!(matches!(refused, OpError::NoHandle { .. }));
                         continue;
                     }
                     let (made, report) = run(mesh, &wanted);
                     let s = segments as usize;
-                    let expected = [v + sides * (s - 1), e + sides * (2 * s - 1), f + sides * s - 2];
+                    let expected =
+                        [v + sides * (s - 1), e + sides * (2 * s - 1), f + sides * s - 2];
                     assert_eq!(counts(&made), expected, "{from} to {to}, {s} segments");
                     assert_eq!((genus(&made), made.components().len(), report.halved), (1, 1, 0));
                     if segments == 5 {
                         let largest = 180.0 / sides as f64 + 1e-6;
-                        assert!(report.twist_degrees.abs() <= largest, "{from} to {to}: {report:?}");
+                        assert!(
+                            report.twist_degrees.abs() <= largest,
+                            "{from} to {to}: {report:?}"
+                        );
                     }
                 }
             }
@@ -82,11 +92,14 @@ fn opposite_faces_get_a_straight_hole_or_a_loop() {
     let mut wanted = params(&from, &to, 4);
     wanted.weights = Some("-10,-10".parse().expect("weights"));
     let (tunnel, report) = run_whatever_volume(&cube, &wanted);
-    // As wide as the cube: nothing but walls without thickness is left, so the volume is zero, but the links are those of a ring.
+    // As wide as the cube: nothing but walls without thickness is left, so the volume is zero, but
+    // the links are those of a ring.
     assert_eq!((counts(&tunnel), genus(&tunnel), report.crossing.len()), ([20, 40, 20], 1, 0));
     assert!(volume(&tunnel).abs() < 1e-9);
     let (ring, report) = run(&cube, &params(&from, &to, 24));
-    assert!(volume(&ring) > volume(&cube) && report.crossing.is_empty() == report.notes().is_empty());
+    assert!(
+        volume(&ring) > volume(&cube) && report.crossing.is_empty() == report.notes().is_empty()
+    );
 }
 
 fn run_whatever_volume(mesh: &Mesh, params: &HandleParams) -> (Mesh, HandleReport) {
@@ -101,11 +114,16 @@ fn two_solids_become_one_by_a_straight_bar() {
     let offset = glam::DVec3::new(0.0, 0.0, 6.0);
     let far: Vec<glam::DVec3> = mesh.vertices().map(|v| mesh.position(v) + offset).collect();
     let near: Vec<glam::DVec3> = mesh.vertices().map(|v| mesh.position(v)).collect();
-    let walks: Vec<Vec<usize>> = mesh.faces().map(|f| mesh.face_vertices(f).map(VertexId::index).collect()).collect();
-    let shifted: Vec<Vec<usize>> = walks.iter().map(|w| w.iter().map(|i| i + 8).collect()).collect();
-    mesh = Mesh::from_faces(near.into_iter().chain(far), walks.into_iter().chain(shifted)).expect("two cubes");
+    let walks: Vec<Vec<usize>> =
+        mesh.faces().map(|f| mesh.face_vertices(f).map(VertexId::index).collect()).collect();
+    let shifted: Vec<Vec<usize>> =
+        walks.iter().map(|w| w.iter().map(|i| i + 8).collect()).collect();
+    mesh = Mesh::from_faces(near.into_iter().chain(far), walks.into_iter().chain(shifted))
+        .expect("two cubes");
     let up = |low: usize| {
-        let look = |f: &FaceId| mesh.plane(*f).expect("a plane").normal().z * if low == 0 { 1.0 } else { -1.0 } > 0.9;
+        let look = |f: &FaceId| {
+            mesh.plane(*f).expect("a plane").normal().z * if low == 0 { 1.0 } else { -1.0 } > 0.9
+        };
         let of_part = |f: &FaceId| f.index() / 6 == usize::from(low != 0);
         mesh.faces().filter(of_part).find(look).expect("a face").index().to_string()
     };
@@ -143,11 +161,18 @@ fn faces_with_different_numbers_of_sides_are_evened_out() {
 fn a_bend_sharper_than_its_width_is_told_with_its_segment() {
     let cube = shape::cube(10.0);
     let mut wanted = params("0", "0", 12);
-    let beside = cube.face_half_edges(FaceId::new(0)).map(|h| cube.face(h.twin())).next().expect("neighbours");
+    let beside = cube
+        .face_half_edges(FaceId::new(0))
+        .map(|h| cube.face(h.twin()))
+        .next()
+        .expect("neighbours");
     wanted.to = beside.index().to_string().parse().expect("a face");
     wanted.weights = Some("1,1".parse().expect("weights"));
     let (_, report) = run_whatever_volume(&cube, &wanted);
-    assert!(!report.crossing.is_empty() && report.crossing.iter().all(|k| (1..=12).contains(k)), "{report:?}");
+    assert!(
+        !report.crossing.is_empty() && report.crossing.iter().all(|k| (1..=12).contains(k)),
+        "{report:?}"
+    );
     assert!(report.notes()[0].contains("segment"));
     wanted.weights = Some("200,200".parse().expect("weights"));
     assert!(run(&cube, &wanted).1.crossing.is_empty());
@@ -157,7 +182,8 @@ fn a_bend_sharper_than_its_width_is_told_with_its_segment() {
 fn scaled_input_gives_the_scaled_handle() {
     let (small, large) = (shape::dodecahedron(1e-3), shape::dodecahedron(1e4));
     let [a, b] = [&small, &large].map(|mesh| run(mesh, &params("0", "3", 6)).0);
-    let sizes: Vec<f64> = a.vertices().map(|v| a.position(v).distance(b.position(v) / 1e7)).collect();
+    let sizes: Vec<f64> =
+        a.vertices().map(|v| a.position(v).distance(b.position(v) / 1e7)).collect();
     assert!(sizes.iter().all(|&d| d < 1e-12), "{:?}", sizes.iter().copied().fold(0.0, f64::max));
 }
 
@@ -178,7 +204,11 @@ fn what_cannot_be_is_refused_with_the_reason() {
 #[test]
 fn default_weights_grow_until_nothing_crosses() {
     let cube = shape::cube(10.0);
-    let beside = cube.face_half_edges(FaceId::new(0)).map(|h| cube.face(h.twin())).next().expect("neighbours");
+    let beside = cube
+        .face_half_edges(FaceId::new(0))
+        .map(|h| cube.face(h.twin()))
+        .next()
+        .expect("neighbours");
     let mut wanted = params("0", &beside.index().to_string(), 12);
     let (_, report) = run(&cube, &wanted);
     assert!(report.crossing.is_empty(), "{report:?}");
@@ -197,18 +227,23 @@ fn an_axis_is_followed_in_segments_of_one_length() {
     (wanted.from, wanted.to) = (from.parse().expect("a face"), to.parse().expect("a face"));
     let [a, b] = [wanted.from, wanted.to].map(|f| FaceId::new(f.face as usize));
     let n = cube.plane(a).expect("a plane").normal();
-    let (start, end) = (crate::measure::face_centroid(&cube, a), crate::measure::face_centroid(&cube, b));
+    let (start, end) =
+        (crate::measure::face_centroid(&cube, a), crate::measure::face_centroid(&cube, b));
     let side = n.any_orthonormal_vector() * 40.0;
-    let through = [start + n * 20.0, start + n * 30.0 + side, end - n * 30.0 + side, end - n * 20.0];
+    let through =
+        [start + n * 20.0, start + n * 30.0 + side, end - n * 30.0 + side, end - n * 20.0];
     wanted.axis = Some(HandleAxis::Points(through.to_vec()));
     let (ring, report) = run(&cube, &wanted);
     assert_eq!((genus(&ring), report.crossing.len()), (1, 0));
     // Centroids of the sections: near every point given, and equally far from each other.
     let sections: Vec<glam::DVec3> = (0..39)
-        .map(|k| (0..4).map(|i| ring.position(VertexId::new(8 + 4 * k + i))).sum::<glam::DVec3>() / 4.0)
+        .map(|k| {
+            (0..4).map(|i| ring.position(VertexId::new(8 + 4 * k + i))).sum::<glam::DVec3>() / 4.0
+        })
         .collect();
     let steps: Vec<f64> = sections.windows(2).map(|w| w[0].distance(w[1])).collect();
-    let (least, most) = steps.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), &s| (a.min(s), b.max(s)));
+    let (least, most) =
+        steps.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), &s| (a.min(s), b.max(s)));
     assert!(most < 1.05 * least, "{least} to {most}");
     for p in through {
         assert!(sections.iter().any(|s| s.distance(p) < most), "{p} is not passed");
@@ -252,7 +287,11 @@ fn k_faces_are_joined_by_a_hub_and_add_k_minus_one_to_the_genus() {
                 let (made, new, report) = handle(mesh, &wanted, &OpContext::default())
                     .unwrap_or_else(|e| panic!("{f} faces, {faces:?}: {e}"));
                 assert!(made.faults().is_empty(), "{:?}", made.faults().first());
-                assert_eq!((genus(&made), made.components().len()), (faces.len() - 1, 1), "{f} faces, {faces:?}");
+                assert_eq!(
+                    (genus(&made), made.components().len()),
+                    (faces.len() - 1, 1),
+                    "{f} faces, {faces:?}"
+                );
                 assert_eq!(volume(&made) < volume(mesh), is_inside, "{report:?}");
                 assert!(volume(&made) > 0.0 && made.is_closed());
                 assert_eq!(made.face_count(), f - faces.len() + new.faces.len());

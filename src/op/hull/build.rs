@@ -21,23 +21,30 @@ pub(super) struct Assembly {
 }
 
 impl Assembly {
-    /// Adds the convex hull of a cluster: its corners in the order of the points, at their given positions.
+    /// Adds the convex hull of a cluster: its corners in the order of the points, at their given
+    /// positions.
     pub(super) fn add_hull(&mut self, cluster: &Cluster, faces: &Polygons) -> HullPart {
         let mut number = vec![usize::MAX; cluster.points.len()];
         let mut corners = faces.corners().to_vec();
         corners.sort_unstable();
         corners.dedup();
         for i in corners {
-            number[i as usize] = self.vertex(cluster.points[i as usize], cluster.is_given[i as usize]);
+            number[i as usize] =
+                self.vertex(cluster.points[i as usize], cluster.is_given[i as usize]);
         }
         for run in faces.iter() {
             self.builder.face(run.iter().map(|&i| number[i as usize]));
             self.planes.push(None);
         }
-        self.end_part(HullPart { name: cluster.name.clone(), points: cluster.points.len(), ..HullPart::default() })
+        self.end_part(HullPart {
+            name: cluster.name.clone(),
+            points: cluster.points.len(),
+            ..HullPart::default()
+        })
     }
 
-    /// Adds a polytope whose coordinates count from `origin`. `part` tells all but faces and what has none.
+    /// Adds a polytope whose coordinates count from `origin`. `part` tells all but faces and what
+    /// has none.
     pub(super) fn add_polytope(
         &mut self,
         polytope: Polytope,
@@ -61,8 +68,9 @@ impl Assembly {
 
     fn vertex(&mut self, position: DVec3, is_given: bool) -> usize {
         self.positions.push((position, is_given));
-        // The simple form may have edges of length zero, which the builder refuses because in a file they are a fault. It
-        // sees stand-ins on a parabola instead, of which no two are equal and no three on a line.
+        // The simple form may have edges of length zero, which the builder refuses because in a
+        // file they are a fault. It sees stand-ins on a parabola instead, of which no two are equal
+        // and no three on a line.
         let i = (self.positions.len() - 1) as f64;
         self.builder.vertex(DVec3::new(i, i * i, 0.0))
     }

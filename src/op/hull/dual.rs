@@ -8,7 +8,8 @@ use super::{HullPart, OpError};
 use crate::geom::Plane;
 use crate::geom::hull::{Form, HalfSpace, Intersect, Numbers, Polygons, intersect};
 
-/// The half-spaces of a dual hull, counted from a local origin so that far from the origin no digits are lost.
+/// The half-spaces of a dual hull, counted from a local origin so that far from the origin no
+/// digits are lost.
 pub(super) struct Dual {
     origin: DVec3,
     interior: DVec3,
@@ -23,9 +24,11 @@ pub(super) fn box_sides(no_box: bool) -> usize {
 }
 
 impl Dual {
-    /// One half-space through each corner of the hull with the mean of the unit normals of its faces there, and the box.
+    /// One half-space through each corner of the hull with the mean of the unit normals of its
+    /// faces there, and the box.
     pub(super) fn of(points: &[DVec3], faces: &Polygons, no_box: bool) -> Self {
-        let (low, high) = points.iter().fold((points[0], points[0]), |(l, h), &p| (l.min(p), h.max(p)));
+        let (low, high) =
+            points.iter().fold((points[0], points[0]), |(l, h), &p| (l.min(p), h.max(p)));
         let origin = low + (high - low) / 2.0;
         let mut normals = vec![DVec3::ZERO; points.len()];
         for run in faces.iter() {
@@ -35,7 +38,8 @@ impl Dual {
         }
         let (mut half_spaces, mut sum) = (Vec::new(), DVec3::ZERO);
         for (&p, normal) in points.iter().zip(normals) {
-            // The normals around a corner never cancel, all point away from the inside; points that are no corner have none.
+            // The normals around a corner never cancel, all point away from the inside; points that
+            // are no corner have none.
             if let Some(normal) = normal.try_normalize() {
                 half_spaces.push(HalfSpace { normal, offset: normal.dot(p - origin) });
                 sum += p - origin;
@@ -62,7 +66,8 @@ impl Dual {
     ) -> Result<HullPart, OpError> {
         let (corners, sides) = self.half_spaces.split_at(self.half_spaces.len() - self.box_sides);
         let chosen: Vec<HalfSpace> = corners.iter().take(planes).chain(sides).copied().collect();
-        let options = Intersect { form, numbers: Numbers::Constructed, interior: Some(self.interior) };
+        let options =
+            Intersect { form, numbers: Numbers::Constructed, interior: Some(self.interior) };
         let polytope = intersect(&chosen, &options)
             .map_err(|reason| OpError::HalfSpaces { part: cluster.name.clone(), reason })?;
         let part = HullPart {

@@ -1,13 +1,15 @@
 //! Convex hull, dual convex hull and half-spaces, as meshes.
 //!
-//! Source: Gonen 2007, IV.B.1 and figures 14 and 15. The convex hull has coplanar neighbours merged. The dual hull is the
-//! intersection of one half-space for each corner of the hull (its plane passes through the corner, with the mean of the unit
-//! normals of the hull's faces there) with the bounding box of the points. All faces are convex and carry their planes. A
-//! mesh can be divided first into clusters, each with its own hull and component.
+//! Source: Gonen 2007, IV.B.1 and figures 14 and 15. The convex hull has coplanar neighbours
+//! merged. The dual hull is the intersection of one half-space for each corner of the hull (its
+//! plane passes through the corner, with the mean of the unit normals of the hull's faces there)
+//! with the bounding box of the points. All faces are convex and carry their planes. A mesh can be
+//! divided first into clusters, each with its own hull and component.
 //!
-//! Changes: everything; the result is a new mesh. n planes in general position: n faces, 3n − 6 edges, 2n − 4 vertices, all
-//! of valence 3. Every result contains the points that it was made of. Degenerate: where more than three planes meet the vertex has
-//! a higher valence, unless the simple form is asked for; points that span no volume are an error that says so.
+//! Changes: everything; the result is a new mesh. n planes in general position: n faces, 3n − 6
+//! edges, 2n − 4 vertices, all of valence 3. Every result contains the points that it was made of.
+//! Degenerate: where more than three planes meet the vertex has a higher valence, unless the simple
+//! form is asked for; points that span no volume are an error that says so.
 
 mod build;
 mod convex_parts;
@@ -45,14 +47,20 @@ impl HullReport {
         for part in &self.parts {
             let idle = part.without_face.len();
             if idle > 0 {
-                notes.push(format!("{}: {idle} of {} half-spaces contribute no face", part.name, part.planes));
+                notes.push(format!(
+                    "{}: {idle} of {} half-spaces contribute no face",
+                    part.name, part.planes
+                ));
             }
         }
         if self.empty_clusters > 0 {
             notes.push(format!("{} clusters hold no point", self.empty_clusters));
         }
         if !self.not_three_valent.is_empty() {
-            notes.push(format!("{} vertices have other than three edges", self.not_three_valent.len()));
+            notes.push(format!(
+                "{} vertices have other than three edges",
+                self.not_three_valent.len()
+            ));
         }
         notes
     }
@@ -67,8 +75,9 @@ pub struct HullPart {
     pub points: usize,
     /// How many half-spaces were intersected, the box included; 0 for a plain hull.
     pub planes: usize,
-    /// The half-spaces that contribute no face, because they are redundant, repeated, or only touch. Numbered from 0: as given, or the corners
-    /// of the hull in the order of their vertices, then the six sides of the box.
+    /// The half-spaces that contribute no face, because they are redundant, repeated, or only
+    /// touch. Numbered from 0: as given, or the corners of the hull in the order of their vertices,
+    /// then the six sides of the box.
     pub without_face: Vec<usize>,
     /// Number of faces.
     pub faces: usize,
@@ -93,16 +102,22 @@ impl HullStep {
 /// The convex hull or dual convex hull of a mesh's vertices, of all or by clusters.
 ///
 /// # Errors
-/// [`OpError::NoHull`] when the points of a part span no volume, [`OpError::HalfSpaces`] when a dual hull without box is unbounded,
-/// [`OpError::CountOutOfRange`], [`OpError::ConcavityOutOfRange`],
-/// [`OpError::Exclude`], [`OpError::Requires`], [`OpError::Cancelled`].
-pub fn hull(mesh: &Mesh, params: &HullParams, context: &OpContext<'_>) -> Result<(Mesh, HullReport), OpError> {
+/// [`OpError::NoHull`] when the points of a part span no volume, [`OpError::HalfSpaces`] when a
+/// dual hull without box is unbounded, [`OpError::CountOutOfRange`],
+/// [`OpError::ConcavityOutOfRange`], [`OpError::Exclude`], [`OpError::Requires`],
+/// [`OpError::Cancelled`].
+pub fn hull(
+    mesh: &Mesh,
+    params: &HullParams,
+    context: &OpContext<'_>,
+) -> Result<(Mesh, HullReport), OpError> {
     params.check()?;
     let clusters = parts::clusters(mesh, params)?;
     let mut report = HullReport { empty_clusters: clusters.empty, ..HullReport::default() };
     let mut result = Assembly::default();
     let steps = params.steps.as_ref().map_or(&[][..], |steps| &steps.0);
-    let mut pictures: Vec<(Step, Assembly)> = steps.iter().map(|&step| (step, Assembly::default())).collect();
+    let mut pictures: Vec<(Step, Assembly)> =
+        steps.iter().map(|&step| (step, Assembly::default())).collect();
     for (i, cluster) in clusters.parts.iter().enumerate() {
         context.progress.report("hulls", i, clusters.parts.len());
         if context.progress.is_cancelled() {
@@ -124,24 +139,33 @@ pub fn hull(mesh: &Mesh, params: &HullParams, context: &OpContext<'_>) -> Result
     let result = result.mesh()?;
     report.not_three_valent = other_than_three(&result);
     for (step, picture) in pictures {
-        let most = report.parts.iter().map(|part| part.planes - dual::box_sides(params.no_box)).max().unwrap_or(0);
+        let most = report
+            .parts
+            .iter()
+            .map(|part| part.planes - dual::box_sides(params.no_box))
+            .max()
+            .unwrap_or(0);
         report.steps.push(HullStep { planes: step.planes().min(most), mesh: picture.mesh()? });
     }
     Ok((result, report))
 }
 
-/// The solid that half-spaces n·x ≤ d bound. Of `params` only [`HullParams::simple`] matters. The numbers are taken as given:
-/// more than three planes meet in a vertex only when they do so exactly.
+/// The solid that half-spaces n·x ≤ d bound. Of `params` only [`HullParams::simple`] matters. The
+/// numbers are taken as given: more than three planes meet in a vertex only when they do so
+/// exactly.
 ///
 /// # Errors
-/// [`OpError::HalfSpaces`] when they have nothing in common (with the numbers of those that exclude each other), no volume, or leave a
-/// direction open (with the direction).
-pub fn halfspaces(half_spaces: &[HalfSpace], params: &HullParams) -> Result<(Mesh, HullReport), OpError> {
+/// [`OpError::HalfSpaces`] when they have nothing in common (with the numbers of those that exclude
+/// each other), no volume, or leave a direction open (with the direction).
+pub fn halfspaces(
+    half_spaces: &[HalfSpace],
+    params: &HullParams,
+) -> Result<(Mesh, HullReport), OpError> {
     let name = "hull".to_owned();
     let form = if params.simple { Form::Simple } else { Form::Merged };
     let options = Intersect { form, numbers: Numbers::Given, interior: None };
-    let polytope =
-        intersect(half_spaces, &options).map_err(|reason| OpError::HalfSpaces { part: name.clone(), reason })?;
+    let polytope = intersect(half_spaces, &options)
+        .map_err(|reason| OpError::HalfSpaces { part: name.clone(), reason })?;
     let mut result = Assembly::default();
     let part = HullPart { name, points: 0, planes: half_spaces.len(), ..HullPart::default() };
     let part = result.add_polytope(polytope, half_spaces, glam::DVec3::ZERO, part);

@@ -11,16 +11,18 @@ use crate::units::UnitError;
 /// How to make a hull. One definition for the library, the command line and the recipe.
 #[derive(Debug, Clone, PartialEq, clap::Args, Deserialize)]
 pub struct HullParams {
-    /// Make the dual convex hull: one plane through each corner of the hull, with the mean normal of its faces there.
+    /// Make the dual convex hull: one plane through each corner of the hull, with the mean normal
+    /// of its faces there.
     #[arg(long)]
     #[serde(default)]
     pub dual: bool,
-    /// Divide vertices where more than three planes meet, so that exactly three edges meet in each; some edges then have
-    /// length zero.
+    /// Divide vertices where more than three planes meet, so that exactly three edges meet in each;
+    /// some edges then have length zero.
     #[arg(long)]
     #[serde(default)]
     pub simple: bool,
-    /// Leave out the bounding box that a dual hull is intersected with; an open direction is then an error.
+    /// Leave out the bounding box that a dual hull is intersected with; an open direction is then
+    /// an error.
     #[arg(long, requires = "dual")]
     #[serde(default)]
     pub no_box: bool,
@@ -36,11 +38,13 @@ pub struct HullParams {
     #[arg(long, conflicts_with = "parts")]
     #[serde(default)]
     pub by_group: bool,
-    /// Divide a concave model into at most this many nearly convex parts, each with its own hull; 1 to 1024.
+    /// Divide a concave model into at most this many nearly convex parts, each with its own hull; 1
+    /// to 1024.
     #[arg(long, value_name = "NUMBER")]
     #[serde(default)]
     pub parts: Option<u32>,
-    /// How concave a part may stay before it is divided, as a share of the model's volume; in (0, 1].
+    /// How concave a part may stay before it is divided, as a share of the model's volume; in (0,
+    /// 1].
     #[arg(long, default_value_t = default_concavity(), value_parser = crate::units::parse_number)]
     #[serde(default = "default_concavity")]
     pub concavity: f64,
@@ -72,15 +76,22 @@ impl Default for HullParams {
 }
 
 impl HullParams {
-    /// The ranges, and what excludes each other; a recipe or a library call does not go through the command line's checks.
+    /// The ranges, and what excludes each other; a recipe or a library call does not go through the
+    /// command line's checks.
     pub(super) fn check(&self) -> Result<(), OpError> {
-        let ways =
-            [("clusters", self.clusters.is_some()), ("by_group", self.by_group), ("parts", self.parts.is_some())];
-        let given: Vec<&'static str> = ways.into_iter().filter(|way| way.1).map(|way| way.0).collect();
+        let ways = [
+            ("clusters", self.clusters.is_some()),
+            ("by_group", self.by_group),
+            ("parts", self.parts.is_some()),
+        ];
+        let given: Vec<&'static str> =
+            ways.into_iter().filter(|way| way.1).map(|way| way.0).collect();
         if let [first, second, ..] = given[..] {
             return Err(OpError::Exclude { first, second });
         }
-        for (what, count, limit) in [("clusters", self.clusters, 10_000), ("parts", self.parts, 1024)] {
+        for (what, count, limit) in
+            [("clusters", self.clusters, 10_000), ("parts", self.parts, 1024)]
+        {
             if let Some(count) = count.filter(|count| !(1..=limit).contains(count)) {
                 return Err(OpError::CountOutOfRange { what, count, limit });
             }
@@ -136,7 +147,8 @@ pub struct Steps(pub Vec<Step>);
 impl FromStr for Step {
     type Err = UnitError;
     fn from_str(text: &str) -> Result<Self, UnitError> {
-        let error = || UnitError { text: text.to_owned(), wanted: "a list of steps", example: "1,20,all" };
+        let error =
+            || UnitError { text: text.to_owned(), wanted: "a list of steps", example: "1,20,all" };
         match text.trim() {
             "all" => Ok(Self::All),
             number => number.parse().map(Self::After).map_err(|_| error()),

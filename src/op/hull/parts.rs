@@ -24,7 +24,8 @@ pub(super) struct Clusters {
 
 impl Cluster {
     fn of(mesh: &Mesh, name: String, vertices: impl IntoIterator<Item = VertexId>) -> Self {
-        let (points, is_given) = vertices.into_iter().map(|v| (mesh.position(v), mesh.is_given(v))).unzip();
+        let (points, is_given) =
+            vertices.into_iter().map(|v| (mesh.position(v), mesh.is_given(v))).unzip();
         Self { name, points, is_given }
     }
 }
@@ -60,7 +61,8 @@ fn slabs(mesh: &Mesh, count: usize, axis: usize) -> Clusters {
     Clusters { parts, empty }
 }
 
-/// The vertices of each face group, in the order of the groups; of the faces without a group and the stray vertices last.
+/// The vertices of each face group, in the order of the groups; of the faces without a group and
+/// the stray vertices last.
 fn groups(mesh: &Mesh) -> Vec<Cluster> {
     let mut is_grouped = vec![false; mesh.vertex_slots()];
     let mut parts = Vec::new();
@@ -83,14 +85,15 @@ fn groups(mesh: &Mesh) -> Vec<Cluster> {
 }
 
 fn vertices_of(mesh: &Mesh, faces: impl Iterator<Item = FaceId>) -> Vec<VertexId> {
-    let mut vertices: Vec<VertexId> = faces.flat_map(|f| mesh.face_vertices(f).collect::<Vec<_>>()).collect();
+    let mut vertices: Vec<VertexId> =
+        faces.flat_map(|f| mesh.face_vertices(f).collect::<Vec<_>>()).collect();
     vertices.sort_unstable();
     vertices.dedup();
     vertices
 }
 
-/// Nearly convex parts of a concave model. The points are where the parts meet the surface, and every vertex besides, so
-/// that the hulls together hold all vertices.
+/// Nearly convex parts of a concave model. The points are where the parts meet the surface, and
+/// every vertex besides, so that the hulls together hold all vertices.
 fn automatic(mesh: &Mesh, most: u32, concavity: f64) -> Vec<Cluster> {
     let vertices: Vec<VertexId> = mesh.vertices().collect();
     let points: Vec<DVec3> = vertices.iter().map(|&v| mesh.position(v)).collect();
@@ -115,13 +118,18 @@ fn automatic(mesh: &Mesh, most: u32, concavity: f64) -> Vec<Cluster> {
     parts
 }
 
-/// Adds each vertex to the part with the nearest point: cut corners come back, and no vertex is left out.
+/// Adds each vertex to the part with the nearest point: cut corners come back, and no vertex is
+/// left out.
 fn add_missing(mesh: &Mesh, vertices: &[VertexId], parts: &mut [Cluster]) {
     let mut nearest = vec![(f64::INFINITY, 0); vertices.len()];
     for (k, part) in parts.iter().enumerate() {
         for (best, &v) in nearest.iter_mut().zip(vertices) {
             let position = mesh.position(v);
-            let distance = part.points.iter().map(|p| p.distance_squared(position)).fold(f64::INFINITY, f64::min);
+            let distance = part
+                .points
+                .iter()
+                .map(|p| p.distance_squared(position))
+                .fold(f64::INFINITY, f64::min);
             if distance < best.0 {
                 *best = (distance, k);
             }

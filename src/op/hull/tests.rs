@@ -36,14 +36,18 @@ fn size(mesh: &Mesh) -> f64 {
 /// Faces lie in their planes, and no point lies beyond one.
 #[track_caller]
 fn assert_convex_around(mesh: &Mesh, points: &Mesh) {
-    let tolerance = 1e-13 * size(mesh) + 8.0 * f64::EPSILON * mesh.position(VertexId::new(0)).length();
+    let tolerance =
+        1e-13 * size(mesh) + 8.0 * f64::EPSILON * mesh.position(VertexId::new(0)).length();
     for f in mesh.faces() {
         let plane = mesh.plane(f).expect("an area");
         assert!(
             mesh.face_positions(f).iter().all(|&p| plane.signed_distance(p).abs() <= tolerance),
             "{f:?} is not flat"
         );
-        let most = points.vertices().map(|v| plane.signed_distance(points.position(v))).fold(f64::MIN, f64::max);
+        let most = points
+            .vertices()
+            .map(|v| plane.signed_distance(points.position(v)))
+            .fold(f64::MIN, f64::max);
         assert!(most <= tolerance, "{f:?}: a point is {most:e} outside");
     }
 }
@@ -89,11 +93,13 @@ fn dual_hulls_without_box_are_the_dual_solids() {
 
 #[test]
 fn the_box_cuts_a_dual_hull_and_touching_planes_vanish() {
-    // The cube is its own bounding box; the planes through its corners touch it there and contribute nothing.
+    // The cube is its own bounding box; the planes through its corners touch it there and
+    // contribute nothing.
     let (result, report) = make(&named("cube"), &dual());
     assert_eq!(counts(&result), [8, 12, 6]);
     assert_eq!(report.parts[0].without_face, (0..8).collect::<Vec<_>>());
-    // The box of an octahedron touches it at its corners, and so do the planes through them: they are the same cube.
+    // The box of an octahedron touches it at its corners, and so do the planes through them: they
+    // are the same cube.
     let (result, _) = make(&named("octahedron"), &dual());
     assert_eq!(counts(&result), [8, 12, 6]);
     for name in ["icosahedron", "dodecahedron", "snub-cube", "prism-5"] {
@@ -130,8 +136,9 @@ fn planes_in_general_position_give_the_simple_counts_anywhere() {
 
 #[test]
 fn planes_around_a_quadrilateral_of_tangent_planes_meet_in_one_vertex() {
-    // With tangent planes n·x = 1 the plane through the corner of f, a, b is (f + a + b)·x = 3, so four around a quadrilateral f
-    // depend on each other. Where f has another number of sides they do not.
+    // With tangent planes n·x = 1 the plane through the corner of f, a, b is (f + a + b)·x = 3, so
+    // four around a quadrilateral f depend on each other. Where f has another number of sides they
+    // do not.
     let mesh = random_tangent_polytope(200, 3);
     let quadrilaterals = mesh.faces().filter(|&f| mesh.sides(f) == 4).count();
     let (result, report) = make(&mesh, &HullParams { no_box: true, ..dual() });
@@ -146,7 +153,8 @@ fn steps_begin_with_the_box_and_end_with_the_result() {
     let mesh = random_tangent_polytope(30, 8);
     let params = HullParams { steps: Some("0,1,20,all".parse().expect("steps")), ..dual() };
     let (result, report) = make(&mesh, &params);
-    let steps: Vec<(usize, usize)> = report.steps.iter().map(|s| (s.planes, s.mesh.face_count())).collect();
+    let steps: Vec<(usize, usize)> =
+        report.steps.iter().map(|s| (s.planes, s.mesh.face_count())).collect();
     assert_eq!((steps[0], steps[1].0, steps[2].0, steps[3].0), ((0, 6), 1, 20, 56));
     assert_eq!(steps[1].1, 7);
     let volumes: Vec<f64> = report.steps.iter().map(|s| volume(&s.mesh)).collect();
@@ -160,9 +168,15 @@ fn two_boxes() -> Mesh {
     for y in [0.0, 10.0] {
         let first = builder.vertex(DVec3::new(0.0, y, 0.0));
         for i in 1..8 {
-            builder.vertex(DVec3::new(f64::from(i & 1), y + f64::from(i >> 1 & 1), f64::from(i >> 2)));
+            builder.vertex(DVec3::new(
+                f64::from(i & 1),
+                y + f64::from(i >> 1 & 1),
+                f64::from(i >> 2),
+            ));
         }
-        for run in [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]] {
+        for run in
+            [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
+        {
             builder.face(run.map(|i| first + i));
         }
     }
@@ -181,13 +195,21 @@ fn clusters_and_groups_make_a_component_each() {
     for dual in [false, true] {
         let slabs = HullParams { clusters: Some(3), axis: Axis::Y, dual, ..HullParams::default() };
         let (result, report) = make(&mesh, &slabs);
-        assert_eq!((counts(&result), result.components().len(), report.empty_clusters), ([16, 24, 12], 2, 1));
+        assert_eq!(
+            (counts(&result), result.components().len(), report.empty_clusters),
+            ([16, 24, 12], 2, 1)
+        );
         assert_eq!(result.groups(), ["slab-1", "slab-3"]);
-        let (result, _) = make(&mesh, &HullParams { by_group: true, dual, ..HullParams::default() });
-        assert_eq!((counts(&result), result.groups()), ([16, 24, 12], &["low".to_owned(), "high".to_owned()][..]));
+        let (result, _) =
+            make(&mesh, &HullParams { by_group: true, dual, ..HullParams::default() });
+        assert_eq!(
+            (counts(&result), result.groups()),
+            ([16, 24, 12], &["low".to_owned(), "high".to_owned()][..])
+        );
     }
     let flat = HullParams { clusters: Some(22), axis: Axis::Y, ..HullParams::default() };
-    let error = hull(&mesh, &flat, &OpContext::default()).expect_err("one layer of points has no hull");
+    let error =
+        hull(&mesh, &flat, &OpContext::default()).expect_err("one layer of points has no hull");
     assert!(error.to_string().starts_with("slab-1: all 4 points lie in one plane"), "{error}");
 }
 
@@ -241,7 +263,8 @@ fn half_spaces_become_a_mesh_with_their_planes() {
     let plane = mesh.carried_plane(crate::mesh::FaceId::new(1)).expect("carried");
     assert!((plane.normal() - DVec3::new(1.0, 0.0, 1.0).normalize()).length() < 1e-15);
     let (simple, report) =
-        halfspaces(&planes, &HullParams { simple: true, ..HullParams::default() }).expect("a pyramid");
+        halfspaces(&planes, &HullParams { simple: true, ..HullParams::default() })
+            .expect("a pyramid");
     assert_sound(&simple);
     assert_eq!((counts(&simple), report.not_three_valent.len()), ([6, 9, 5], 0));
     let error = halfspaces(&planes[1..3], &HullParams::default()).expect_err("open");
@@ -251,17 +274,27 @@ fn half_spaces_become_a_mesh_with_their_planes() {
 #[test]
 fn bad_parameters_are_refused() {
     let mesh = named("cube");
-    let refuse = |params: HullParams| hull(&mesh, &params, &OpContext::default()).expect_err("refused");
+    let refuse =
+        |params: HullParams| hull(&mesh, &params, &OpContext::default()).expect_err("refused");
     let default = HullParams::default;
     assert_eq!(
         refuse(HullParams { clusters: Some(0), ..default() }),
         OpError::CountOutOfRange { what: "clusters", count: 0, limit: 10_000 }
     );
-    assert!(matches!(refuse(HullParams { clusters: Some(2), by_group: true, ..default() }), OpError::Exclude { .. }));
-    assert!(matches!(refuse(HullParams { concavity: f64::NAN, ..default() }), OpError::ConcavityOutOfRange { .. }));
+    assert!(matches!(
+        refuse(HullParams { clusters: Some(2), by_group: true, ..default() }),
+        OpError::Exclude { .. }
+    ));
+    assert!(matches!(
+        refuse(HullParams { concavity: f64::NAN, ..default() }),
+        OpError::ConcavityOutOfRange { .. }
+    ));
     assert!(matches!(refuse(HullParams { no_box: true, ..default() }), OpError::Requires { .. }));
     let steps = Some(Steps(vec![Step::All]));
-    assert!(matches!(refuse(HullParams { no_box: true, steps, ..dual() }), OpError::Exclude { .. }));
+    assert!(matches!(
+        refuse(HullParams { no_box: true, steps, ..dual() }),
+        OpError::Exclude { .. }
+    ));
 }
 
 #[test]
@@ -275,8 +308,18 @@ fn flags_and_recipes_agree() {
     let recipe = |text: &str| toml::from_str::<HullParams>(text).expect(text);
     assert_eq!(flags(&[]), HullParams::default());
     assert_eq!(recipe(""), HullParams::default());
-    let typed = flags(&["--dual", "--simple", "--clusters", "8", "--axis", "z", "--steps", "1,20,all"]);
-    assert_eq!(typed, recipe("dual = true\nsimple = true\nclusters = 8\naxis = \"z\"\nsteps = [1, 20, \"all\"]"));
-    assert_eq!(typed, recipe("dual = true\nsimple = true\nclusters = 8\naxis = \"z\"\nsteps = \"1,20,all\""));
-    assert_eq!(flags(&["--parts", "4", "--concavity", "1/20"]), recipe("parts = 4\nconcavity = 0.05"));
+    let typed =
+        flags(&["--dual", "--simple", "--clusters", "8", "--axis", "z", "--steps", "1,20,all"]);
+    assert_eq!(
+        typed,
+        recipe("dual = true\nsimple = true\nclusters = 8\naxis = \"z\"\nsteps = [1, 20, \"all\"]")
+    );
+    assert_eq!(
+        typed,
+        recipe("dual = true\nsimple = true\nclusters = 8\naxis = \"z\"\nsteps = \"1,20,all\"")
+    );
+    assert_eq!(
+        flags(&["--parts", "4", "--concavity", "1/20"]),
+        recipe("parts = 4\nconcavity = 0.05")
+    );
 }

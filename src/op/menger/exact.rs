@@ -1,4 +1,5 @@
-//! The exact sponge of a parallelepiped: unit faces between the cells that stay and those that do not.
+//! The exact sponge of a parallelepiped: unit faces between the cells that stay and those that do
+//! not.
 
 use glam::DVec3;
 
@@ -15,8 +16,13 @@ pub(super) fn exact(mesh: &Mesh, rounds: u32, context: &OpContext<'_>) -> Result
     }
     let (corner, edges) = frame(mesh).ok_or(OpError::NotABox)?;
     let cells = 3_usize.pow(rounds);
-    let mut sponge =
-        Sponge { cells, corner, edges, numbers: vec![u32::MAX; (cells + 1).pow(3)], builder: MeshBuilder::new() };
+    let mut sponge = Sponge {
+        cells,
+        corner,
+        edges,
+        numbers: vec![u32::MAX; (cells + 1).pow(3)],
+        builder: MeshBuilder::new(),
+    };
     for z in 0..cells {
         if context.progress.is_cancelled() {
             return Err(OpError::Cancelled);
@@ -49,8 +55,10 @@ fn frame(mesh: &Mesh) -> Option<(DVec3, [DVec3; 3])> {
     }
     let (low, high) = mesh.bounds()?;
     let bound = 8.0 * RoundingBound::of_box(low, high).length();
-    let is_corner = |p: DVec3| (0..8).any(|i| (corner + corner_of([a, b, c], i)).distance(p) <= bound);
-    let is_box = volume.abs() > bound.powi(3) && mesh.vertices().all(|v| is_corner(mesh.position(v)));
+    let is_corner =
+        |p: DVec3| (0..8).any(|i| (corner + corner_of([a, b, c], i)).distance(p) <= bound);
+    let is_box =
+        volume.abs() > bound.powi(3) && mesh.vertices().all(|v| is_corner(mesh.position(v)));
     is_box.then_some((corner, [a, b, c]))
 }
 
@@ -89,8 +97,11 @@ impl Sponge {
         }
         for axis in 0..3 {
             for is_far in [false, true] {
-                let beyond =
-                    if is_far { Some(cell[axis] + 1).filter(|&i| i < self.cells) } else { cell[axis].checked_sub(1) };
+                let beyond = if is_far {
+                    Some(cell[axis] + 1).filter(|&i| i < self.cells)
+                } else {
+                    cell[axis].checked_sub(1)
+                };
                 let mut neighbour = cell;
                 if let Some(i) = beyond {
                     neighbour[axis] = i;

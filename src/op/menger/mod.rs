@@ -1,9 +1,12 @@
-//! Menger sponges (Srinivasan 2004, VII): a tunnel from each face of a solid to a chamber in its middle.
+//! Menger sponges (Srinivasan 2004, VII): a tunnel from each face of a solid to a chamber in its
+//! middle.
 //!
-//! Each edge is divided in three, each face becomes a frame around a smaller face, from there a tunnel leads inwards to a copy of the
-//! smaller face at the depth of the thickness, and the copies are joined along their sides and around the old vertices into an inner skin.
-//! Where faces meet at an angle of 90° or less the copies meet, too: the strip between them is left out and its ends become one vertex, as do
-//! those up to the angle asked for. At concave edges (over 180°) the strip is bent around the edge at the distance of the thickness (figure 61).
+//! Each edge is divided in three, each face becomes a frame around a smaller face, from there a
+//! tunnel leads inwards to a copy of the smaller face at the depth of the thickness, and the copies
+//! are joined along their sides and around the old vertices into an inner skin. Where faces meet at
+//! an angle of 90° or less the copies meet, too: the strip between them is left out and its ends
+//! become one vertex, as do those up to the angle asked for. At concave edges (over 180°) the strip
+//! is bent around the edge at the distance of the thickness (figure 61).
 //!
 //! One round on a closed mesh with V, E, F of which no strip is left out:
 //!
@@ -11,10 +14,12 @@
 //!   vertices  V+6E    edges  15E    faces  7E+V    genus  2g+F−1    concave edge: +2, +3, +1
 //! ```
 //!
-//! A strip left out takes a face and an edge with it; nothing of it stays as a 2-gon. Needs: a closed mesh. Keeps: groups, for the frames;
-//! components. Planarity: of quads on a planar face, yes; corners of the inner skin by luck. Degenerate cases: corners of 180° (winged)
-//! move at right angles to their sides, reflex ones backwards. When the thickness is too large for a face, it is named and the result is
-//! marked as not clean. `exact` is another thing: the solid that Menger defined, of a cube or parallelepiped, with square faces of one size.
+//! A strip left out takes a face and an edge with it; nothing of it stays as a 2-gon. Needs: a
+//! closed mesh. Keeps: groups, for the frames; components. Planarity: of quads on a planar face,
+//! yes; corners of the inner skin by luck. Degenerate cases: corners of 180° (winged) move at right
+//! angles to their sides, reflex ones backwards. When the thickness is too large for a face, it is
+//! named and the result is marked as not clean. `exact` is another thing: the solid that Menger
+//! defined, of a cube or parallelepiped, with square faces of one size.
 
 mod exact;
 mod round;
@@ -45,15 +50,18 @@ pub struct MengerParams {
     #[arg(long, default_value_t = default_rounds())]
     #[serde(default = "default_rounds")]
     pub rounds: u32,
-    /// Thickness of the frames and depth of the tunnels: a share of the sides below 1/2, or with a unit a length.
+    /// Thickness of the frames and depth of the tunnels: a share of the sides below 1/2, or with a
+    /// unit a length.
     #[arg(long, default_value_t = Thickness::default())]
     #[serde(default)]
     pub thickness: Thickness,
-    /// Faces that meet at this angle or a smaller one have their tunnels' ends joined, 90deg or more and below 180deg.
+    /// Faces that meet at this angle or a smaller one have their tunnels' ends joined, 90deg or
+    /// more and below 180deg.
     #[arg(long, default_value = "90deg")]
     #[serde(default = "default_collapse")]
     pub collapse: Angle,
-    /// The sponge that Menger defined, for a cube or another parallelepiped: 20 smaller copies in each round, in one surface.
+    /// The sponge that Menger defined, for a cube or another parallelepiped: 20 smaller copies in
+    /// each round, in one surface.
     #[arg(long)]
     #[serde(default)]
     pub exact: bool,
@@ -86,9 +94,14 @@ impl FromStr for Thickness {
     type Err = UnitError;
 
     fn from_str(text: &str) -> Result<Self, UnitError> {
-        let error =
-            |_| UnitError { text: text.to_owned(), wanted: "a thickness", example: "1/3 (of the sides) or 5mm" };
-        parse_number(text).map(Self::Share).or_else(|_| text.parse().map(Self::Length).map_err(error))
+        let error = |_| UnitError {
+            text: text.to_owned(),
+            wanted: "a thickness",
+            example: "1/3 (of the sides) or 5mm",
+        };
+        parse_number(text)
+            .map(Self::Share)
+            .or_else(|_| text.parse().map(Self::Length).map_err(error))
     }
 }
 
@@ -119,14 +132,20 @@ impl<'de> Deserialize<'de> for Thickness {
 
 impl Default for MengerParams {
     fn default() -> Self {
-        Self { rounds: 1, thickness: Thickness::default(), collapse: default_collapse(), exact: false }
+        Self {
+            rounds: 1,
+            thickness: Thickness::default(),
+            collapse: default_collapse(),
+            exact: false,
+        }
     }
 }
 
 /// What the rounds met with.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct MengerReport {
-    /// For each round that had any: its number, and faces whose frame or tunnel does not fit, in ids of the mesh before that round.
+    /// For each round that had any: its number, and faces whose frame or tunnel does not fit, in
+    /// ids of the mesh before that round.
     pub crossing: Vec<(u32, Vec<usize>)>,
 }
 
@@ -135,7 +154,8 @@ impl MengerReport {
     pub fn notes(&self) -> Vec<String> {
         let note = |(round, faces): &(u32, Vec<usize>)| {
             format!(
-                "round {round}: the thickness is too large at {} faces ({}), so the sponge crosses itself there; take less ({})",
+                "round {round}: the thickness is too large at {} faces ({}), so the sponge crosses \
+                itself there; take less ({})",
                 faces.len(),
                 first_few(faces, 8),
                 OpFinding::SpongeCrosses.code()
@@ -148,10 +168,15 @@ impl MengerReport {
 /// Makes a Menger sponge. Positions count as constructed; planes are not carried along.
 ///
 /// # Errors
-/// [`OpError::RepeatOutOfRange`]; [`OpError::ShareOutOfRange`]; [`OpError::DepthTooSmall`]; [`OpError::AngleOutOfRange`];
-/// [`OpError::NotClosed`]; [`OpError::NoArea`]; [`OpError::TooManyFaces`] before a round that would not fit; [`OpError::Cancelled`];
-/// with `exact` [`OpError::NotABox`], and [`OpError::Exclude`] for another thickness than 1/3.
-pub fn menger(mesh: &Mesh, params: &MengerParams, context: &OpContext<'_>) -> Result<(Mesh, MengerReport), OpError> {
+/// [`OpError::RepeatOutOfRange`]; [`OpError::ShareOutOfRange`]; [`OpError::DepthTooSmall`];
+/// [`OpError::AngleOutOfRange`]; [`OpError::NotClosed`]; [`OpError::NoArea`];
+/// [`OpError::TooManyFaces`] before a round that would not fit; [`OpError::Cancelled`]; with
+/// `exact` [`OpError::NotABox`], and [`OpError::Exclude`] for another thickness than 1/3.
+pub fn menger(
+    mesh: &Mesh,
+    params: &MengerParams,
+    context: &OpContext<'_>,
+) -> Result<(Mesh, MengerReport), OpError> {
     check(mesh, params)?;
     if params.exact {
         return Ok((exact::exact(mesh, params.rounds, context)?, MengerReport::default()));
@@ -186,7 +211,9 @@ fn check(mesh: &Mesh, params: &MengerParams) -> Result<(), OpError> {
             return Err(OpError::ShareOutOfRange { what: "thickness", share, limit: 0.5 });
         }
         Thickness::Length(length) => {
-            let bound = mesh.bounds().map_or(0.0, |(low, high)| crate::geom::RoundingBound::of_box(low, high).length());
+            let bound = mesh
+                .bounds()
+                .map_or(0.0, |(low, high)| crate::geom::RoundingBound::of_box(low, high).length());
             if !(length.mm() > 8.0 * bound && length.mm().is_finite()) {
                 return Err(OpError::DepthTooSmall { depth: length.mm(), least: 8.0 * bound });
             }
@@ -198,7 +225,12 @@ fn check(mesh: &Mesh, params: &MengerParams) -> Result<(), OpError> {
     }
     let degrees = params.collapse.degrees();
     if !(90.0..180.0).contains(&degrees) {
-        return Err(OpError::AngleOutOfRange { what: "collapse", degrees, least: 90.0, limit: 180.0 });
+        return Err(OpError::AngleOutOfRange {
+            what: "collapse",
+            degrees,
+            least: 90.0,
+            limit: 180.0,
+        });
     }
     if !mesh.is_closed() {
         return Err(OpError::NotClosed { what: "a Menger sponge", holes: mesh.hole_count() });

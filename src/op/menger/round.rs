@@ -1,5 +1,5 @@
-//! One round of the general sponge. The words are those of the thesis: thirds on the edges, a remeshing face in each face, an offset face
-//! below it, links between offset faces across edges.
+//! One round of the general sponge. The words are those of the thesis: thirds on the edges, a
+//! remeshing face in each face, an offset face below it, links between offset faces across edges.
 
 use std::f64::consts::PI;
 
@@ -9,14 +9,19 @@ use super::super::OpError;
 use super::Thickness;
 use crate::geom::{Plane, RoundingBound, meet_planes_near};
 use crate::measure::dihedral_angle;
-use crate::mesh::{EdgeMap, FaceId, FaceMap, HalfEdgeId, HalfEdgeMap, Mesh, VertexId, VertexMap, WalkBuilder};
+use crate::mesh::{
+    EdgeMap, FaceId, FaceMap, HalfEdgeId, HalfEdgeMap, Mesh, VertexId, VertexMap, WalkBuilder,
+};
 
-/// Angles that differ by no more than this are equal: sides whose directions are opposite, faces at the angle of collapse.
+/// Angles that differ by no more than this are equal: sides whose directions are opposite, faces at
+/// the angle of collapse.
 const SAME_ANGLE: f64 = 1e-9;
-/// Around an edge so sharp that a bend would reach farther than this times the thickness, it reaches so far.
+/// Around an edge so sharp that a bend would reach farther than this times the thickness, it
+/// reaches so far.
 const FARTHEST_BEND: f64 = 8.0;
 
-/// The links across an edge at the origin of a half-edge, from its face's offset face to that of its twin.
+/// The links across an edge at the origin of a half-edge, from its face's offset face to that of
+/// its twin.
 #[derive(Clone, Copy, PartialEq)]
 enum Link {
     /// Both are one vertex.
@@ -37,7 +42,11 @@ struct Places {
     depths: HalfEdgeMap<DVec3>,
 }
 
-pub(super) fn round(mesh: &Mesh, thickness: Thickness, collapse: f64) -> Result<(Mesh, Vec<usize>), OpError> {
+pub(super) fn round(
+    mesh: &Mesh,
+    thickness: Thickness,
+    collapse: f64,
+) -> Result<(Mesh, Vec<usize>), OpError> {
     let mut planes = FaceMap::filled(mesh.face_slots(), None);
     for f in mesh.faces() {
         planes[f] = Some(mesh.plane(f).ok_or(OpError::NoArea(f))?);
@@ -53,7 +62,9 @@ pub(super) fn round(mesh: &Mesh, thickness: Thickness, collapse: f64) -> Result<
         places: &places,
         joins: &joins,
         angles: &angles,
-        same_place: mesh.bounds().map_or(0.0, |(low, high)| RoundingBound::of_box(low, high).length()),
+        same_place: mesh
+            .bounds()
+            .map_or(0.0, |(low, high)| RoundingBound::of_box(low, high).length()),
         walks: WalkBuilder::with_capacity(
             mesh.vertex_count() + 6 * mesh.edge_count(),
             15 * mesh.edge_count(),
@@ -83,9 +94,15 @@ impl Places {
         let mut places = Self { thirds: none(), frames: none(), depths: none() };
         for f in mesh.faces() {
             let normal = planes[f].expect("every face has a plane").normal();
-            let length = |h: HalfEdgeId| mesh.position(mesh.origin(h)).distance(mesh.position(mesh.target(h)));
+            let length = |h: HalfEdgeId| {
+                mesh.position(mesh.origin(h)).distance(mesh.position(mesh.target(h)))
+            };
             let is_straight = |h: &HalfEdgeId| length(*h) > 0.0;
-            let shortest = mesh.face_half_edges(f).filter(is_straight).map(length).fold(f64::INFINITY, f64::min);
+            let shortest = mesh
+                .face_half_edges(f)
+                .filter(is_straight)
+                .map(length)
+                .fold(f64::INFINITY, f64::min);
             // A face may be one point: then no side leads out of it.
             let is_point = shortest == f64::INFINITY;
             let shortest = if is_point { 0.0 } else { shortest };
@@ -102,7 +119,8 @@ impl Places {
                         Thickness::Length(length) => side.normalize_or_zero() * length.mm(),
                     }
                 };
-                // A self-loop has no direction: both its ends get the corner between the sides before and after it.
+                // A self-loop has no direction: both its ends get the corner between the sides
+                // before and after it.
                 let (mut after, mut before) = (h, mesh.prev(h));
                 while !is_point && !is_straight(&after) {
                     after = mesh.next(after);
@@ -153,8 +171,10 @@ impl Joins {
             for v in mesh.vertices() {
                 joins.strips[v] = mesh.outgoing(v).filter(|h| !joins.closed[h.edge()]).count();
             }
-            // Where a strip is the only one at both of its ends, they are one vertex each, and it is left out, too.
-            let lonely = |e| !joins.closed[e] && mesh.edge_vertices(e).iter().all(|&v| joins.strips[v] == 1);
+            // Where a strip is the only one at both of its ends, they are one vertex each, and it
+            // is left out, too.
+            let lonely =
+                |e| !joins.closed[e] && mesh.edge_vertices(e).iter().all(|&v| joins.strips[v] == 1);
             let more: Vec<_> = mesh.edges().filter(|&e| lonely(e)).collect();
             if more.is_empty() {
                 break;
@@ -167,7 +187,8 @@ impl Joins {
         joins
     }
 
-    /// Corners follow each other around the vertex by `next(twin)`, and are one where no strip lies between them.
+    /// Corners follow each other around the vertex by `next(twin)`, and are one where no strip lies
+    /// between them.
     fn classify(&mut self, mesh: &Mesh, v: VertexId) {
         let around: Vec<HalfEdgeId> = mesh.outgoing(v).collect();
         let is_one = self.strips[v] < 2;
@@ -194,13 +215,17 @@ impl Joins {
         for v in mesh.vertices() {
             let around: Vec<HalfEdgeId> = mesh.outgoing(v).collect();
             let meeting = |&h: &HalfEdgeId| {
-                let own: Vec<HalfEdgeId> = around.iter().copied().filter(|&o| self.class[o] == self.class[h]).collect();
+                let own: Vec<HalfEdgeId> =
+                    around.iter().copied().filter(|&o| self.class[o] == self.class[h]).collect();
                 if own.len() == 1 {
                     return depths[h];
                 }
-                let floors: Vec<Plane> =
-                    own.iter().filter_map(|&o| Plane::new(planes[mesh.face(o)]?.normal(), depths[o])).collect();
-                let mean = depths[h] + own.iter().map(|&o| depths[o] - depths[h]).sum::<DVec3>() / own.len() as f64;
+                let floors: Vec<Plane> = own
+                    .iter()
+                    .filter_map(|&o| Plane::new(planes[mesh.face(o)]?.normal(), depths[o]))
+                    .collect();
+                let mean = depths[h]
+                    + own.iter().map(|&o| depths[o] - depths[h]).sum::<DVec3>() / own.len() as f64;
                 meet_planes_near(&floors, mean).0
             };
             let places: Vec<DVec3> = around.iter().map(meeting).collect();
@@ -224,12 +249,18 @@ fn crossing(
             return false;
         }
         let least = SAME_ANGLE * side.length_squared();
-        let turns = [&places.frames, &places.depths].iter().any(|p| (p[next] - p[h]).dot(side) <= least);
+        let turns =
+            [&places.frames, &places.depths].iter().any(|p| (p[next] - p[h]).dot(side) <= least);
         let too_long = (places.thirds[h.twin()] - places.thirds[h]).dot(side) <= least;
-        let beyond = planes[mesh.face(h.twin())].expect("every face has a plane").signed_distance(places.depths[h]);
+        let beyond = planes[mesh.face(h.twin())]
+            .expect("every face has a plane")
+            .signed_distance(places.depths[h]);
         let leaves = angles[h.edge()] < PI - SAME_ANGLE && beyond >= 0.0;
-        let (wide, narrow) = (places.frames[across] - places.frames[h], places.depths[across] - places.depths[h]);
-        let crosses = !joins.closed[h.edge()] && joins.class[h] != joins.class[across] && wide.dot(narrow) <= 0.0;
+        let (wide, narrow) =
+            (places.frames[across] - places.frames[h], places.depths[across] - places.depths[h]);
+        let crosses = !joins.closed[h.edge()]
+            && joins.class[h] != joins.class[across]
+            && wide.dot(narrow) <= 0.0;
         turns || too_long || leaves || crosses
     };
     mesh.faces().filter(|&f| mesh.face_half_edges(f).any(is_odd)).map(FaceId::index).collect()
@@ -252,7 +283,8 @@ struct Sides {
     ends: HalfEdgeMap<HalfEdgeId>,
     /// From the third near the origin to the other.
     middles: HalfEdgeMap<HalfEdgeId>,
-    /// From the third near the origin to the corner of the frame there, and from the third near the target to the corner there.
+    /// From the third near the origin to the corner of the frame there, and from the third near the
+    /// target to the corner there.
     spokes: HalfEdgeMap<[HalfEdgeId; 2]>,
     /// Along the inside of the frame.
     frames: HalfEdgeMap<HalfEdgeId>,
@@ -283,14 +315,24 @@ impl Digger<'_> {
                     sides.spokes[h][0].twin(),
                 ]);
                 let back = sides.ends[prev.twin()].twin();
-                self.walks.face([sides.ends[h], sides.spokes[h][0], sides.spokes[prev][1].twin(), back]);
+                self.walks.face([
+                    sides.ends[h],
+                    sides.spokes[h][0],
+                    sides.spokes[prev][1].twin(),
+                    back,
+                ]);
                 made += 2;
             }
             frames.push((f, start..made));
         }
         for h in mesh.faces().flat_map(|f| mesh.face_half_edges(f)) {
             let next = mesh.next(h);
-            self.walks.face([sides.frames[h], sides.shafts[next], sides.floors[h].twin(), sides.shafts[h].twin()]);
+            self.walks.face([
+                sides.frames[h],
+                sides.shafts[next],
+                sides.floors[h].twin(),
+                sides.shafts[h].twin(),
+            ]);
         }
         self.inner_skin(&sides, &links);
         frames
@@ -312,12 +354,22 @@ impl Digger<'_> {
         }
         mesh.half_edges().for_each(|h| depths[h] = depths[self.joins.class[h]]);
         let spokes = HalfEdgeMap::filled(mesh.half_edge_slots(), [HalfEdgeId(u32::MAX); 2]);
-        let mut sides =
-            Sides { ends: none(), middles: none(), spokes, frames: none(), shafts: none(), floors: none(), depths };
+        let mut sides = Sides {
+            ends: none(),
+            middles: none(),
+            spokes,
+            frames: none(),
+            shafts: none(),
+            floors: none(),
+            depths,
+        };
         for h in mesh.half_edges() {
             let next = mesh.next(h);
             sides.ends[h] = self.walks.edge(corners[mesh.origin(h)], thirds[h]);
-            sides.spokes[h] = [self.walks.edge(thirds[h], inner[h]), self.walks.edge(thirds[h.twin()], inner[next])];
+            sides.spokes[h] = [
+                self.walks.edge(thirds[h], inner[h]),
+                self.walks.edge(thirds[h.twin()], inner[next]),
+            ];
             sides.frames[h] = self.walks.edge(inner[h], inner[next]);
             sides.shafts[h] = self.walks.edge(inner[h], sides.depths[h]);
         }
@@ -340,7 +392,8 @@ impl Digger<'_> {
         let mesh = self.mesh;
         let mut links = HalfEdgeMap::filled(mesh.half_edge_slots(), Link::Missing);
         for v in mesh.vertices() {
-            let open: Vec<HalfEdgeId> = mesh.outgoing(v).filter(|h| !self.joins.closed[h.edge()]).collect();
+            let open: Vec<HalfEdgeId> =
+                mesh.outgoing(v).filter(|h| !self.joins.closed[h.edge()]).collect();
             let is_bent = |h: &HalfEdgeId| self.angles[h.edge()] > PI + SAME_ANGLE;
             match open[..] {
                 [] | [_] => {}
@@ -351,7 +404,8 @@ impl Digger<'_> {
                     links[b] = Link::Straight(edge.twin());
                 }
                 _ => {
-                    let (bent, straight): (Vec<HalfEdgeId>, Vec<HalfEdgeId>) = open.into_iter().partition(is_bent);
+                    let (bent, straight): (Vec<HalfEdgeId>, Vec<HalfEdgeId>) =
+                        open.into_iter().partition(is_bent);
                     for &h in &straight {
                         let (from, to) = (sides.depths[h], sides.depths[mesh.next(h.twin())]);
                         links[h] = Link::Straight(self.walks.edge(from, to));
@@ -363,10 +417,16 @@ impl Digger<'_> {
                     for &h in &bent {
                         let (from, to) = (sides.depths[h], sides.depths[mesh.next(h.twin())]);
                         let bend = self.bend(h);
-                        links[h] = self.way_around(&straight, (from, to), (bend, sides), &links).unwrap_or_else(|| {
-                            let bend = self.walks.vertex(bend);
-                            Link::Bent(self.walks.edge(from, bend), bend, self.walks.edge(bend, to))
-                        });
+                        links[h] = self
+                            .way_around(&straight, (from, to), (bend, sides), &links)
+                            .unwrap_or_else(|| {
+                                let bend = self.walks.vertex(bend);
+                                Link::Bent(
+                                    self.walks.edge(from, bend),
+                                    bend,
+                                    self.walks.edge(bend, to),
+                                )
+                            });
                     }
                 }
             }
@@ -379,17 +439,20 @@ impl Digger<'_> {
         bent.iter().all(|&h| self.bend(h).distance(first) <= self.same_place)
     }
 
-    /// Bent links that all turn at one place share it, and the edges to it, so that no face without area is left between them.
+    /// Bent links that all turn at one place share it, and the edges to it, so that no face without
+    /// area is left between them.
     fn star(&mut self, bent: &[HalfEdgeId], sides: &Sides, links: &mut HalfEdgeMap<Link>) {
         let middle = self.walks.vertex(self.bend(bent[0]));
-        let rays: Vec<HalfEdgeId> = bent.iter().map(|&h| self.walks.edge(sides.depths[h], middle)).collect();
+        let rays: Vec<HalfEdgeId> =
+            bent.iter().map(|&h| self.walks.edge(sides.depths[h], middle)).collect();
         for (i, &h) in bent.iter().enumerate() {
             links[h] = Link::Bent(rays[i], middle, rays[(i + 1) % rays.len()].twin());
         }
     }
 
-    /// The two straight links that lead the other way around a vertex, when they turn at the very place of a bend: it would leave a slit
-    /// without area between them, so it takes them instead of edges of its own.
+    /// The two straight links that lead the other way around a vertex, when they turn at the very
+    /// place of a bend: it would leave a slit without area between them, so it takes them instead
+    /// of edges of its own.
     fn way_around(
         &self,
         straight: &[HalfEdgeId],
@@ -398,13 +461,19 @@ impl Digger<'_> {
         links: &HalfEdgeMap<Link>,
     ) -> Option<Link> {
         let &[a, b] = straight else { return None };
-        // In the order of the walk around the vertex: from the end of the bent link on to its start.
+        // In the order of the walk around the vertex: from the end of the bent link on to its
+        // start.
         for (first, second) in [(a, b), (b, a)] {
-            let (Link::Straight(on), Link::Straight(back)) = (links[first], links[second]) else { continue };
+            let (Link::Straight(on), Link::Straight(back)) = (links[first], links[second]) else {
+                continue;
+            };
             let corner = second;
             let turn = sides.depths[corner];
             let is_there = self.places.depths[corner].distance(bend) <= self.same_place;
-            if sides.depths[first] == to && sides.depths[self.mesh.next(second.twin())] == from && is_there {
+            if sides.depths[first] == to
+                && sides.depths[self.mesh.next(second.twin())] == from
+                && is_there
+            {
                 return Some(Link::Bent(back.twin(), turn, on.twin()));
             }
         }
@@ -414,7 +483,8 @@ impl Digger<'_> {
     /// Below a concave edge, near the origin of `h`, on the planes of both offset faces.
     fn bend(&self, h: HalfEdgeId) -> DVec3 {
         let mesh = self.mesh;
-        let [n, m] = [h, h.twin()].map(|h| self.planes[mesh.face(h)].expect("every face has a plane").normal());
+        let [n, m] = [h, h.twin()]
+            .map(|h| self.planes[mesh.face(h)].expect("every face has a plane").normal());
         let corners = [h, mesh.next(h.twin())];
         let depth = corners.map(|c| self.places.frames[c].distance(self.places.depths[c]));
         let reach = (1.0 / (1.0 + n.dot(m))).min(FARTHEST_BEND);
@@ -427,23 +497,35 @@ impl Digger<'_> {
         for e in mesh.edges().filter(|&e| !self.joins.closed[e]) {
             let [h, t] = e.half_edges();
             let (here, there) = (links[h], links[t]);
-            let bend = |link: Link| if let Link::Bent(_, bend, _) = link { Some(bend) } else { None };
+            let bend =
+                |link: Link| if let Link::Bent(_, bend, _) = link { Some(bend) } else { None };
             if bend(here).is_none() && bend(there).is_none() {
                 let ends = [there, here].map(|link| match link {
                     Link::Straight(edge) => Some(edge.twin()),
                     _ => None,
                 });
-                self.walks.face([Some(sides.floors[h]), ends[0], Some(sides.floors[t]), ends[1]].into_iter().flatten());
+                self.walks.face(
+                    [Some(sides.floors[h]), ends[0], Some(sides.floors[t]), ends[1]]
+                        .into_iter()
+                        .flatten(),
+                );
                 continue;
             }
-            // From the bend at the origin of h to that at the origin of t; a bend that is not there is the vertex that both sides share.
-            let [a, b] = [(here, h), (there, t)].map(|(link, h)| bend(link).unwrap_or(sides.depths[h]));
+            // From the bend at the origin of h to that at the origin of t; a bend that is not there
+            // is the vertex that both sides share.
+            let [a, b] =
+                [(here, h), (there, t)].map(|(link, h)| bend(link).unwrap_or(sides.depths[h]));
             let ridge = self.walks.edge(a, b);
-            for (side, ridge, near, far) in [(h, ridge, here, there), (t, ridge.twin(), there, here)] {
-                // Around the strip: along the floor, to the far bend, along the ridge, to the floor.
+            for (side, ridge, near, far) in
+                [(h, ridge, here, there), (t, ridge.twin(), there, here)]
+            {
+                // Around the strip: along the floor, to the far bend, along the ridge, to the
+                // floor.
                 let out = if let Link::Bent(_, _, edge) = far { Some(edge.twin()) } else { None };
                 let back = if let Link::Bent(edge, _, _) = near { Some(edge.twin()) } else { None };
-                self.walks.face([Some(sides.floors[side]), out, Some(ridge.twin()), back].into_iter().flatten());
+                self.walks.face(
+                    [Some(sides.floors[side]), out, Some(ridge.twin()), back].into_iter().flatten(),
+                );
             }
         }
         for v in mesh.vertices() {

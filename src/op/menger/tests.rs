@@ -22,18 +22,27 @@ fn counts(mesh: &Mesh) -> [usize; 3] {
 
 #[test]
 fn counts_and_genus_are_the_closed_forms() {
-    let solids = [shape::octahedron(1.0), shape::dodecahedron(1.0), shape::icosahedron(1.0), shape::soccer_ball(1.0)];
+    let solids = [
+        shape::octahedron(1.0),
+        shape::dodecahedron(1.0),
+        shape::icosahedron(1.0),
+        shape::soccer_ball(1.0),
+    ];
     for mesh in &solids {
         let [v, e, f] = counts(mesh);
         let (sponge, report) = run(mesh, &share(0.2, 1));
         assert_eq!(counts(&sponge), [v + 6 * e, 15 * e, 7 * e + v]);
         assert_eq!((genus(&sponge), report.crossing.len()), (f - 1, 0));
     }
-    // Where the tunnels' ends meet: a strip left out takes an edge and a face, the three corners at a vertex become one.
+    // Where the tunnels' ends meet: a strip left out takes an edge and a face, the three corners at
+    // a vertex become one.
     let (cube, report) = run(&shape::cube(1.0), &MengerParams::default());
     assert_eq!((counts(&cube), genus(&cube), report.crossing.len()), ([64, 144, 72], 5, 0));
     let (tetrahedron, report) = run(&shape::tetrahedron(1.0), &share(0.15, 1));
-    assert_eq!((counts(&tetrahedron), genus(&tetrahedron), report.crossing.len()), ([32, 72, 36], 3, 0));
+    assert_eq!(
+        (counts(&tetrahedron), genus(&tetrahedron), report.crossing.len()),
+        ([32, 72, 36], 3, 0)
+    );
 }
 
 #[test]
@@ -90,7 +99,8 @@ fn strips_bend_around_concave_edges() {
     let mesh = step();
     let (sponge, report) = run(&mesh, &share(0.2, 1));
     assert_eq!((genus(&sponge), report.crossing.len()), (mesh.face_count() - 1, 0));
-    // Ten corners of three right angles, and two where one edge is concave: there its strip is the only one, so that it is left out, too.
+    // Ten corners of three right angles, and two where one edge is concave: there its strip is the
+    // only one, so that it is left out, too.
     assert!(volume(&sponge) < volume(&mesh));
     let (deeper, _) = run(&mesh, &share(0.2, 2));
     assert_eq!(genus(&deeper), 2 * genus(&sponge) + sponge.face_count() - 1);
@@ -102,7 +112,8 @@ fn the_result_scales_with_the_input() {
     let (a, b) = (run(&small, &share(0.2, 2)).0, run(&large, &share(0.2, 2)).0);
     assert_eq!(counts(&a), counts(&b));
     assert!((volume(&a) / volume(&small) - volume(&b) / volume(&large)).abs() < 1e-9);
-    let length = MengerParams { thickness: "2mm".parse().expect("a length"), ..MengerParams::default() };
+    let length =
+        MengerParams { thickness: "2mm".parse().expect("a length"), ..MengerParams::default() };
     assert!((volume(&run(&shape::cube(6.0), &length).0) - 8.0 * 20.0).abs() < 1e-10);
 }
 
@@ -113,36 +124,49 @@ fn groups_go_to_frames() {
     let (sponge, _) = run(&cube, &MengerParams::default());
     let lid = sponge.faces().filter(|&f| sponge.group(f) == Some("lid"));
     let normal = cube.plane(FaceId::new(2)).expect("a plane").normal();
-    assert_eq!(lid.filter(|&f| sponge.plane(f).expect("a plane").normal().distance(normal) < 1e-14).count(), 8);
+    assert_eq!(
+        lid.filter(|&f| sponge.plane(f).expect("a plane").normal().distance(normal) < 1e-14)
+            .count(),
+        8
+    );
 }
 
 #[test]
 fn what_does_not_fit_is_told_or_refused() {
     let tetrahedron = shape::tetrahedron(1.0);
-    let (_, report) =
-        menger(&tetrahedron, &share(0.3, 1), &OpContext::default()).expect("a sponge that crosses itself");
+    let (_, report) = menger(&tetrahedron, &share(0.3, 1), &OpContext::default())
+        .expect("a sponge that crosses itself");
     assert_eq!(report.crossing, [(1, vec![0, 1, 2, 3])]);
     assert!(report.notes()[0].contains("too large"));
-    let refuse = |mesh: &Mesh, p: MengerParams| menger(mesh, &p, &OpContext::default()).expect_err("refused");
+    let refuse = |mesh: &Mesh, p: MengerParams| {
+        menger(mesh, &p, &OpContext::default()).expect_err("refused")
+    };
     assert!(matches!(refuse(&tetrahedron, share(0.5, 1)), OpError::ShareOutOfRange { .. }));
     assert!(matches!(refuse(&tetrahedron, share(0.2, 0)), OpError::RepeatOutOfRange { .. }));
     let exact = MengerParams { exact: true, ..MengerParams::default() };
     assert!(matches!(refuse(&tetrahedron, exact.clone()), OpError::NotABox));
-    assert!(matches!(refuse(&tetrahedron, MengerParams { exact: true, ..share(0.2, 1) }), OpError::Exclude { .. }));
+    assert!(matches!(
+        refuse(&tetrahedron, MengerParams { exact: true, ..share(0.2, 1) }),
+        OpError::Exclude { .. }
+    ));
     let wide = MengerParams { collapse: Angle::from_degrees(180.0), ..exact };
     assert!(matches!(refuse(&tetrahedron, wide), OpError::AngleOutOfRange { .. }));
-    let sheet = Mesh::from_faces([DVec3::ZERO, DVec3::X, DVec3::Y], [[0, 1, 2]]).expect("a triangle");
+    let sheet =
+        Mesh::from_faces([DVec3::ZERO, DVec3::X, DVec3::Y], [[0, 1, 2]]).expect("a triangle");
     assert!(matches!(refuse(&sheet, MengerParams::default()), OpError::NotClosed { .. }));
 }
 
 #[test]
 fn self_loops_have_no_frame_of_their_own() {
     use crate::op::{SierpinskiParams, sierpinski};
-    let (gasket, _) = sierpinski(&shape::cube(1.0), &SierpinskiParams { rounds: 1 }, &OpContext::default())
-        .expect("a round on a cube");
+    let (gasket, _) =
+        sierpinski(&shape::cube(1.0), &SierpinskiParams { rounds: 1 }, &OpContext::default())
+            .expect("a round on a cube");
     let (sponge, report) = run(&gasket, &share(0.125, 1));
-    // 2 g + F - 1 with genus 5 and 32 faces; the pyramids' bases are dug as well, and nothing crosses.
+    // 2 g + F - 1 with genus 5 and 32 faces; the pyramids' bases are dug as well, and nothing
+    // crosses.
     assert_eq!((genus(&sponge), report.crossing.len()), (41, 0));
-    let (_, report) = menger(&gasket, &share(0.25, 1), &OpContext::default()).expect("a sponge that crosses itself");
+    let (_, report) = menger(&gasket, &share(0.25, 1), &OpContext::default())
+        .expect("a sponge that crosses itself");
     assert_eq!(report.crossing, [(1, (0..32).collect())]);
 }

@@ -1,5 +1,5 @@
-//! The constraints of planarizing: for each face with more than three sides, the heights of its corners over its own plane must be
-//! those of a plane.
+//! The constraints of planarizing: for each face with more than three sides, the heights of its
+//! corners over its own plane must be those of a plane.
 
 use std::collections::BTreeSet;
 
@@ -9,7 +9,8 @@ use crate::geom::sparse::{SparseRow, nested_dissection, solve_normal};
 use crate::geom::{Frame, bending_patterns, fit_plane};
 use crate::mesh::{FaceId, Mesh};
 
-/// The linearised constraints of one round, and the order in which they are eliminated in all rounds.
+/// The linearised constraints of one round, and the order in which they are eliminated in all
+/// rounds.
 pub(super) struct Constraints {
     faces: Vec<FaceId>,
     /// The column of each vertex slot.
@@ -41,7 +42,8 @@ impl Constraints {
         self.excess.clear();
         for &f in &self.faces {
             let corners = mesh.face_positions(f);
-            let columns: Vec<usize> = mesh.face_vertices(f).map(|v| self.columns[v.index()]).collect();
+            let columns: Vec<usize> =
+                mesh.face_vertices(f).map(|v| self.columns[v.index()]).collect();
             let (patterns, normal, heights) = bending(&corners);
             for pattern in patterns {
                 let mut row = SparseRow::new();
@@ -54,8 +56,9 @@ impl Constraints {
         }
     }
 
-    /// The steps of all vertices that keep the constraints to first order, and among those the ones nearest to the wish, measured
-    /// by the inverse of the mobility. `None` when the system is singular at this shift.
+    /// The steps of all vertices that keep the constraints to first order, and among those the ones
+    /// nearest to the wish, measured by the inverse of the mobility. `None` when the system is
+    /// singular at this shift.
     pub(super) fn solve(&self, wish: &[DVec3], mobility: &[f64], shift: f64) -> Option<Vec<DVec3>> {
         let weights: Vec<f64> = mobility.iter().flat_map(|&m| [m; 3]).collect();
         let wished = |column: usize| wish[column / 3][column % 3];
@@ -63,7 +66,9 @@ impl Constraints {
             .rows
             .iter()
             .zip(&self.excess)
-            .map(|(row, excess)| -excess - row.iter().map(|&(column, value)| value * wished(column)).sum::<f64>())
+            .map(|(row, excess)| {
+                -excess - row.iter().map(|&(column, value)| value * wished(column)).sum::<f64>()
+            })
             .collect();
         let multipliers = solve_normal(&self.rows, &weights, shift, &self.order, &lack)?;
         let mut steps = wish.to_vec();
@@ -77,12 +82,16 @@ impl Constraints {
     }
 }
 
-/// The bending patterns of a face, the normal of its plane, and the heights of its corners over it. Corners that have no plane (all
-/// on one line) bend in no way.
+/// The bending patterns of a face, the normal of its plane, and the heights of its corners over it.
+/// Corners that have no plane (all on one line) bend in no way.
 fn bending(corners: &[DVec3]) -> (Vec<Vec<f64>>, DVec3, Vec<f64>) {
     let Some(plane) = fit_plane(corners) else {
         // Rows of zeros keep the numbering; the shift makes them harmless.
-        return (vec![vec![0.0; corners.len()]; corners.len() - 3], DVec3::ZERO, vec![0.0; corners.len()]);
+        return (
+            vec![vec![0.0; corners.len()]; corners.len() - 3],
+            DVec3::ZERO,
+            vec![0.0; corners.len()],
+        );
     };
     let frame = Frame::on_plane(&plane);
     let flat: Vec<DVec2> = corners.iter().map(|&p| frame.flatten(p)).collect();
@@ -94,12 +103,16 @@ fn bending(corners: &[DVec3]) -> (Vec<Vec<f64>>, DVec3, Vec<f64>) {
 fn order_of_rows(mesh: &Mesh, faces: &[FaceId]) -> Vec<usize> {
     let mut place_of = vec![usize::MAX; mesh.face_slots()];
     faces.iter().enumerate().for_each(|(i, f)| place_of[f.index()] = i);
-    let (mut places, mut neighbours, mut first_row, mut rows) = (Vec::new(), Vec::new(), Vec::new(), 0);
+    let (mut places, mut neighbours, mut first_row, mut rows) =
+        (Vec::new(), Vec::new(), Vec::new(), 0);
     for &f in faces {
         let corners = mesh.face_positions(f);
         places.push(corners.iter().sum::<DVec3>() / corners.len() as f64);
-        let around = mesh.face_vertices(f).flat_map(|v| mesh.vertex_faces(v)).map(|g| place_of[g.index()]);
-        neighbours.push(around.filter(|&i| i != usize::MAX).collect::<BTreeSet<_>>().into_iter().collect());
+        let around =
+            mesh.face_vertices(f).flat_map(|v| mesh.vertex_faces(v)).map(|g| place_of[g.index()]);
+        neighbours.push(
+            around.filter(|&i| i != usize::MAX).collect::<BTreeSet<_>>().into_iter().collect(),
+        );
         first_row.push(rows);
         rows += corners.len() - 3;
     }

@@ -1,14 +1,16 @@
 //! Planarize: moves vertices as little as possible until every face is planar.
 //!
-//! Source: our own arrangement of known parts. Sequential quadratic programming (Nocedal, Wright 2006, 18.1) on the constraint that
-//! the heights of a face's corners over its least-squares plane are those of a plane; the goal is least movement, after the
-//! closeness terms of Liu, Pottmann, Wallner, Yang, Wang 2006 ("Geometric modeling with conical meshes and developable surfaces"),
-//! and a fairness term that lets neighbours move alike. Each round solves one sparse linear system, one unknown for each side
-//! above three of each face.
+//! Source: our own arrangement of known parts. Sequential quadratic programming (Nocedal, Wright
+//! 2006, 18.1) on the constraint that the heights of a face's corners over its least-squares plane
+//! are those of a plane; the goal is least movement, after the closeness terms of Liu, Pottmann,
+//! Wallner, Yang, Wang 2006 ("Geometric modeling with conical meshes and developable surfaces"),
+//! and a fairness term that lets neighbours move alike. Each round solves one sparse linear system,
+//! one unknown for each side above three of each face.
 //!
-//! Needs: faces whose corners are not all fixed. Keeps: V, E, F, genus, groups, seams. Changes: positions, so that faces are planar to
-//! the profile. Degenerate: a flat patch of hexagons has too few ways to bend; it is already planar, and the shift of the system
-//! (Levenberg 1944) keeps its steps small. What does not come to an end within the rounds is told, with the worst face.
+//! Needs: faces whose corners are not all fixed. Keeps: V, E, F, genus, groups, seams. Changes:
+//! positions, so that faces are planar to the profile. Degenerate: a flat patch of hexagons has too
+//! few ways to bend; it is already planar, and the shift of the system (Levenberg 1944) keeps its
+//! steps small. What does not come to an end within the rounds is told, with the worst face.
 
 mod constraints;
 
@@ -30,7 +32,8 @@ use crate::select::Selection;
 
 /// The most rounds that may be asked for.
 const MOST_ROUNDS: u32 = 10_000;
-/// A step moves no vertex by more than this share of its shortest edge, so that the linear model of the round still holds.
+/// A step moves no vertex by more than this share of its shortest edge, so that the linear model of
+/// the round still holds.
 const LONGEST_STEP: f64 = 0.25;
 /// The search for the least movement ends when a round lowers it by less than this share.
 const SETTLED: f64 = 1e-3;
@@ -61,7 +64,8 @@ pub struct PlanarizeParams {
     #[arg(long, default_value_t = 1.0, value_parser = crate::units::parse_number)]
     #[serde(default = "default_closeness")]
     pub closeness: f64,
-    /// Weight of neighbours moving alike, 0 or more, against the closeness: 10 gives long smooth movements instead of short local ones.
+    /// Weight of neighbours moving alike, 0 or more, against the closeness: 10 gives long smooth
+    /// movements instead of short local ones.
     #[arg(long, default_value_t = 0.0, value_parser = crate::units::parse_number)]
     #[serde(default)]
     pub fairness: f64,
@@ -111,7 +115,8 @@ pub struct PlanarizeReport {
     pub rounds: u32,
     /// Whether all faces keep the limits of the profile.
     pub is_planar: bool,
-    /// The face farthest from its limit, and the largest distance of a corner from a face's plane before and after, in mm.
+    /// The face farthest from its limit, and the largest distance of a corner from a face's plane
+    /// before and after, in mm.
     pub worst: Option<FaceId>,
     /// Before.
     pub before_mm: f64,
@@ -131,7 +136,8 @@ impl PlanarizeReport {
     /// What the user should know, in words.
     pub fn notes(&self) -> Vec<String> {
         let mut notes = vec![format!(
-            "planarized in {} rounds: corners off their face's plane by {} mm at most before, {} mm after; vertices moved by {} mm at most{}, {} mm on average",
+            "planarized in {} rounds: corners off their face's plane by {} mm at most before, {} \
+            mm after; vertices moved by {} mm at most{}, {} mm on average",
             self.rounds,
             short(self.before_mm),
             short(self.after_mm),
@@ -141,13 +147,15 @@ impl PlanarizeReport {
         )];
         if let Some(worst) = self.worst.filter(|_| !self.is_planar) {
             notes.push(format!(
-                "the profile is not reached: face {worst} is the worst; allow more rounds, free its fixed corners, or divide it ({})",
+                "the profile is not reached: face {worst} is the worst; allow more rounds, free \
+                its fixed corners, or divide it ({})",
                 OpFinding::NotPlanar.code()
             ));
         }
         if !self.crossing.is_empty() {
             notes.push(format!(
-                "sides cross now at {} faces that were simple before ({}): take a looser profile or more fairness, or make them planar by `cut face` instead ({})",
+                "sides cross now at {} faces that were simple before ({}): take a looser profile \
+                or more fairness, or make them planar by `cut face` instead ({})",
                 self.crossing.len(),
                 first_few(&self.crossing, 8),
                 OpFinding::FacesCross.code()
@@ -162,12 +170,14 @@ impl PlanarizeReport {
     }
 }
 
-/// Moves vertices as little as possible until every face is planar to the profile. Where the rounds do not suffice the best so far is
-/// returned, and the report says so; it names the faces whose sides cross for the movement, too.
+/// Moves vertices as little as possible until every face is planar to the profile. Where the rounds
+/// do not suffice the best so far is returned, and the report says so; it names the faces whose
+/// sides cross for the movement, too.
 ///
 /// # Errors
-/// [`OpError::WeightOutOfRange`], [`OpError::RepeatOutOfRange`], [`OpError::Select`] for an empty selection of fixed vertices,
-/// [`OpError::AllCornersFixed`] when a face that is not planar has fewer than one free corner, [`OpError::Cancelled`].
+/// [`OpError::WeightOutOfRange`], [`OpError::RepeatOutOfRange`], [`OpError::Select`] for an empty
+/// selection of fixed vertices, [`OpError::AllCornersFixed`] when a face that is not planar has
+/// fewer than one free corner, [`OpError::Cancelled`].
 pub fn planarize(
     mesh: &Mesh,
     params: &PlanarizeParams,
@@ -189,7 +199,8 @@ pub fn planarize(
     let before_mm = work.worst().2;
     let rounds = work.run(context)?;
     let (made, mut report) = work.finish(rounds, before_mm);
-    let crosses = |f: &FaceId| self_contact(&made, *f).is_some() && self_contact(mesh, *f).is_none();
+    let crosses =
+        |f: &FaceId| self_contact(&made, *f).is_some() && self_contact(mesh, *f).is_none();
     report.crossing = made.faces().filter(crosses).collect();
     Ok((made, report))
 }
@@ -197,10 +208,18 @@ pub fn planarize(
 fn check_numbers(params: &PlanarizeParams) -> Result<(), OpError> {
     let PlanarizeParams { closeness, fairness, rounds, .. } = *params;
     if !(closeness > 0.0 && closeness.is_finite()) {
-        return Err(OpError::WeightOutOfRange { what: "closeness", weight: closeness, least: "above 0" });
+        return Err(OpError::WeightOutOfRange {
+            what: "closeness",
+            weight: closeness,
+            least: "above 0",
+        });
     }
     if !(fairness >= 0.0 && fairness.is_finite()) {
-        return Err(OpError::WeightOutOfRange { what: "fairness", weight: fairness, least: "0 or more" });
+        return Err(OpError::WeightOutOfRange {
+            what: "fairness",
+            weight: fairness,
+            least: "0 or more",
+        });
     }
     if !(1..=MOST_ROUNDS).contains(&rounds) {
         return Err(OpError::RepeatOutOfRange { repeat: rounds, limit: MOST_ROUNDS });
@@ -208,7 +227,11 @@ fn check_numbers(params: &PlanarizeParams) -> Result<(), OpError> {
     Ok(())
 }
 
-fn fixed_vertices(mesh: &Mesh, params: &PlanarizeParams, context: &OpContext<'_>) -> Result<Vec<bool>, OpError> {
+fn fixed_vertices(
+    mesh: &Mesh,
+    params: &PlanarizeParams,
+    context: &OpContext<'_>,
+) -> Result<Vec<bool>, OpError> {
     let mut is_fixed = vec![false; mesh.vertex_slots()];
     if let Some(fix) = &params.fix {
         fix.vertices(&context.select(mesh))?.iter().for_each(|v| is_fixed[v.index()] = true);
@@ -220,8 +243,9 @@ fn fixed_vertices(mesh: &Mesh, params: &PlanarizeParams, context: &OpContext<'_>
 }
 
 fn refuse_fixed_faces(mesh: &Mesh, limits: &Limits, is_fixed: &[bool]) -> Result<(), OpError> {
-    let is_stuck =
-        |f: &FaceId| mesh.face_vertices(*f).all(|v| is_fixed[v.index()]) && !limits.allow(&planarity(mesh, *f));
+    let is_stuck = |f: &FaceId| {
+        mesh.face_vertices(*f).all(|v| is_fixed[v.index()]) && !limits.allow(&planarity(mesh, *f))
+    };
     let stuck: Vec<usize> = mesh.faces().filter(is_stuck).map(FaceId::index).collect();
     if stuck.is_empty() { Ok(()) } else { Err(OpError::AllCornersFixed { faces: stuck }) }
 }
@@ -237,7 +261,8 @@ struct Work<'a> {
 }
 
 impl Work<'_> {
-    /// First the least movement, then, without any other wish, the planes. Returns the number of rounds.
+    /// First the least movement, then, without any other wish, the planes. Returns the number of
+    /// rounds.
     fn run(&mut self, context: &OpContext<'_>) -> Result<u32, OpError> {
         let (mut cost, mut is_settled) = (f64::INFINITY, false);
         for round in 0..self.params.rounds {
@@ -270,7 +295,8 @@ impl Work<'_> {
         };
         let share = self.longest_share(&steps);
         let part = if share > LONGEST_STEP { LONGEST_STEP / share } else { 1.0 };
-        self.shift = if part < 1.0 { self.shift * 10.0 } else { self.shift / 10.0 }.clamp(SHIFTS[0], SHIFTS[1]);
+        self.shift = if part < 1.0 { self.shift * 10.0 } else { self.shift / 10.0 }
+            .clamp(SHIFTS[0], SHIFTS[1]);
         for (&(v, _), step) in self.start.iter().zip(&mut steps) {
             if !self.is_fixed[v.index()] {
                 self.mesh.set_position(v, self.mesh.position(v) + *step * part, false);
@@ -278,8 +304,9 @@ impl Work<'_> {
         }
     }
 
-    /// For each vertex the step that the goal alone would take, and how readily it moves: the inverse of a diagonal that majorises
-    /// the goal's second derivative, so that the step never raises the goal.
+    /// For each vertex the step that the goal alone would take, and how readily it moves: the
+    /// inverse of a diagonal that majorises the goal's second derivative, so that the step never
+    /// raises the goal.
     fn wish(&self, planes_only: bool) -> (Vec<DVec3>, Vec<f64>) {
         let PlanarizeParams { closeness, fairness, .. } = *self.params;
         let moved = self.moved();
@@ -300,7 +327,9 @@ impl Work<'_> {
 
     fn moved(&self) -> Vec<DVec3> {
         let mut moved = vec![DVec3::ZERO; self.mesh.vertex_slots()];
-        self.start.iter().for_each(|&(v, before)| moved[v.index()] = self.mesh.position(v) - before);
+        self.start
+            .iter()
+            .for_each(|&(v, before)| moved[v.index()] = self.mesh.position(v) - before);
         moved
     }
 
@@ -309,7 +338,8 @@ impl Work<'_> {
         let moved = self.moved();
         let close: f64 = moved.iter().map(|d| d.length_squared()).sum();
         let ends = self.mesh.edges().map(|e| self.mesh.edge_vertices(e));
-        let fair: f64 = ends.map(|[u, v]| moved[u.index()].distance_squared(moved[v.index()])).sum();
+        let fair: f64 =
+            ends.map(|[u, v]| moved[u.index()].distance_squared(moved[v.index()])).sum();
         self.params.closeness * close + self.params.fairness * fair
     }
 
@@ -317,14 +347,18 @@ impl Work<'_> {
     fn longest_share(&self, steps: &[DVec3]) -> f64 {
         let share = |(&(v, here), step): (&(VertexId, DVec3), &DVec3)| {
             let here = if self.is_fixed[v.index()] { here } else { self.mesh.position(v) };
-            let shortest =
-                self.mesh.neighbours(v).map(|u| self.mesh.position(u).distance(here)).fold(f64::MAX, f64::min);
+            let shortest = self
+                .mesh
+                .neighbours(v)
+                .map(|u| self.mesh.position(u).distance(here))
+                .fold(f64::MAX, f64::min);
             if step.length() == 0.0 { 0.0 } else { step.length() / shortest }
         };
         self.start.iter().zip(steps).map(share).fold(0.0, f64::max)
     }
 
-    /// The face that uses most of its limit, how much of it, and the largest distance of a corner from a face's plane.
+    /// The face that uses most of its limit, how much of it, and the largest distance of a corner
+    /// from a face's plane.
     fn worst(&self) -> (Option<FaceId>, f64, f64) {
         let mut worst = (None, 0.0, 0.0_f64);
         for f in self.mesh.faces().filter(|&f| self.mesh.sides(f) > 3) {
@@ -341,8 +375,10 @@ impl Work<'_> {
     fn finish(mut self, rounds: u32, before_mm: f64) -> (Mesh, PlanarizeReport) {
         self.carry_planes();
         let (worst, share, after_mm) = self.worst();
-        let ways: Vec<f64> = self.start.iter().map(|&(v, p)| self.mesh.position(v).distance(p)).collect();
-        let farthest = (0..ways.len()).max_by(|&i, &j| ways[i].total_cmp(&ways[j])).filter(|&i| ways[i] > 0.0);
+        let ways: Vec<f64> =
+            self.start.iter().map(|&(v, p)| self.mesh.position(v).distance(p)).collect();
+        let farthest =
+            (0..ways.len()).max_by(|&i, &j| ways[i].total_cmp(&ways[j])).filter(|&i| ways[i] > 0.0);
         let report = PlanarizeReport {
             rounds,
             is_planar: share <= 1.0,
@@ -350,7 +386,11 @@ impl Work<'_> {
             before_mm,
             after_mm,
             largest_movement_mm: farthest.map_or(0.0, |i| ways[i]),
-            mean_movement_mm: if ways.is_empty() { 0.0 } else { ways.iter().sum::<f64>() / ways.len() as f64 },
+            mean_movement_mm: if ways.is_empty() {
+                0.0
+            } else {
+                ways.iter().sum::<f64>() / ways.len() as f64
+            },
             farthest: farthest.map(|i| self.start[i].0),
             crossing: Vec::new(),
         };
@@ -367,7 +407,8 @@ impl Work<'_> {
             let corners = self.mesh.face_positions(f);
             let plane = self.mesh.plane(f).and_then(|newell| Some((newell, fit_plane(&corners)?)));
             let Some((newell, fitted)) = plane else { continue };
-            let fitted = if fitted.normal().dot(newell.normal()) < 0.0 { fitted.flipped() } else { fitted };
+            let fitted =
+                if fitted.normal().dot(newell.normal()) < 0.0 { fitted.flipped() } else { fitted };
             if corners.iter().all(|&p| fitted.signed_distance(p).abs() <= bound) {
                 self.mesh.set_plane(f, fitted);
             }

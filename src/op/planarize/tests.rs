@@ -17,7 +17,8 @@ fn shaken_torus(rings: usize, shake: f64) -> Mesh {
     let sides = rings / 2;
     let point = |i: usize| {
         let (u, v) = ((i / sides) as f64 / rings as f64, (i % sides) as f64 / sides as f64);
-        let ((su, cu), (sv, cv)) = ((u * std::f64::consts::TAU).sin_cos(), (v * std::f64::consts::TAU).sin_cos());
+        let ((su, cu), (sv, cv)) =
+            ((u * std::f64::consts::TAU).sin_cos(), (v * std::f64::consts::TAU).sin_cos());
         let jolt = [0, 1, 2].map(|axis| shake * noise(3 * i as u64 + axis));
         100.0 * DVec3::new((3.0 + cv) * cu, (3.0 + cv) * su, sv) + DVec3::from_array(jolt)
     };
@@ -82,8 +83,14 @@ fn a_facade_of_hexagons_on_a_dome() {
     let dome = hexagon_dome(12, 12);
     let (made, report) = run(&dome, &PlanarizeParams::default());
     assert!(report.is_planar && is_planar(&made, Profile::Exact), "{report:?}");
-    let (fixed, report) =
-        run(&dome, &PlanarizeParams { rim: RimRule::Fixed, profile: Profile::Glass, ..PlanarizeParams::default() });
+    let (fixed, report) = run(
+        &dome,
+        &PlanarizeParams {
+            rim: RimRule::Fixed,
+            profile: Profile::Glass,
+            ..PlanarizeParams::default()
+        },
+    );
     assert!(report.is_planar, "{report:?}");
     for v in dome.vertices().filter(|&v| dome.is_rim_vertex(v)) {
         assert_eq!(dome.position(v), fixed.position(v));
@@ -102,9 +109,13 @@ fn planar_models_stay_as_they_are_to_the_bit() {
 fn scale_and_place_do_not_matter() {
     let torus = shaken_torus(16, 4.0);
     let (plain, plain_report) = run(&torus, &PlanarizeParams::default());
-    for (scale, shift) in [(1e-2, DVec3::ZERO), (1e3, DVec3::ZERO), (1.0, DVec3::new(37_000.0, -5_000.0, 900.0))] {
+    for (scale, shift) in
+        [(1e-2, DVec3::ZERO), (1e3, DVec3::ZERO), (1.0, DVec3::new(37_000.0, -5_000.0, 900.0))]
+    {
         let mut other = torus.clone();
-        torus.vertices().for_each(|v| other.set_position(v, torus.position(v) * scale + shift, true));
+        torus
+            .vertices()
+            .for_each(|v| other.set_position(v, torus.position(v) * scale + shift, true));
         let (made, report) = run(&other, &PlanarizeParams::default());
         assert!(report.is_planar);
         assert_eq!(report.rounds, plain_report.rounds);
@@ -120,12 +131,22 @@ fn fairness_smooths_the_movement() {
     let torus = shaken_torus(20, 3.0);
     let roughness = |made: &Mesh| -> f64 {
         let moved = |v: VertexId| made.position(v) - torus.position(v);
-        torus.edges().map(|e| torus.edge_vertices(e)).map(|[u, v]| moved(u).distance_squared(moved(v))).sum()
+        torus
+            .edges()
+            .map(|e| torus.edge_vertices(e))
+            .map(|[u, v]| moved(u).distance_squared(moved(v)))
+            .sum()
     };
     let (plain, _) = run(&torus, &PlanarizeParams::default());
-    let (fair, report) = run(&torus, &PlanarizeParams { fairness: 3.0, ..PlanarizeParams::default() });
+    let (fair, report) =
+        run(&torus, &PlanarizeParams { fairness: 3.0, ..PlanarizeParams::default() });
     assert!(report.is_planar);
-    assert!(roughness(&fair) < 0.98 * roughness(&plain), "{} {}", roughness(&fair), roughness(&plain));
+    assert!(
+        roughness(&fair) < 0.98 * roughness(&plain),
+        "{} {}",
+        roughness(&fair),
+        roughness(&plain)
+    );
 }
 
 #[test]
@@ -150,12 +171,17 @@ fn what_cannot_move_is_told() {
 fn faces_that_the_movement_made_cross_are_named() {
     use crate::op::{Scheme, SierpinskiParams, SubdivideParams, sierpinski, subdivide};
     let context = OpContext::default();
-    let (gasket, _) = sierpinski(&crate::shape::tetrahedron(200.0), &SierpinskiParams { rounds: 1 }, &context)
-        .expect("a round on a tetrahedron");
-    let smoothed = subdivide(&gasket, &SubdivideParams::new(Scheme::CatmullClark, 2), &context).expect("two rounds");
-    let crosses = |mesh: &Mesh| -> Vec<FaceId> { mesh.faces().filter(|&f| self_contact(mesh, f).is_some()).collect() };
+    let (gasket, _) =
+        sierpinski(&crate::shape::tetrahedron(200.0), &SierpinskiParams { rounds: 1 }, &context)
+            .expect("a round on a tetrahedron");
+    let smoothed = subdivide(&gasket, &SubdivideParams::new(Scheme::CatmullClark, 2), &context)
+        .expect("two rounds");
+    let crosses = |mesh: &Mesh| -> Vec<FaceId> {
+        mesh.faces().filter(|&f| self_contact(mesh, f).is_some()).collect()
+    };
     let before = crosses(&smoothed);
-    let (made, report) = run(&smoothed, &PlanarizeParams { profile: Profile::Paper, ..PlanarizeParams::default() });
+    let (made, report) =
+        run(&smoothed, &PlanarizeParams { profile: Profile::Paper, ..PlanarizeParams::default() });
     let new: Vec<FaceId> = crosses(&made).into_iter().filter(|f| !before.contains(f)).collect();
     assert!(!new.is_empty() && report.crossing == new, "{new:?} {report:?}");
     assert!(report.is_planar && !report.is_clean());

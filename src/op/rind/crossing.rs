@@ -7,10 +7,12 @@ use super::offset::Skin;
 use crate::geom::{Frame, triangulate};
 use crate::mesh::{FaceId, FaceMap, Mesh};
 
-/// By how much less than the thickness a distance may be: the rounding of the construction, with room for flat corners.
+/// By how much less than the thickness a distance may be: the rounding of the construction, with
+/// room for flat corners.
 const SLACK: f64 = 1e-6;
 
-/// The faces that stay and that the second skin comes nearer to than their thickness, or whose sides turn round; ascending.
+/// The faces that stay and that the second skin comes nearer to than their thickness, or whose
+/// sides turn round; ascending.
 pub(super) fn crossing_faces(
     mesh: &Mesh,
     openings: &FaceMap<Opening>,
@@ -22,10 +24,13 @@ pub(super) fn crossing_faces(
         mesh.face_half_edges(f).any(|h| {
             let (a, b) = (mesh.origin(h), mesh.target(h));
             let before = mesh.position(b) - mesh.position(a);
-            a != b && before.dot(skin.positions[b] - skin.positions[a]) < -SLACK * before.length_squared()
+            a != b
+                && before.dot(skin.positions[b] - skin.positions[a])
+                    < -SLACK * before.length_squared()
         })
     };
-    let mut found: Vec<usize> = solid.iter().filter(|&&f| turns_round(f)).map(|f| f.index()).collect();
+    let mut found: Vec<usize> =
+        solid.iter().filter(|&&f| turns_round(f)).map(|f| f.index()).collect();
     found.extend(too_near(mesh, &solid, thickness, skin).iter().map(|f| f.index()));
     found.sort_unstable();
     found.dedup();
@@ -41,11 +46,13 @@ fn too_near(mesh: &Mesh, solid: &[FaceId], thickness: &FaceMap<f64>, skin: &Skin
     let mut entries: Vec<([i32; 3], u32)> = Vec::new();
     let triangles = triangles_of(mesh, solid);
     for (i, (_, corners)) in triangles.iter().enumerate() {
-        let bounds = corners.iter().fold((corners[0], corners[0]), |(a, b), p| (a.min(*p), b.max(*p)));
+        let bounds =
+            corners.iter().fold((corners[0], corners[0]), |(a, b), p| (a.min(*p), b.max(*p)));
         cells.between(bounds.0, bounds.1).for_each(|cell| entries.push((cell, i as u32)));
     }
     entries.sort_unstable();
-    // The skin keeps its distance from planes; the corners of a face that is not planar lie beside its plane.
+    // The skin keeps its distance from planes; the corners of a face that is not planar lie beside
+    // its plane.
     let mut unevenness = FaceMap::filled(mesh.face_slots(), 0.0);
     for &f in solid {
         let plane = mesh.plane(f).expect("the skin was made of planes");
@@ -62,7 +69,8 @@ fn too_near(mesh: &Mesh, solid: &[FaceId], thickness: &FaceMap<f64>, skin: &Skin
             let start = entries.partition_point(|e| e.0 < cell);
             for &(_, i) in entries[start..].iter().take_while(|e| e.0 == cell) {
                 let (f, corners) = &triangles[i as usize];
-                let wanted = thickness[*f].abs() * (1.0 - SLACK) - skin.residuals[v] - unevenness[*f];
+                let wanted =
+                    thickness[*f].abs() * (1.0 - SLACK) - skin.residuals[v] - unevenness[*f];
                 is_near[*f] |= nearest_on_triangle(p, corners).distance(p) < wanted;
             }
         }
@@ -95,11 +103,13 @@ impl Cells {
 
     fn between(&self, low: DVec3, high: DVec3) -> impl Iterator<Item = [i32; 3]> + use<> {
         let (a, b) = (self.of(low), self.of(high));
-        (a.x..=b.x).flat_map(move |x| (a.y..=b.y).flat_map(move |y| (a.z..=b.z).map(move |z| [x, y, z])))
+        (a.x..=b.x)
+            .flat_map(move |x| (a.y..=b.y).flat_map(move |y| (a.z..=b.z).map(move |z| [x, y, z])))
     }
 }
 
-/// The point of a triangle nearest to `p`: the foot of the perpendicular if it lies inside, else the nearest point of a side.
+/// The point of a triangle nearest to `p`: the foot of the perpendicular if it lies inside, else
+/// the nearest point of a side.
 fn nearest_on_triangle(p: DVec3, corners: &[DVec3; 3]) -> DVec3 {
     let [a, b, c] = *corners;
     let normal = (b - a).cross(c - a);
@@ -115,5 +125,7 @@ fn nearest_on_triangle(p: DVec3, corners: &[DVec3; 3]) -> DVec3 {
         if share.is_nan() { u } else { u + along * share.clamp(0.0, 1.0) }
     };
     let feet = sides.map(on_side);
-    feet.into_iter().min_by(|x, y| x.distance_squared(p).total_cmp(&y.distance_squared(p))).unwrap_or(a)
+    feet.into_iter()
+        .min_by(|x, y| x.distance_squared(p).total_cmp(&y.distance_squared(p)))
+        .unwrap_or(a)
 }

@@ -1,8 +1,10 @@
-//! Punching a mesh that is a shell already: partners are found by geometry, since no table of them was kept.
+//! Punching a mesh that is a shell already: partners are found by geometry, since no table of them
+//! was kept.
 //!
-//! The partner of a face looks the other way, lies behind it by no more than twice the thickness, has as many sides, and of all such faces its
-//! corners are nearest to those of the face. The two are joined by a pipe; peeling then deletes the two edges of every wall without
-//! thickness, and one edge of every 2-gon that this leaves (Srinivasan 2004, V.2.3).
+//! The partner of a face looks the other way, lies behind it by no more than twice the thickness,
+//! has as many sides, and of all such faces its corners are nearest to those of the face. The two
+//! are joined by a pipe; peeling then deletes the two edges of every wall without thickness, and
+//! one edge of every 2-gon that this leaves (Srinivasan 2004, V.2.3).
 
 use glam::DVec3;
 
@@ -30,7 +32,8 @@ pub(super) fn open(
     let mut made_mesh = mesh.clone();
     let mut was_there = EdgeMap::filled(mesh.edge_slots(), false);
     mesh.edges().for_each(|e| was_there[e] = true);
-    let carried: Vec<_> = mesh.faces().filter_map(|f| mesh.carried_plane(f).map(|plane| (f, plane))).collect();
+    let carried: Vec<_> =
+        mesh.faces().filter_map(|f| mesh.carried_plane(f).map(|plane| (f, plane))).collect();
     made_mesh.clear_planes();
     for pair in &pairs {
         let [from, to] = pair.corners[0];
@@ -49,12 +52,19 @@ pub(super) fn open(
             made_mesh.set_plane(f, plane);
         }
     }
-    let made = Made { faces: made_mesh.faces().filter(|&f| !stays(f)).collect(), ..Made::default() };
+    let made =
+        Made { faces: made_mesh.faces().filter(|&f| !stays(f)).collect(), ..Made::default() };
     let components = made_mesh.components().len();
     let euler = made_mesh.vertex_count() as i64 - made_mesh.edge_count() as i64
         + (made_mesh.face_count() + made_mesh.hole_count()) as i64;
     let genus = usize::try_from(components as i64 - euler / 2).unwrap_or_default();
-    let report = RindReport { openings: pairs.len(), walls_removed, components, genus, ..RindReport::default() };
+    let report = RindReport {
+        openings: pairs.len(),
+        walls_removed,
+        components,
+        genus,
+        ..RindReport::default()
+    };
     Ok((made_mesh, made, report))
 }
 
@@ -83,7 +93,11 @@ fn no_partner(f: FaceId) -> OpError {
     }
 }
 
-fn partner(mesh: &Mesh, f: FaceId, thickness: f64) -> Result<(FaceId, Vec<[HalfEdgeId; 2]>), OpError> {
+fn partner(
+    mesh: &Mesh,
+    f: FaceId,
+    thickness: f64,
+) -> Result<(FaceId, Vec<[HalfEdgeId; 2]>), OpError> {
     let normal = |f: FaceId| mesh.plane(f).ok_or(OpError::NoArea(f)).map(|plane| plane.normal());
     let own = normal(f)?;
     let centroid = face_centroid(mesh, f);
@@ -93,15 +107,21 @@ fn partner(mesh: &Mesh, f: FaceId, thickness: f64) -> Result<(FaceId, Vec<[HalfE
     let mut best: Option<(f64, FaceId, Vec<[HalfEdgeId; 2]>)> = None;
     for g in mesh.faces().filter(|&g| g != f && mesh.sides(g) == around.len()) {
         let way = face_centroid(mesh, g) - centroid;
-        if way.length() > 2.0 * thickness || way.dot(own) > 0.0 || normal(g)?.dot(own) > LOOKS_BACK {
+        if way.length() > 2.0 * thickness || way.dot(own) > 0.0 || normal(g)?.dot(own) > LOOKS_BACK
+        {
             continue;
         }
         let mut back: Vec<HalfEdgeId> = mesh.face_half_edges(g).collect();
         back.reverse();
         for _ in 0..back.len() {
-            let miss = back.iter().zip(&points).map(|(h, p)| place(h).distance(*p)).fold(0.0, f64::max);
+            let miss =
+                back.iter().zip(&points).map(|(h, p)| place(h).distance(*p)).fold(0.0, f64::max);
             if best.as_ref().is_none_or(|b| miss < b.0) {
-                best = Some((miss, g, around.iter().copied().zip(back.iter().copied()).map(<[_; 2]>::from).collect()));
+                best = Some((
+                    miss,
+                    g,
+                    around.iter().copied().zip(back.iter().copied()).map(<[_; 2]>::from).collect(),
+                ));
             }
             back.rotate_left(1);
         }
@@ -109,9 +129,16 @@ fn partner(mesh: &Mesh, f: FaceId, thickness: f64) -> Result<(FaceId, Vec<[HalfE
     best.map(|(_, g, corners)| (g, corners)).ok_or_else(|| no_partner(f))
 }
 
-/// Deletes both edges of each wall between openings of which one is peeled. Returns how many walls went.
-fn remove_walls(made: &mut Mesh, mesh: &Mesh, openings: &FaceMap<Opening>, pairs: &[Pair]) -> usize {
-    // For each side of an opened face the side of its partner that lies below: between the partner's corners, seen the other way.
+/// Deletes both edges of each wall between openings of which one is peeled. Returns how many walls
+/// went.
+fn remove_walls(
+    made: &mut Mesh,
+    mesh: &Mesh,
+    openings: &FaceMap<Opening>,
+    pairs: &[Pair],
+) -> usize {
+    // For each side of an opened face the side of its partner that lies below: between the
+    // partner's corners, seen the other way.
     let mut below = HalfEdgeMap::filled(mesh.half_edge_slots(), None);
     let mut is_peeled = HalfEdgeMap::filled(mesh.half_edge_slots(), false);
     for pair in pairs {
@@ -138,7 +165,8 @@ fn remove_walls(made: &mut Mesh, mesh: &Mesh, openings: &FaceMap<Opening>, pairs
     removed
 }
 
-/// Deletes one edge of each 2-gon between new edges, and what is left of vertices in the midst of peeled faces.
+/// Deletes one edge of each 2-gon between new edges, and what is left of vertices in the midst of
+/// peeled faces.
 fn remove_slivers(made: &mut Mesh, is_new: impl Fn(crate::mesh::EdgeId) -> bool) {
     loop {
         let slivers: Vec<FaceId> = made.faces().filter(|&f| made.sides(f) == 2).collect();
@@ -147,7 +175,9 @@ fn remove_slivers(made: &mut Mesh, is_new: impl Fn(crate::mesh::EdgeId) -> bool)
             if !made.has_face(f) || made.sides(f) != 2 {
                 continue;
             }
-            let Some(e) = made.face_half_edges(f).map(HalfEdgeId::edge).find(|&e| is_new(e)) else { continue };
+            let Some(e) = made.face_half_edges(f).map(HalfEdgeId::edge).find(|&e| is_new(e)) else {
+                continue;
+            };
             if made.face_half_edges(f).all(|h| is_new(h.edge())) {
                 made.delete_edge_with_cleanup(e);
                 is_done = false;

@@ -1,9 +1,11 @@
 //! Rind: a shell of even thickness, with faces punched through or peeled off (Srinivasan 2004, V).
 //!
-//! The second skin has the links of the first, turned inside out; each of its vertices lies where the planes of its faces meet after each was
-//! moved by the thickness: exactly with three planes, in the least-squares sense with more, with the residual told. A punched face is joined
-//! to its partner by a pipe, a quad for each side. Peeling also takes away the walls without thickness between neighbouring openings, the
-//! vertices in the midst of peeled faces, and the 2-gons that would be left over. Rims are openings, too, so a sheet becomes a slab.
+//! The second skin has the links of the first, turned inside out; each of its vertices lies where
+//! the planes of its faces meet after each was moved by the thickness: exactly with three planes,
+//! in the least-squares sense with more, with the residual told. A punched face is joined to its
+//! partner by a pipe, a quad for each side. Peeling also takes away the walls without thickness
+//! between neighbouring openings, the vertices in the midst of peeled faces, and the 2-gons that
+//! would be left over. Rims are openings, too, so a sheet becomes a slab.
 //!
 //! With F_o opened faces, E_o edges and V_o vertices taken away, and b sides of openings that stay:
 //!
@@ -11,12 +13,14 @@
 //!   vertices  2(V − V_o)    edges  2(E − E_o) + b    faces  2(F − F_o) + b    Euler number  2(χ − F_o + E_o − V_o)
 //! ```
 //!
-//! so k openings of which no two are neighbours leave genus 2g + k − 1, and none at all leaves two components. Needs: faces with an area.
-//! On a mesh that is a shell already only the openings are made, between partners that are found by geometry (`given`).
-//! Keeps: groups, planes, and to the bit the positions of the first skin. A negative thickness grows outwards. Planarity: where three
-//! planes meet, or more after a move by the thickness still do, faces of the second skin are as planar as those of the first. Degenerate
-//! cases: faces at a vertex that are coplanar, or parallel to one line, move it the shortest way; self-loops and 2-gons are legal. When the
-//! thickness is more than the shape allows, the faces are named and the result is marked as not clean.
+//! so k openings of which no two are neighbours leave genus 2g + k − 1, and none at all leaves two
+//! components. Needs: faces with an area. On a mesh that is a shell already only the openings are
+//! made, between partners that are found by geometry (`given`). Keeps: groups, planes, and to the
+//! bit the positions of the first skin. A negative thickness grows outwards. Planarity: where three
+//! planes meet, or more after a move by the thickness still do, faces of the second skin are as
+//! planar as those of the first. Degenerate cases: faces at a vertex that are coplanar, or parallel
+//! to one line, move it the shortest way; self-loops and 2-gons are legal. When the thickness is
+//! more than the shape allows, the faces are named and the result is marked as not clean.
 
 mod crossing;
 mod given;
@@ -50,16 +54,18 @@ pub struct RindParams {
     #[arg(long, value_name = "GROUP=LENGTH", allow_hyphen_values = true)]
     #[serde(default)]
     pub thickness_of: Vec<GroupThickness>,
-    /// Faces to open, in the selection language; neighbours keep a wall without thickness between them.
+    /// Faces to open, in the selection language; neighbours keep a wall without thickness between
+    /// them.
     #[arg(long, value_name = "SELECTION")]
     #[serde(default)]
     pub punch: Option<Selection>,
-    /// Faces to open, in the selection language, with the walls to neighbouring openings taken away.
+    /// Faces to open, in the selection language, with the walls to neighbouring openings taken
+    /// away.
     #[arg(long, value_name = "SELECTION")]
     #[serde(default)]
     pub peel: Option<Selection>,
-    /// Whether the shell is made, or the mesh is one already; then faces are joined to what lies behind them at most twice the thickness
-    /// away.
+    /// Whether the shell is made, or the mesh is one already; then faces are joined to what lies
+    /// behind them at most twice the thickness away.
     #[arg(long, value_enum, default_value_t)]
     #[serde(default)]
     pub shell: ShellSource,
@@ -89,7 +95,8 @@ impl FromStr for GroupThickness {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let (group, length) = text.rsplit_once('=').ok_or_else(|| format!("`{text}` is not like lid=3mm"))?;
+        let (group, length) =
+            text.rsplit_once('=').ok_or_else(|| format!("`{text}` is not like lid=3mm"))?;
         let thickness = length.parse().map_err(|e: crate::units::UnitError| e.to_string())?;
         Ok(Self { group: group.trim().to_owned(), thickness })
     }
@@ -129,9 +136,11 @@ pub struct RindReport {
     pub genus: usize,
     /// Components of the result.
     pub components: usize,
-    /// The largest distance of a vertex of the second skin from one of the planes that it should lie on, in mm.
+    /// The largest distance of a vertex of the second skin from one of the planes that it should
+    /// lie on, in mm.
     pub residual_mm: f64,
-    /// Faces, in ids of the mesh before, that the second skin comes nearer to than their thickness, or whose sides turn round.
+    /// Faces, in ids of the mesh before, that the second skin comes nearer to than their thickness,
+    /// or whose sides turn round.
     pub crossing: Vec<usize>,
 }
 
@@ -144,13 +153,15 @@ impl RindReport {
         )];
         if self.residual_mm > 0.0 {
             notes.push(format!(
-                "vertices of more than three planes: the second skin is up to {} mm off the thickness there",
+                "vertices of more than three planes: the second skin is up to {} mm off the \
+                thickness there",
                 short(self.residual_mm)
             ));
         }
         if !self.crossing.is_empty() {
             notes.push(format!(
-                "the shell crosses itself at {} faces ({}): the thickness is more than the shape allows there; take less ({})",
+                "the shell crosses itself at {} faces ({}): the thickness is more than the shape \
+                allows there; take less ({})",
                 self.crossing.len(),
                 first_few(&self.crossing, 8),
                 OpFinding::ShellCrosses.code()
@@ -163,11 +174,16 @@ impl RindReport {
 /// Makes a rind. Returns the mesh, what was made (the second skin and the walls), and a report.
 ///
 /// # Errors
-/// [`OpError::Select`] for an empty selection; [`OpError::DepthTooSmall`] when a thickness is within rounding; [`OpError::Exclude`] for
-/// thicknesses of both signs; [`OpError::NoSuchGroup`]; [`OpError::NoArea`] for a face without a normal; [`OpError::AllOpened`] when no
-/// face would be left; with a given shell [`OpError::NoSuchElement`] for a partner, and [`OpError::Exclude`] for thicknesses of groups;
-/// [`OpError::Cancelled`].
-pub fn rind(mesh: &Mesh, params: &RindParams, context: &OpContext<'_>) -> Result<(Mesh, Made, RindReport), OpError> {
+/// [`OpError::Select`] for an empty selection; [`OpError::DepthTooSmall`] when a thickness is
+/// within rounding; [`OpError::Exclude`] for thicknesses of both signs; [`OpError::NoSuchGroup`];
+/// [`OpError::NoArea`] for a face without a normal; [`OpError::AllOpened`] when no face would be
+/// left; with a given shell [`OpError::NoSuchElement`] for a partner, and [`OpError::Exclude`] for
+/// thicknesses of groups; [`OpError::Cancelled`].
+pub fn rind(
+    mesh: &Mesh,
+    params: &RindParams,
+    context: &OpContext<'_>,
+) -> Result<(Mesh, Made, RindReport), OpError> {
     let thickness = thicknesses(mesh, params)?;
     let openings = openings(mesh, params, context)?;
     if mesh.faces().all(|f| openings[f] != Opening::None) {
@@ -175,7 +191,10 @@ pub fn rind(mesh: &Mesh, params: &RindParams, context: &OpContext<'_>) -> Result
     }
     if params.shell == ShellSource::Given {
         if !params.thickness_of.is_empty() {
-            return Err(OpError::Exclude { first: "a given shell", second: "a thickness for a group" });
+            return Err(OpError::Exclude {
+                first: "a given shell",
+                second: "a thickness for a group",
+            });
         }
         return given::open(mesh, &openings, params.thickness.mm().abs());
     }
@@ -215,14 +234,21 @@ fn thicknesses(mesh: &Mesh, params: &RindParams) -> Result<FaceMap<f64>, OpError
         if mm.signum() != usual.signum() {
             return Err(OpError::Exclude { first: "a thickness inwards", second: "one outwards" });
         }
-        mesh.faces().filter(|&f| mesh.group(f) == Some(&special.group)).for_each(|f| thickness[f] = mm);
+        mesh.faces()
+            .filter(|&f| mesh.group(f) == Some(&special.group))
+            .for_each(|f| thickness[f] = mm);
     }
     Ok(thickness)
 }
 
-fn openings(mesh: &Mesh, params: &RindParams, context: &OpContext<'_>) -> Result<FaceMap<Opening>, OpError> {
+fn openings(
+    mesh: &Mesh,
+    params: &RindParams,
+    context: &OpContext<'_>,
+) -> Result<FaceMap<Opening>, OpError> {
     let mut openings = FaceMap::filled(mesh.face_slots(), Opening::None);
-    let mut open = |faces: Vec<FaceId>, how: Opening| faces.into_iter().for_each(|f| openings[f] = how);
+    let mut open =
+        |faces: Vec<FaceId>, how: Opening| faces.into_iter().for_each(|f| openings[f] = how);
     open(mesh.holes().collect(), Opening::Punched);
     for (selection, how) in [(&params.punch, Opening::Punched), (&params.peel, Opening::Peeled)] {
         if let Some(selection) = selection {

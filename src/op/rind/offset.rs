@@ -6,8 +6,9 @@ use super::super::OpError;
 use crate::geom::{Plane, meet_planes_near};
 use crate::mesh::{FaceMap, Mesh, VertexMap};
 
-/// Least squares with planes that hardly differ can run far along the direction of which they say nothing. With more than three planes
-/// that do not meet, a vertex moves at most so many times as far as the mean of its normals would have it.
+/// Least squares with planes that hardly differ can run far along the direction of which they say
+/// nothing. With more than three planes that do not meet, a vertex moves at most so many times as
+/// far as the mean of its normals would have it.
 const FARTHEST: f64 = 2.0;
 
 /// The second skin: for each vertex of the first, its place.
@@ -42,7 +43,8 @@ pub(super) fn offset(mesh: &Mesh, thickness: &FaceMap<f64>) -> Result<Skin, OpEr
 /// Where moved planes meet that met in `at` before.
 fn meeting(planes: &[Plane], at: DVec3) -> (DVec3, f64) {
     let (point, residual) = meet_planes_near(planes, at);
-    let residual_at = |x: DVec3| planes.iter().map(|p| p.signed_distance(x).abs()).fold(0.0, f64::max);
+    let residual_at =
+        |x: DVec3| planes.iter().map(|p| p.signed_distance(x).abs()).fold(0.0, f64::max);
     let normal = planes.iter().map(Plane::normal).sum::<DVec3>().normalize_or_zero();
     let far = residual_at(at);
     if planes.len() <= 3 || residual <= 1e-9 * far || normal == DVec3::ZERO {

@@ -4,7 +4,10 @@ use glam::DVec3;
 
 use super::offset::Skin;
 use super::{Opening, RindReport, bound};
-use crate::mesh::{EdgeId, EdgeMap, FaceId, FaceMap, HalfEdgeId, HalfEdgeMap, Mesh, VertexId, VertexMap, WalkBuilder};
+use crate::mesh::{
+    EdgeId, EdgeMap, FaceId, FaceMap, HalfEdgeId, HalfEdgeMap, Mesh, VertexId, VertexMap,
+    WalkBuilder,
+};
 use crate::select::Made;
 
 /// What stays of a mesh when it becomes a shell.
@@ -21,7 +24,8 @@ struct Skins {
     vertices: Vec<(VertexId, [VertexId; 2])>,
     /// Half-edges in the direction of the mesh, on the first and on the second skin.
     sides: [HalfEdgeMap<HalfEdgeId>; 2],
-    /// For each corner of an opening the edge from the first skin to the second; corners without a wall between them share one.
+    /// For each corner of an opening the edge from the first skin to the second; corners without a
+    /// wall between them share one.
     rungs: HalfEdgeMap<HalfEdgeId>,
 }
 
@@ -93,7 +97,8 @@ impl<'a> Shell<'a> {
                 skins.sides[layer][t] = side.twin();
             }
         }
-        skins.vertices = mesh.vertices().filter(|&v| self.stays(v)).map(|v| (v, copies[v])).collect();
+        skins.vertices =
+            mesh.vertices().filter(|&v| self.stays(v)).map(|v| (v, copies[v])).collect();
         for start in mesh.half_edges().filter(|&h| self.is_open(mesh.face(h))) {
             if self.removed[mesh.prev(start).edge()] {
                 continue;
@@ -111,7 +116,14 @@ impl<'a> Shell<'a> {
     }
 
     /// Gives the new mesh what the old one knew: which positions are given, groups, planes.
-    fn dress(&self, made: &mut Mesh, skin: &Skin, skins: &Skins, copies: &[(FaceId, [FaceId; 2])], is_turned: bool) {
+    fn dress(
+        &self,
+        made: &mut Mesh,
+        skin: &Skin,
+        skins: &Skins,
+        copies: &[(FaceId, [FaceId; 2])],
+        is_turned: bool,
+    ) {
         let mesh = self.mesh;
         for &(v, [first, _]) in &skins.vertices {
             made.set_position(first, mesh.position(v), mesh.is_given(v));
@@ -143,7 +155,8 @@ impl<'a> Shell<'a> {
             gone += usize::from(!self.stays(v));
         }
         let faces = mesh.face_count() + mesh.hole_count();
-        let euler = |vertices: usize, edges: usize, faces: usize| (vertices + faces) as i64 - edges as i64;
+        let euler =
+            |vertices: usize, edges: usize, faces: usize| (vertices + faces) as i64 - edges as i64;
         let before = euler(all, mesh.edge_count(), faces);
         let opened = euler(gone, walls_removed, openings);
         let components = made.components().len();

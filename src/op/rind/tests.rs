@@ -66,8 +66,10 @@ fn counts_are_those_that_were_measured_and_volumes_exact() {
     assert_eq!((counts(&shell), genus(&shell)), ([16, 32, 16], 1));
     let (shell, _, report) = run(&cube, &params(2.0, &[a], &[c]));
     assert_eq!((counts(&shell), genus(&shell), report.walls_removed), ([16, 28, 14], 0, 1));
-    let corner: Vec<u32> =
-        cube.vertex_faces(cube.vertices().next().expect("corners")).map(|f| f.index() as u32).collect();
+    let corner: Vec<u32> = cube
+        .vertex_faces(cube.vertices().next().expect("corners"))
+        .map(|f| f.index() as u32)
+        .collect();
     let (shell, ..) = run(&cube, &params(2.0, &[], &corner));
     assert_eq!((counts(&shell), genus(&shell)), ([14, 24, 12], 0));
     // All around: two plates.
@@ -97,8 +99,9 @@ fn every_set_of_openings_leaves_the_genus_that_its_shape_demands() {
             assert!(report.residual_mm == 0.0 && report.crossing.is_empty(), "{report:?}");
             let is_apart = |f: &u32| {
                 let f = FaceId::new(*f as usize);
-                mesh.face_half_edges(f)
-                    .all(|h| !sets.iter().flatten().any(|g| mesh.face(h.twin()).index() == *g as usize))
+                mesh.face_half_edges(f).all(|h| {
+                    !sets.iter().flatten().any(|g| mesh.face(h.twin()).index() == *g as usize)
+                })
             };
             if sets.iter().flatten().all(is_apart) && report.openings > 0 {
                 assert_eq!(report.genus, report.openings - 1);
@@ -120,16 +123,21 @@ fn the_second_skin_is_parallel_and_planar() {
 fn too_much_thickness_is_told_with_the_faces() {
     let cuboid = shape::cuboid(glam::DVec3::new(10.0, 20.0, 30.0));
     assert!(run(&cuboid, &params(4.9, &[], &[])).2.crossing.is_empty());
-    let (_, _, report) = rind(&cuboid, &params(5.1, &[], &[]), &OpContext::default()).expect("a rind");
+    let (_, _, report) =
+        rind(&cuboid, &params(5.1, &[], &[]), &OpContext::default()).expect("a rind");
     assert_eq!(report.crossing.len(), 6);
     // No side turns round, but the dent comes too near to the bottom.
-    let points = (0..8).map(|i| glam::DVec3::new([-10.0, 10.0][i & 1], [-10.0, 10.0][i >> 1 & 1], [0.0, 10.0][i >> 2]));
+    let points = (0..8).map(|i| {
+        glam::DVec3::new([-10.0, 10.0][i & 1], [-10.0, 10.0][i >> 1 & 1], [0.0, 10.0][i >> 2])
+    });
     let points = points.chain([glam::DVec3::Z]);
-    let sides = [vec![0, 2, 3, 1], vec![0, 1, 5, 4], vec![2, 6, 7, 3], vec![0, 4, 6, 2], vec![1, 3, 7, 5]];
+    let sides =
+        [vec![0, 2, 3, 1], vec![0, 1, 5, 4], vec![2, 6, 7, 3], vec![0, 4, 6, 2], vec![1, 3, 7, 5]];
     let dent = [[4, 5, 8], [5, 7, 8], [7, 6, 8], [6, 4, 8]].map(|t| t.to_vec());
     let dented = Mesh::from_faces(points, sides.into_iter().chain(dent)).expect("a dented box");
     assert!(run(&dented, &params(0.4, &[], &[])).2.crossing.is_empty());
-    let (_, _, report) = rind(&dented, &params(1.0, &[], &[]), &OpContext::default()).expect("a rind");
+    let (_, _, report) =
+        rind(&dented, &params(1.0, &[], &[]), &OpContext::default()).expect("a rind");
     assert!(report.crossing.contains(&0), "{report:?}");
 }
 
@@ -145,12 +153,15 @@ fn a_group_can_have_a_thickness_of_its_own() {
     assert!(matches!(rind(&cube, &thick, &OpContext::default()), Err(OpError::NoSuchGroup { .. })));
     thick.thickness_of = vec!["lid=-3mm".parse().expect("a group's thickness")];
     assert!(matches!(rind(&cube, &thick, &OpContext::default()), Err(OpError::Exclude { .. })));
-    assert!("lid".parse::<GroupThickness>().is_err() && "lid=wide".parse::<GroupThickness>().is_err());
+    assert!(
+        "lid".parse::<GroupThickness>().is_err() && "lid=wide".parse::<GroupThickness>().is_err()
+    );
 }
 
 #[test]
 fn an_open_sheet_becomes_a_slab() {
-    let points = [(0.0, 0.0), (4.0, 0.0), (4.0, 3.0), (0.0, 3.0)].map(|(x, y)| glam::DVec3::new(x, y, 0.0));
+    let points =
+        [(0.0, 0.0), (4.0, 0.0), (4.0, 3.0), (0.0, 3.0)].map(|(x, y)| glam::DVec3::new(x, y, 0.0));
     let sheet = Mesh::from_faces(points, [[0, 1, 2, 3]]).expect("a rectangle");
     let (slab, _, report) = run(&sheet, &params(0.5, &[], &[]));
     assert!((volume(&slab) - 6.0).abs() < 1e-12);
@@ -186,7 +197,10 @@ fn a_given_shell_is_opened_as_a_new_one_would_be() {
             given.shell = ShellSource::Given;
             let (opened, _, report) = run(&shell, &given);
             assert_eq!(counts(&opened), counts(&wanted), "{named:?}");
-            assert_eq!((report.openings, report.walls_removed), (at_once.openings, at_once.walls_removed));
+            assert_eq!(
+                (report.openings, report.walls_removed),
+                (at_once.openings, at_once.walls_removed)
+            );
             assert_eq!((report.genus, report.components), (at_once.genus, at_once.components));
             assert!((volume(&opened) - volume(&wanted)).abs() < 1e-9 * volume(mesh));
         }

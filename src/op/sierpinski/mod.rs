@@ -1,8 +1,10 @@
-//! Sierpinski polyhedra (Srinivasan & Akleman 2004; Srinivasan 2004, VI): each vertex keeps a pyramid half as high, what lies between is gone.
+//! Sierpinski polyhedra (Srinivasan & Akleman 2004; Srinivasan 2004, VI): each vertex keeps a
+//! pyramid half as high, what lies between is gone.
 //!
-//! Every edge is halved, every corner of every face cut off, and what remains in the middle of the faces is removed: at the middle of each
-//! edge a self-loop joins the two neighbouring openings, so that the surface stays one, closed and orientable, although its pyramids seem to
-//! touch in points only. Self-loops that are there already stay as they are, in the corner where they lie.
+//! Every edge is halved, every corner of every face cut off, and what remains in the middle of the
+//! faces is removed: at the middle of each edge a self-loop joins the two neighbouring openings, so
+//! that the surface stays one, closed and orientable, although its pyramids seem to touch in points
+//! only. Self-loops that are there already stay as they are, in the corner where they lie.
 //!
 //! One round on a closed mesh with V vertices, E straight edges, L loops and F faces:
 //!
@@ -10,12 +12,14 @@
 //!   vertices  V+E    straight edges  4E    loops  L+E    faces  2E + pyramids
 //! ```
 //!
-//! with a pyramid for each vertex, and for each further part into which loops divide a vertex. From genus 0, n rounds make
-//! V + E(4ⁿ−1)/3 vertices, E·4ⁿ straight edges and E(4ⁿ−1)/3 loops, V + 2E(4ⁿ−1)/3 faces, genus 1 − V + E(4ⁿ+2)/6.
+//! with a pyramid for each vertex, and for each further part into which loops divide a vertex. From
+//! genus 0, n rounds make V + E(4ⁿ−1)/3 vertices, E·4ⁿ straight edges and E(4ⁿ−1)/3 loops, V +
+//! 2E(4ⁿ−1)/3 faces, genus 1 − V + E(4ⁿ+2)/6.
 //!
-//! Needs: nothing. Keeps: components, positions of old vertices, groups (the triangles at the corners of a face inherit its group).
-//! Planarity: corner triangles are planar, bases of pyramids are for valence 3, others by luck. Degenerate cases: at the rim of an open mesh
-//! no loop is made, the openings on either side of it join; faces of loops only stay.
+//! Needs: nothing. Keeps: components, positions of old vertices, groups (the triangles at the
+//! corners of a face inherit its group). Planarity: corner triangles are planar, bases of pyramids
+//! are for valence 3, others by luck. Degenerate cases: at the rim of an open mesh no loop is made,
+//! the openings on either side of it join; faces of loops only stay.
 
 mod vertex_kind;
 
@@ -34,7 +38,8 @@ const MOST_FACES: usize = 1 << 27;
 /// The most rounds that may be asked for; the number of faces ends it much sooner.
 const MOST_ROUNDS: u32 = 32;
 
-/// How to make a Sierpinski polyhedron. One definition for the library, the command line and the recipe.
+/// How to make a Sierpinski polyhedron. One definition for the library, the command line and the
+/// recipe.
 #[derive(Debug, Clone, clap::Args, Deserialize)]
 pub struct SierpinskiParams {
     /// How many rounds, 1 to 32; each makes four times as many faces.
@@ -60,8 +65,10 @@ impl SierpinskiReport {
     /// The report in words: what there is, and what to expect of it.
     pub fn notes(&self) -> Vec<String> {
         let mut notes = kinds_in_words(self.kinds);
-        notes
-            .push(format!("{} self-loops of length zero hold the pyramids together; files leave them out", self.loops));
+        notes.push(format!(
+            "{} self-loops of length zero hold the pyramids together; files leave them out",
+            self.loops
+        ));
         notes
     }
 }
@@ -69,7 +76,8 @@ impl SierpinskiReport {
 /// Makes a Sierpinski polyhedron. Positions count as constructed; planes are not carried along.
 ///
 /// # Errors
-/// [`OpError::RepeatOutOfRange`]; [`OpError::TooManyFaces`] before a round that would not fit; [`OpError::Cancelled`].
+/// [`OpError::RepeatOutOfRange`]; [`OpError::TooManyFaces`] before a round that would not fit;
+/// [`OpError::Cancelled`].
 pub fn sierpinski(
     mesh: &Mesh,
     params: &SierpinskiParams,
@@ -97,16 +105,22 @@ pub fn sierpinski(
     Ok((fine, SierpinskiReport { kinds, loops }))
 }
 
-/// The kinds of the vertices of a mesh in words, and what to expect of each; known before the first round.
+/// The kinds of the vertices of a mesh in words, and what to expect of each; known before the first
+/// round.
 pub fn sierpinski_forecast(mesh: &Mesh) -> Vec<String> {
     kinds_in_words(count_kinds(mesh))
 }
 
 fn kinds_in_words(kinds: [usize; 6]) -> Vec<String> {
     let counted = || VertexKind::ALL.iter().zip(kinds).filter(|&(_, count)| count > 0);
-    let list: Vec<String> = counted().map(|(kind, count)| format!("{count} {}", kind.name())).collect();
+    let list: Vec<String> =
+        counted().map(|(kind, count)| format!("{count} {}", kind.name())).collect();
     let mut notes = vec![format!("vertices before the first round: {}", list.join(", "))];
-    notes.extend(counted().filter_map(|(kind, _)| kind.expectation().map(|text| format!("{}: {text}", kind.name()))));
+    notes.extend(
+        counted().filter_map(|(kind, _)| {
+            kind.expectation().map(|text| format!("{}: {text}", kind.name()))
+        }),
+    );
     notes
 }
 
@@ -136,7 +150,8 @@ struct Links<'a> {
     coarse: &'a Mesh,
     /// From the middle of a straight half-edge to its end; a loop for a loop.
     second: HalfEdgeMap<HalfEdgeId>,
-    /// From the middle of a straight half-edge of a face to the middle of the next: it cuts off the corner at its end.
+    /// From the middle of a straight half-edge of a face to the middle of the next: it cuts off the
+    /// corner at its end.
     cut: HalfEdgeMap<HalfEdgeId>,
     /// The new loop at the middle of a half-edge, entered from its face.
     ring: HalfEdgeMap<HalfEdgeId>,
@@ -171,7 +186,8 @@ impl<'a> Links<'a> {
         let mut kept = vec![VertexId::new(0); coarse.vertex_slots()];
         coarse.vertices().for_each(|v| kept[v.index()] = fine.vertex(coarse.position(v)));
         let mut middles = vec![None; coarse.edge_slots()];
-        // Face by face, so that what lies near each other has numbers near each other, and the next round finds it in the cache.
+        // Face by face, so that what lies near each other has numbers near each other, and the next
+        // round finds it in the cache.
         for f in coarse.faces() {
             for h in coarse.face_half_edges(f) {
                 if middles[h.edge().index()].is_none() {
@@ -179,7 +195,8 @@ impl<'a> Links<'a> {
                 }
             }
             for h in coarse.face_half_edges(f).filter(|&h| !is_loop(coarse, h)) {
-                let ends = [h, next_straight(coarse, h)].map(|h| middles[h.edge().index()].expect("it was halved"));
+                let ends = [h, next_straight(coarse, h)]
+                    .map(|h| middles[h.edge().index()].expect("it was halved"));
                 links.cut[h] = fine.edge(ends[0], ends[1]);
             }
         }
@@ -189,7 +206,8 @@ impl<'a> Links<'a> {
         links
     }
 
-    /// Divides an edge in the middle, with a loop there; a loop stays as it is. Returns the middle, or where the loop is.
+    /// Divides an edge in the middle, with a loop there; a loop stays as it is. Returns the middle,
+    /// or where the loop is.
     fn halve(&mut self, edge: EdgeId, kept: &[VertexId], fine: &mut WalkBuilder) -> VertexId {
         let coarse = self.coarse;
         let [h, t] = edge.half_edges();
@@ -210,7 +228,8 @@ impl<'a> Links<'a> {
         middle
     }
 
-    /// The faces at the corners of an old face, each with the loops that lie in its corner. Returns their numbers.
+    /// The faces at the corners of an old face, each with the loops that lie in its corner. Returns
+    /// their numbers.
     fn corners(&self, f: FaceId, fine: &mut WalkBuilder) -> std::ops::Range<usize> {
         let coarse = self.coarse;
         let mut made: Option<std::ops::Range<usize>> = None;
@@ -219,7 +238,8 @@ impl<'a> Links<'a> {
             let loops = std::iter::successors(Some(coarse.next(h)), |&l| Some(coarse.next(l)));
             let loops = loops.take_while(|&l| l != next).map(|l| self.second[l]);
             let back = self.second[next.twin()].twin();
-            let walk = std::iter::once(self.second[h]).chain(loops).chain([back, self.cut[h].twin()]);
+            let walk =
+                std::iter::once(self.second[h]).chain(loops).chain([back, self.cut[h].twin()]);
             let face = fine.face(walk).index();
             made = Some(made.map_or(face, |range| range.start)..face + 1);
         }
@@ -230,7 +250,8 @@ impl<'a> Links<'a> {
     }
 }
 
-/// The bases of the pyramids, seen from outside through the openings: cuts around a vertex, joined by the new loops.
+/// The bases of the pyramids, seen from outside through the openings: cuts around a vertex, joined
+/// by the new loops.
 struct Bases<'a> {
     links: &'a Links<'a>,
     is_done: HalfEdgeMap<bool>,
@@ -239,7 +260,11 @@ struct Bases<'a> {
 
 impl<'a> Bases<'a> {
     fn new(links: &'a Links<'a>) -> Self {
-        Self { links, is_done: HalfEdgeMap::filled(links.coarse.half_edge_slots(), false), walk: Vec::new() }
+        Self {
+            links,
+            is_done: HalfEdgeMap::filled(links.coarse.half_edge_slots(), false),
+            walk: Vec::new(),
+        }
     }
 
     /// Makes the bases that begin in a face.

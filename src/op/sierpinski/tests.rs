@@ -6,8 +6,13 @@ use crate::op::{Scheme, SubdivideParams, subdivide};
 use crate::shape;
 
 fn run(mesh: &Mesh, rounds: u32) -> (Mesh, SierpinskiReport) {
-    let (fine, report) = sierpinski(mesh, &SierpinskiParams { rounds }, &OpContext::default()).expect("it fits");
-    assert!(fine.faults().is_empty(), "{rounds}: {:?}", &fine.faults()[..fine.faults().len().min(4)]);
+    let (fine, report) =
+        sierpinski(mesh, &SierpinskiParams { rounds }, &OpContext::default()).expect("it fits");
+    assert!(
+        fine.faults().is_empty(),
+        "{rounds}: {:?}",
+        &fine.faults()[..fine.faults().len().min(4)]
+    );
     (fine, report)
 }
 
@@ -53,7 +58,9 @@ fn a_tetrahedron_keeps_half_of_its_volume_in_each_round() {
 #[test]
 fn a_smoothed_one_stays_connected() {
     let (fine, _) = run(&shape::tetrahedron(1.0), 2);
-    let smooth = subdivide(&fine, &SubdivideParams::new(Scheme::DooSabin, 2), &OpContext::default()).expect("it fits");
+    let smooth =
+        subdivide(&fine, &SubdivideParams::new(Scheme::DooSabin, 2), &OpContext::default())
+            .expect("it fits");
     assert!(smooth.faults().is_empty());
     assert_eq!((smooth.components().len(), genus(&smooth)), (1, 15));
 }
@@ -78,10 +85,12 @@ fn groups_go_to_the_corners() {
     assert!(lid.iter().all(|&f| fine.plane(f).expect("a plane").normal().distance(normal) < 1e-14));
 }
 
-/// A pyramid over the base, with the tip at the height given; the base is counter-clockwise seen from above.
+/// A pyramid over the base, with the tip at the height given; the base is counter-clockwise seen
+/// from above.
 fn pyramid(base: &[(f64, f64)], tip: f64) -> Mesh {
     let n = base.len();
-    let points = base.iter().map(|&(x, y)| DVec3::new(x, y, 0.0)).chain([DVec3::Z * tip, -DVec3::Z]);
+    let points =
+        base.iter().map(|&(x, y)| DVec3::new(x, y, 0.0)).chain([DVec3::Z * tip, -DVec3::Z]);
     let faces = (0..n).flat_map(|i| [[i, (i + 1) % n, n], [(i + 1) % n, i, n + 1]]);
     Mesh::from_faces(points, faces).expect("a double pyramid")
 }
@@ -90,9 +99,12 @@ fn pyramid(base: &[(f64, f64)], tip: f64) -> Mesh {
 fn the_five_kinds_are_told_apart() {
     let square = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)];
     let dented = [(1.0, 0.0), (0.2, 0.2), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)];
-    let kind = |base: &[(f64, f64)], tip: f64| vertex_kind(&pyramid(base, tip), VertexId::new(base.len()));
+    let kind =
+        |base: &[(f64, f64)], tip: f64| vertex_kind(&pyramid(base, tip), VertexId::new(base.len()));
     for scale in [1e-3, 1.0, 1e5] {
-        let scaled = |base: &[(f64, f64)]| base.iter().map(|p| (p.0 * scale, p.1 * scale)).collect::<Vec<_>>();
+        let scaled = |base: &[(f64, f64)]| {
+            base.iter().map(|p| (p.0 * scale, p.1 * scale)).collect::<Vec<_>>()
+        };
         assert_eq!(kind(&scaled(&square), scale), VertexKind::Convex);
         assert_eq!(kind(&scaled(&square), 0.0), VertexKind::Planar);
         assert_eq!(kind(&scaled(&square), -0.5 * scale.min(1.0)), VertexKind::Concave);
@@ -114,7 +126,9 @@ fn the_five_kinds_are_told_apart() {
 #[test]
 fn what_does_not_fit_is_refused() {
     let cube = shape::cube(1.0);
-    let refuse = |rounds| sierpinski(&cube, &SierpinskiParams { rounds }, &OpContext::default()).expect_err("refused");
+    let refuse = |rounds| {
+        sierpinski(&cube, &SierpinskiParams { rounds }, &OpContext::default()).expect_err("refused")
+    };
     assert!(matches!(refuse(0), OpError::RepeatOutOfRange { .. }));
     assert!(matches!(refuse(33), OpError::RepeatOutOfRange { .. }));
 }

@@ -4,7 +4,8 @@ use glam::DVec3;
 
 use crate::mesh::{Mesh, VertexId};
 
-/// Directions whose spat product is below this are in one plane: the rounding of unit vectors, with room for the rounding of their ends.
+/// Directions whose spat product is below this are in one plane: the rounding of unit vectors, with
+/// room for the rounding of their ends.
 const FLAT: f64 = 1e-12;
 
 /// What the edges at a vertex look like.
@@ -26,7 +27,8 @@ pub enum VertexKind {
 
 impl VertexKind {
     /// All kinds.
-    pub const ALL: [Self; 6] = [Self::Convex, Self::Star, Self::Concave, Self::Planar, Self::Saddle, Self::Open];
+    pub const ALL: [Self; 6] =
+        [Self::Convex, Self::Star, Self::Concave, Self::Planar, Self::Saddle, Self::Open];
 
     /// The kind in one word.
     pub fn name(self) -> &'static str {
@@ -45,11 +47,17 @@ impl VertexKind {
         match self {
             Self::Convex => None,
             Self::Star => Some("the bases of their pyramids are star-shaped"),
-            Self::Concave => Some("their pyramids are turned inside out and count as negative volume"),
-            Self::Planar => {
-                Some("their pyramids are flat, and every round makes more flat ones; better avoid such vertices")
+            Self::Concave => {
+                Some("their pyramids are turned inside out and count as negative volume")
             }
-            Self::Saddle => Some("their pyramids cross themselves; they do not get more, and smaller with every round"),
+            Self::Planar => Some(
+                "their pyramids are flat, and every round makes more flat ones; better avoid such \
+                vertices",
+            ),
+            Self::Saddle => Some(
+                "their pyramids cross themselves; they do not get more, and smaller with every \
+                round",
+            ),
             Self::Open => Some("no pyramid closes there"),
         }
     }
@@ -69,12 +77,15 @@ pub fn vertex_kind(mesh: &Mesh, v: VertexId) -> VertexKind {
         return VertexKind::Open;
     }
     let normals = || pairs(&spokes).map(|(a, b)| a.cross(b));
-    let main = normals().max_by(|a, b| a.length_squared().total_cmp(&b.length_squared())).unwrap_or_default();
+    let main = normals()
+        .max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()))
+        .unwrap_or_default();
     if spokes.iter().all(|s| s.dot(main.normalize_or_zero()).abs() <= FLAT) {
         return VertexKind::Planar;
     }
     let Some(axis) = inner_axis(&spokes) else { return VertexKind::Saddle };
-    // Seen along the axis from the tip the spokes make a polygon; from outside it runs clockwise around the axis.
+    // Seen along the axis from the tip the spokes make a polygon; from outside it runs clockwise
+    // around the axis.
     let base: Vec<DVec3> = spokes.iter().map(|s| *s / s.dot(axis)).collect();
     let area: DVec3 = pairs(&base).map(|(a, b)| a.cross(b)).sum();
     if area.dot(axis) >= 0.0 {
@@ -91,8 +102,9 @@ fn pairs(ring: &[DVec3]) -> impl Iterator<Item = (DVec3, DVec3)> + '_ {
     ring.iter().copied().zip(ring.iter().copied().cycle().skip(1))
 }
 
-/// A direction that makes an acute angle with every spoke, if there is one: the mean of the spokes mostly, else the sum of the extreme
-/// rays of all such directions, each of which is perpendicular to two spokes.
+/// A direction that makes an acute angle with every spoke, if there is one: the mean of the spokes
+/// mostly, else the sum of the extreme rays of all such directions, each of which is perpendicular
+/// to two spokes.
 fn inner_axis(spokes: &[DVec3]) -> Option<DVec3> {
     let fits = |axis: DVec3, least: f64| spokes.iter().all(|s| s.dot(axis) > least);
     let mean = spokes.iter().sum::<DVec3>().normalize_or_zero();

@@ -8,8 +8,9 @@ use crate::mesh::{EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 
 /// The mean of a face's corners; a corner that is visited twice counts twice.
 pub(super) fn centre(mesh: &Mesh, f: FaceId) -> DVec3 {
-    let (sum, count) =
-        mesh.face_vertices(f).fold((DVec3::ZERO, 0.0), |(sum, count), v| (sum + mesh.position(v), count + 1.0));
+    let (sum, count) = mesh
+        .face_vertices(f)
+        .fold((DVec3::ZERO, 0.0), |(sum, count), v| (sum + mesh.position(v), count + 1.0));
     sum / count
 }
 
@@ -34,7 +35,8 @@ impl Cosines {
     }
 }
 
-/// The weighted mean of the points around each place of a ring: `own` for the place itself, `other(cos(2πk/n))` for the one k places on.
+/// The weighted mean of the points around each place of a ring: `own` for the place itself,
+/// `other(cos(2πk/n))` for the one k places on.
 pub(super) fn ring_means(
     points: &[DVec3],
     cosines: &[f64],
@@ -69,7 +71,8 @@ pub(super) fn smooth_vertex(mesh: &Mesh, v: VertexId, centres: &[DVec3]) -> DVec
 
 /// On a rim: a quarter of the mean of the two neighbours along it, three quarters of the vertex.
 pub(super) fn rim_point(mesh: &Mesh, v: VertexId) -> Option<DVec3> {
-    let mut rim = mesh.outgoing(v).filter(|h| mesh.is_rim(h.edge())).map(|h| mesh.position(mesh.target(h)));
+    let mut rim =
+        mesh.outgoing(v).filter(|h| mesh.is_rim(h.edge())).map(|h| mesh.position(mesh.target(h)));
     let (a, b) = (rim.next()?, rim.next()?);
     // Several rims at one vertex are pulled apart by the builder, so there are two neighbours.
     Some((a + b) * 0.125 + mesh.position(v) * 0.75)
@@ -81,7 +84,9 @@ pub(super) fn loop_vertex(mesh: &Mesh, v: VertexId) -> DVec3 {
         return rim;
     }
     let here = mesh.position(v);
-    let (sum, n) = mesh.neighbours(v).fold((DVec3::ZERO, 0.0), |(sum, n), u| (sum + mesh.position(u), n + 1.0));
+    let (sum, n) = mesh
+        .neighbours(v)
+        .fold((DVec3::ZERO, 0.0), |(sum, n), u| (sum + mesh.position(u), n + 1.0));
     if n == 0.0 {
         return here;
     }
@@ -90,8 +95,9 @@ pub(super) fn loop_vertex(mesh: &Mesh, v: VertexId) -> DVec3 {
     here * (1.0 - n * beta) + sum * beta
 }
 
-/// Loop's point for an edge: three eighths of each end, and an eighth of what each face has across. Across in a triangle is the third
-/// corner; in a face with more sides it is the mean of all corners but the edge's ends, and in one without others the edge's middle.
+/// Loop's point for an edge: three eighths of each end, and an eighth of what each face has across.
+/// Across in a triangle is the third corner; in a face with more sides it is the mean of all
+/// corners but the edge's ends, and in one without others the edge's middle.
 pub(super) fn loop_edge(mesh: &Mesh, e: EdgeId) -> DVec3 {
     let middle = midpoint(mesh, e);
     if mesh.is_rim(e) {

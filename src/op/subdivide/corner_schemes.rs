@@ -1,6 +1,8 @@
-//! Schemes whose vertices stand for corners, edges or faces: Doo–Sabin, honeycomb, truncation, simplest, dual.
+//! Schemes whose vertices stand for corners, edges or faces: Doo–Sabin, honeycomb, truncation,
+//! simplest, dual.
 //!
-//! Around a vertex the outgoing half-edges follow each other counter-clockwise by `prev(h).twin()`, clockwise by `next(h.twin())`.
+//! Around a vertex the outgoing half-edges follow each other counter-clockwise by `prev(h).twin()`,
+//! clockwise by `next(h.twin())`.
 
 use glam::DVec3;
 
@@ -25,24 +27,32 @@ fn has_material(mesh: &Mesh, h: HalfEdgeId) -> bool {
 /// Outgoing half-edges of a vertex, counter-clockwise.
 fn counter_clockwise(mesh: &Mesh, v: VertexId) -> impl Iterator<Item = HalfEdgeId> + '_ {
     let start = mesh.vertex_start(v);
-    std::iter::successors(start, move |&h| Some(mesh.prev(h).twin()).filter(|&next| Some(next) != start))
+    std::iter::successors(start, move |&h| {
+        Some(mesh.prev(h).twin()).filter(|&next| Some(next) != start)
+    })
 }
 
 fn is_inner(mesh: &Mesh, v: VertexId) -> bool {
     mesh.vertex_start(v).is_some() && !mesh.is_rim_vertex(v)
 }
 
-/// Whether the face of one of the edge's ends will hold what crosses the edge; between two rim vertices it would hang in the air.
+/// Whether the face of one of the edge's ends will hold what crosses the edge; between two rim
+/// vertices it would hang in the air.
 fn joins_faces(mesh: &Mesh, e: EdgeId) -> bool {
     !mesh.is_rim(e) && mesh.edge_vertices(e).into_iter().any(|v| is_inner(mesh, v))
 }
 
-/// Doo–Sabin. On an open mesh the new surface ends at the first and last corners inside the rim, as a rim without a rule of its own does.
+/// Doo–Sabin. On an open mesh the new surface ends at the first and last corners inside the rim, as
+/// a rim without a rule of its own does.
 pub(super) fn doo_sabin(mesh: &Mesh) -> Mesh {
     let (v, e, f) = (mesh.vertex_count(), mesh.edge_count(), mesh.face_count());
     let mut fine = WalkBuilder::with_capacity(2 * e, 4 * e, v + e + f);
-    let corners =
-        corner_points(mesh, &mut fine, |n| (0.25 + 1.25 / n, 0.25 / n), |mesh, h| mesh.position(mesh.origin(h)));
+    let corners = corner_points(
+        mesh,
+        &mut fine,
+        |n| (0.25 + 1.25 / n, 0.25 / n),
+        |mesh, h| mesh.position(mesh.origin(h)),
+    );
     let mut along = HalfEdgeMap::filled(mesh.half_edge_slots(), none());
     let mut across = HalfEdgeMap::filled(mesh.half_edge_slots(), none());
     for h in solid_sides(mesh) {
@@ -76,13 +86,15 @@ pub(super) fn honeycomb(mesh: &Mesh) -> Mesh {
     })
 }
 
-/// Vertex truncation without planes: a corner at a share of the way along each half-edge. Rim vertices are cut off like all others.
+/// Vertex truncation without planes: a corner at a share of the way along each half-edge. Rim
+/// vertices are cut off like all others.
 pub(super) fn truncation(mesh: &Mesh, share: f64) -> Mesh {
     let (v, e, f) = (mesh.vertex_count(), mesh.edge_count(), mesh.face_count());
     let mut fine = WalkBuilder::with_capacity(2 * e, 3 * e, v + f);
     let mut points = HalfEdgeMap::filled(mesh.half_edge_slots(), VertexId::new(0));
     for h in mesh.half_edges() {
-        points[h] = fine.vertex(mesh.position(mesh.origin(h)).lerp(mesh.position(mesh.target(h)), share));
+        points[h] =
+            fine.vertex(mesh.position(mesh.origin(h)).lerp(mesh.position(mesh.target(h)), share));
     }
     let mut middle = HalfEdgeMap::filled(mesh.half_edge_slots(), none());
     for e in mesh.edges() {
@@ -94,8 +106,10 @@ pub(super) fn truncation(mesh: &Mesh, share: f64) -> Mesh {
     for h in solid_sides(mesh) {
         cut[h] = fine.edge(points[mesh.prev(h).twin()], points[h]);
     }
-    let pairs: Vec<(FaceId, FaceId)> =
-        mesh.faces().map(|f| (f, fine.face(mesh.face_half_edges(f).flat_map(|h| [cut[h], middle[h]])))).collect();
+    let pairs: Vec<(FaceId, FaceId)> = mesh
+        .faces()
+        .map(|f| (f, fine.face(mesh.face_half_edges(f).flat_map(|h| [cut[h], middle[h]]))))
+        .collect();
     for v in mesh.vertices().filter(|&v| is_inner(mesh, v)) {
         fine.face(counter_clockwise(mesh, v).map(|h| cut[h].twin()));
     }
@@ -104,8 +118,12 @@ pub(super) fn truncation(mesh: &Mesh, share: f64) -> Mesh {
     fine
 }
 
-/// The common links of honeycomb: a point for each side, joined along each face and across each edge.
-fn three_valent(mesh: &Mesh, place: impl FnOnce(&mut WalkBuilder) -> HalfEdgeMap<VertexId>) -> Mesh {
+/// The common links of honeycomb: a point for each side, joined along each face and across each
+/// edge.
+fn three_valent(
+    mesh: &Mesh,
+    place: impl FnOnce(&mut WalkBuilder) -> HalfEdgeMap<VertexId>,
+) -> Mesh {
     let (v, e, f) = (mesh.vertex_count(), mesh.edge_count(), mesh.face_count());
     let mut fine = WalkBuilder::with_capacity(2 * e, 3 * e, v + f);
     let points = place(&mut fine);
@@ -122,8 +140,12 @@ fn three_valent(mesh: &Mesh, place: impl FnOnce(&mut WalkBuilder) -> HalfEdgeMap
     let pairs: Vec<(FaceId, FaceId)> =
         mesh.faces().map(|f| (f, fine.face(mesh.face_half_edges(f).map(|h| along[h])))).collect();
     for v in mesh.vertices().filter(|&v| is_inner(mesh, v)) {
-        // From the side that leaves to the side that arrives in the same face, then across to the next one that leaves.
-        fine.face(counter_clockwise(mesh, v).flat_map(|h| [along[mesh.prev(h)].twin(), across[mesh.prev(h)]]));
+        // From the side that leaves to the side that arrives in the same face, then across to the
+        // next one that leaves.
+        fine.face(
+            counter_clockwise(mesh, v)
+                .flat_map(|h| [along[mesh.prev(h)].twin(), across[mesh.prev(h)]]),
+        );
     }
     let mut fine = fine.build();
     carry_groups(mesh, &mut fine, pairs.into_iter());
@@ -155,7 +177,8 @@ pub(super) fn simplest(mesh: &Mesh) -> Mesh {
 
 /// Dual: a vertex at the mean of each face's corners. On an open mesh rim vertices have no face.
 pub(super) fn dual(mesh: &Mesh) -> Mesh {
-    let mut fine = WalkBuilder::with_capacity(mesh.face_count(), mesh.edge_count(), mesh.vertex_count());
+    let mut fine =
+        WalkBuilder::with_capacity(mesh.face_count(), mesh.edge_count(), mesh.vertex_count());
     let mut centres = vec![VertexId::new(0); mesh.face_slots()];
     mesh.faces().for_each(|f| centres[f.index()] = fine.vertex(centre(mesh, f)));
     let mut crossing = HalfEdgeMap::filled(mesh.half_edge_slots(), none());
@@ -167,14 +190,16 @@ pub(super) fn dual(mesh: &Mesh) -> Mesh {
         }
     }
     for v in mesh.vertices().filter(|&v| is_inner(mesh, v)) {
-        // Crossing h counter-clockwise around its origin leads from the face on its right to the one on its left.
+        // Crossing h counter-clockwise around its origin leads from the face on its right to the
+        // one on its left.
         fine.face(counter_clockwise(mesh, v).map(|h| crossing[h]));
     }
     fine.build()
 }
 
-/// One point for each half-edge of each face: the weighted mean of `point` around the face, `own` for the half-edge itself and
-/// `unit · (3 + 2 cos(2πk/n))` for the one k places on, where `weights(n)` gives (own, unit).
+/// One point for each half-edge of each face: the weighted mean of `point` around the face, `own`
+/// for the half-edge itself and `unit · (3 + 2 cos(2πk/n))` for the one k places on, where
+/// `weights(n)` gives (own, unit).
 fn corner_points(
     mesh: &Mesh,
     fine: &mut WalkBuilder,
@@ -188,7 +213,13 @@ fn corner_points(
         means.clear();
         points.extend(mesh.face_half_edges(f).map(|h| point(mesh, h)));
         let (own, unit) = weights(points.len() as f64);
-        ring_means(&points, cosines.of(points.len()), own, |cos| unit * (3.0 + 2.0 * cos), &mut means);
+        ring_means(
+            &points,
+            cosines.of(points.len()),
+            own,
+            |cos| unit * (3.0 + 2.0 * cos),
+            &mut means,
+        );
         for (h, &mean) in mesh.face_half_edges(f).zip(&means) {
             corners[h] = fine.vertex(mean);
         }

@@ -1,8 +1,9 @@
 //! Subdivision: a finer mesh of the same shape and genus, by one of eight schemes.
 //!
-//! Sources: Doo and Sabin 1978; Catmull and Clark 1978; Loop 1987, extended to faces of any number of sides; Peters and Reif 1997
-//! ("simplest"); Akleman, Srinivasan 2002 (honeycomb); Srinivasan 2004, VI and VII, and Srinivasan and Akleman 2004, figures 11 to 14, for
-//! their use on high-genus meshes with self-loops. Weights: `operators.md` 10.
+//! Sources: Doo and Sabin 1978; Catmull and Clark 1978; Loop 1987, extended to faces of any number
+//! of sides; Peters and Reif 1997 ("simplest"); Akleman, Srinivasan 2002 (honeycomb); Srinivasan
+//! 2004, VI and VII, and Srinivasan and Akleman 2004, figures 11 to 14, for their use on high-genus
+//! meshes with self-loops. Weights: `operators.md` 10.
 //!
 //! ```text
 //!   scheme            V        E    F          scheme           V     E     F
@@ -12,9 +13,11 @@
 //!   simplest          E        2E   V+F        triangulate      V     E+…   n−2 per face
 //! ```
 //!
-//! Needs: nothing; self-loops, 2-gons and vertices of any valence are legal. Keeps: genus, components, face groups of what stands for an old
-//! face. Always 3-valent: honeycomb and truncation. Planarity: dual of triangle meshes and triangulations are planar, the others only by luck;
-//! `planarize` or face cuts bring it back. Open meshes: the table holds for closed ones; a rim stays a rim, its rule is given by each scheme.
+//! Needs: nothing; self-loops, 2-gons and vertices of any valence are legal. Keeps: genus,
+//! components, face groups of what stands for an old face. Always 3-valent: honeycomb and
+//! truncation. Planarity: dual of triangle meshes and triangulations are planar, the others only by
+//! luck; `planarize` or face cuts bring it back. Open meshes: the table holds for closed ones; a
+//! rim stays a rim, its rule is given by each scheme.
 
 mod averaging;
 mod corner_schemes;
@@ -37,7 +40,8 @@ const MOST_ROUNDS: u32 = 32;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, clap::ValueEnum, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Scheme {
-    /// A smaller copy of each face, a quad for each edge, a polygon for each vertex; approaches a smooth surface.
+    /// A smaller copy of each face, a quad for each edge, a polygon for each vertex; approaches a
+    /// smooth surface.
     DooSabin,
     /// Quads only, one for each corner; approaches a smooth surface.
     CatmullClark,
@@ -47,7 +51,8 @@ pub enum Scheme {
     Simplest,
     /// Every face with twice as many sides at every vertex: three edges everywhere.
     Honeycomb,
-    /// Every vertex cut off at a share of its edges, whether or not the new corners lie in a plane: three edges everywhere.
+    /// Every vertex cut off at a share of its edges, whether or not the new corners lie in a plane:
+    /// three edges everywhere.
     Truncation,
     /// A vertex for each face, a face for each vertex.
     Dual,
@@ -88,9 +93,14 @@ impl SubdivideParams {
 /// Subdivides a mesh. Positions count as constructed; planes are not carried along.
 ///
 /// # Errors
-/// [`OpError::RepeatOutOfRange`]; [`OpError::ShareOutOfRange`] for the offset of a truncation, [`OpError::Requires`] for an offset with another
-/// scheme; [`OpError::TooManyFaces`] before a round that would not fit; [`OpError::Cancelled`].
-pub fn subdivide(mesh: &Mesh, params: &SubdivideParams, context: &OpContext<'_>) -> Result<Mesh, OpError> {
+/// [`OpError::RepeatOutOfRange`]; [`OpError::ShareOutOfRange`] for the offset of a truncation,
+/// [`OpError::Requires`] for an offset with another scheme; [`OpError::TooManyFaces`] before a
+/// round that would not fit; [`OpError::Cancelled`].
+pub fn subdivide(
+    mesh: &Mesh,
+    params: &SubdivideParams,
+    context: &OpContext<'_>,
+) -> Result<Mesh, OpError> {
     let offset = check_params(params)?;
     let mut fine: Option<Mesh> = None;
     for round in 0..params.rounds {
@@ -102,7 +112,11 @@ pub fn subdivide(mesh: &Mesh, params: &SubdivideParams, context: &OpContext<'_>)
         let edges = coarse.edge_count();
         let faces = coarse.face_count() + coarse.vertex_count() + edges;
         if faces.saturating_mul(2) > MOST_FACES {
-            return Err(OpError::TooManyFaces { round: round + 1, faces: faces.saturating_mul(2), limit: MOST_FACES });
+            return Err(OpError::TooManyFaces {
+                round: round + 1,
+                faces: faces.saturating_mul(2),
+                limit: MOST_FACES,
+            });
         }
         fine = Some(once(coarse, params.scheme, offset));
     }

@@ -1,4 +1,5 @@
-//! Schemes that keep the old vertices and divide edges and faces: Catmull–Clark, Loop, triangulation.
+//! Schemes that keep the old vertices and divide edges and faces: Catmull–Clark, Loop,
+//! triangulation.
 
 use std::collections::BTreeMap;
 
@@ -65,7 +66,8 @@ pub(super) fn catmull_clark(mesh: &Mesh) -> Mesh {
         spokes.extend(mesh.face_half_edges(f).map(|h| fine.edge(halves.middle[h], at)));
         let mut before = spokes[spokes.len() - 1];
         for (h, &spoke) in mesh.face_half_edges(f).zip(&spokes) {
-            let made = fine.face([halves.first[h], spoke, before.twin(), halves.second(mesh.prev(h))]);
+            let made =
+                fine.face([halves.first[h], spoke, before.twin(), halves.second(mesh.prev(h))]);
             pairs.push((f, made));
             before = spoke;
         }
@@ -75,8 +77,8 @@ pub(super) fn catmull_clark(mesh: &Mesh) -> Mesh {
     fine
 }
 
-/// Loop, extended: each corner is cut off by a triangle, what is left of the face is a polygon between the middles of its sides. A rim
-/// follows the cubic B-spline of its own vertices.
+/// Loop, extended: each corner is cut off by a triangle, what is left of the face is a polygon
+/// between the middles of its sides. A rim follows the cubic B-spline of its own vertices.
 pub(super) fn loop_scheme(mesh: &Mesh) -> Mesh {
     let (v, e, f) = (mesh.vertex_count(), mesh.edge_count(), mesh.face_count());
     let mut fine = WalkBuilder::with_capacity(v + e, 4 * e, f + 2 * e);
@@ -85,7 +87,10 @@ pub(super) fn loop_scheme(mesh: &Mesh) -> Mesh {
     let mut turns: Vec<HalfEdgeId> = Vec::new();
     for f in mesh.faces() {
         turns.clear();
-        turns.extend(mesh.face_half_edges(f).map(|h| fine.edge(halves.middle[mesh.prev(h)], halves.middle[h])));
+        turns.extend(
+            mesh.face_half_edges(f)
+                .map(|h| fine.edge(halves.middle[mesh.prev(h)], halves.middle[h])),
+        );
         pairs.push((f, fine.face(turns.iter().copied())));
         for (h, turn) in mesh.face_half_edges(f).zip(&turns) {
             let made = fine.face([halves.second(mesh.prev(h)), halves.first[h], turn.twin()]);
@@ -97,8 +102,8 @@ pub(super) fn loop_scheme(mesh: &Mesh) -> Mesh {
     fine
 }
 
-/// Triangles between the corners of each face; new faces have the group of the old one, vertices and edges that were there keep their
-/// order, and positions stay as given.
+/// Triangles between the corners of each face; new faces have the group of the old one, vertices
+/// and edges that were there keep their order, and positions stay as given.
 pub(super) fn triangulated(mesh: &Mesh) -> Mesh {
     let (v, e) = (mesh.vertex_count(), mesh.edge_count());
     let mut fine = WalkBuilder::with_capacity(v, 3 * v, 2 * v);
@@ -117,8 +122,11 @@ pub(super) fn triangulated(mesh: &Mesh) -> Mesh {
         }
     }
     let mut fine = fine.build();
-    mesh.vertices().for_each(|v| fine.set_position(vertices[v], mesh.position(v), mesh.is_given(v)));
-    mesh.edges().filter(|&e| mesh.is_seam(e)).for_each(|e| fine.set_seam(sides[e.half_edge()].edge(), true));
+    mesh.vertices()
+        .for_each(|v| fine.set_position(vertices[v], mesh.position(v), mesh.is_given(v)));
+    mesh.edges()
+        .filter(|&e| mesh.is_seam(e))
+        .for_each(|e| fine.set_seam(sides[e.half_edge()].edge(), true));
     carry_groups(mesh, &mut fine, pairs.into_iter());
     fine
 }
@@ -138,7 +146,8 @@ fn triangle_walks(
     }
     let points = mesh.face_positions(f);
     let normal = Plane::newell(&points).map_or(DVec3::Z, |plane| plane.normal());
-    let frame = Frame::on_plane(&Plane::new(normal, points[0]).expect("a unit normal and a finite point"));
+    let frame =
+        Frame::on_plane(&Plane::new(normal, points[0]).expect("a unit normal and a finite point"));
     let flat: Vec<_> = points.iter().map(|&p| frame.flatten(p)).collect();
     let mut diagonals: BTreeMap<(usize, usize), HalfEdgeId> = BTreeMap::new();
     let mut side = |a: usize, b: usize| {

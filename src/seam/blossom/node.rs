@@ -62,7 +62,8 @@ pub(super) struct Node {
     pub dual: i64,
     /// When `dual` was noted.
     pub since: i64,
-    /// The blossom that holds it, [`NONE`] for a top node, [`GONE`] for a blossom that no longer is.
+    /// The blossom that holds it, [`NONE`] for a top node, [`GONE`] for a blossom that no longer
+    /// is.
     pub parent: u32,
     /// The matched edge of a top node; nothing at a root.
     pub mate: Link,

@@ -8,7 +8,8 @@ use super::node::{Link, NONE, Node, State};
 use super::{Barrier, Unmatched};
 use crate::progress::Progress;
 
-/// An event: its time, and an edge (below the number of edges) or a blossom (the node's number on top of that).
+/// An event: its time, and an edge (below the number of edges) or a blossom (the node's number on
+/// top of that).
 type Event = Reverse<(i64, u32)>;
 
 /// When an edge is not in the queue.
@@ -19,7 +20,8 @@ const EVENTS: usize = 4096;
 /// The state of the search.
 pub(super) struct Solver<'a> {
     pub graph: &'a Graph,
-    /// Four times the given weights: then all event times are integers, because all roots keep even radii.
+    /// Four times the given weights: then all event times are integers, because all roots keep even
+    /// radii.
     pub weights: Vec<i64>,
     pub nodes: Vec<Node>,
     /// Numbers of blossoms that were taken apart, to be used again.
@@ -71,8 +73,8 @@ impl<'a> Solver<'a> {
         solver
     }
 
-    /// Gives every vertex half its least edge, then raises one after the other until an edge is tight, and matches along
-    /// tight edges where both ends are still alone. All duals are even.
+    /// Gives every vertex half its least edge, then raises one after the other until an edge is
+    /// tight, and matches along tight edges where both ends are still alone. All duals are even.
     fn start_greedily(&mut self) {
         let n = self.graph.vertex_count();
         for v in 0..n {
@@ -85,7 +87,9 @@ impl<'a> Solver<'a> {
             }
             let Some(gap) = self.proper_edges(v).map(|e| self.slack(e)).min() else { continue };
             self.nodes[v as usize].dual += gap;
-            let lonely = |&e: &u32| !self.nodes[self.graph.other(e, v) as usize].mate.is_some() && self.slack(e) == 0;
+            let lonely = |&e: &u32| {
+                !self.nodes[self.graph.other(e, v) as usize].mate.is_some() && self.slack(e) == 0
+            };
             if let Some(e) = self.proper_edges(v).find(lonely) {
                 let u = self.graph.other(e, v);
                 self.nodes[v as usize].mate = Link { edge: e, own: v };
@@ -105,7 +109,8 @@ impl<'a> Solver<'a> {
     /// # Errors
     /// The barrier when that cannot be, or that the user cancelled.
     pub fn run(&mut self, progress: &dyn Progress) -> Result<(), Unmatched> {
-        let roots: Vec<u32> = (0..self.graph.vertex_count()).filter(|&v| !self.node(v).mate.is_some()).collect();
+        let roots: Vec<u32> =
+            (0..self.graph.vertex_count()).filter(|&v| !self.node(v).mate.is_some()).collect();
         self.trees = roots.len();
         for &v in &roots {
             self.join_tree(v, State::Outer, v);
@@ -122,7 +127,9 @@ impl<'a> Solver<'a> {
                 progress.report("matching folds", roots.len() - self.trees, roots.len());
             }
             events += 1;
-            let Some(Reverse((time, what))) = self.queue.pop() else { return Err(Unmatched::Barrier(self.barrier())) };
+            let Some(Reverse((time, what))) = self.queue.pop() else {
+                return Err(Unmatched::Barrier(self.barrier()));
+            };
             self.now = time;
             let edges = self.weights.len() as u32;
             if what < edges { self.edge_event(what) } else { self.blossom_event(what - edges) }
@@ -147,7 +154,9 @@ impl<'a> Solver<'a> {
         match (self.node(a).state, self.node(b).state) {
             (State::Outer, State::Free) => self.grow(Link { edge: e, own: u }),
             (State::Free, State::Outer) => self.grow(Link { edge: e, own: v }),
-            (State::Outer, State::Outer) if self.node(a).tree == self.node(b).tree => self.shrink(e),
+            (State::Outer, State::Outer) if self.node(a).tree == self.node(b).tree => {
+                self.shrink(e)
+            }
             (State::Outer, State::Outer) => {
                 self.augment(e);
                 self.trees -= 2;
@@ -163,7 +172,8 @@ impl<'a> Solver<'a> {
         }
     }
 
-    /// Without the inner vertices every outer node is a part of its own, and there is one more of them in each tree.
+    /// Without the inner vertices every outer node is a part of its own, and there is one more of
+    /// them in each tree.
     fn barrier(&self) -> Barrier {
         let is_inner = |&v: &u32| self.node(v).parent == NONE && self.node(v).state == State::Inner;
         let vertices: Vec<u32> = (0..self.graph.vertex_count()).filter(is_inner).collect();
@@ -171,7 +181,7 @@ impl<'a> Solver<'a> {
         Barrier { vertices, odd_parts }
     }
 
-    // ---- reading -------------------------------------------------------------------------------------------------
+    // ---- reading --------------------------------------------------------------------------------
 
     pub fn node(&self, n: u32) -> &Node {
         &self.nodes[n as usize]
@@ -189,7 +199,9 @@ impl<'a> Solver<'a> {
     /// The sum of the duals of all nodes that hold a vertex.
     fn radius(&self, v: u32) -> i64 {
         let label = self.label[v as usize] as usize;
-        self.base[v as usize] + self.offset[label] + self.node(self.label_top[label]).dual_at(self.now)
+        self.base[v as usize]
+            + self.offset[label]
+            + self.node(self.label_top[label]).dual_at(self.now)
     }
 
     /// Weight less radii; meaningful for edges between two top nodes.
@@ -217,12 +229,16 @@ impl<'a> Solver<'a> {
         let mut stack = vec![n];
         while let Some(m) = stack.pop() {
             let children = &self.node(m).children;
-            if children.is_empty() { leaves.push(m) } else { stack.extend(children.iter().rev().map(|c| c.node)) }
+            if children.is_empty() {
+                leaves.push(m)
+            } else {
+                stack.extend(children.iter().rev().map(|c| c.node))
+            }
         }
         leaves
     }
 
-    // ---- the queue -----------------------------------------------------------------------------------------------
+    // ---- the queue ------------------------------------------------------------------------------
 
     /// Puts a top node into a tree.
     pub fn join_tree(&mut self, n: u32, state: State, tree: u32) {
@@ -237,8 +253,8 @@ impl<'a> Solver<'a> {
         }
     }
 
-    /// Queues the edges of a node that has begun to grow or has stopped to shrink. A node that grows less than before
-    /// needs nothing: its edges come up too early and are queued again.
+    /// Queues the edges of a node that has begun to grow or has stopped to shrink. A node that
+    /// grows less than before needs nothing: its edges come up too early and are queued again.
     pub fn watch(&mut self, n: u32) {
         for v in self.leaves(n) {
             for &e in self.graph.incident(v) {

@@ -4,7 +4,8 @@ use super::node::{Child, GONE, Link, NONE, Node, State};
 use super::solver::Solver;
 
 impl Solver<'_> {
-    /// The node at the far end of a tight edge, and its mate, join the tree of the outer node at the near end.
+    /// The node at the far end of a tight edge, and its mate, join the tree of the outer node at
+    /// the near end.
     pub fn grow(&mut self, link: Link) {
         let tree = self.node(self.top(link.own)).tree;
         let up = self.turned(link);
@@ -16,7 +17,8 @@ impl Solver<'_> {
         self.watch(outer);
     }
 
-    /// A tight edge joins two trees: the path from root to root is flipped and all nodes of both become free.
+    /// A tight edge joins two trees: the path from root to root is flipped and all nodes of both
+    /// become free.
     pub fn augment(&mut self, e: u32) {
         let mut thawed = Vec::new();
         for own in self.graph.ends[e as usize] {
@@ -59,15 +61,19 @@ impl Solver<'_> {
         }
     }
 
-    // ---- blossoms ------------------------------------------------------------------------------------------------
+    // ---- blossoms -------------------------------------------------------------------------------
 
-    /// A tight edge between two outer nodes of a tree: the cycle that it closes becomes an outer blossom.
+    /// A tight edge between two outer nodes of a tree: the cycle that it closes becomes an outer
+    /// blossom.
     pub fn shrink(&mut self, e: u32) {
         let children = self.cycle(e);
         let base = self.node(children[0].node);
         let (mate, tree) = (base.mate, base.tree);
-        let thawed: Vec<u32> =
-            children.iter().map(|c| c.node).filter(|&c| self.node(c).state == State::Inner).collect();
+        let thawed: Vec<u32> = children
+            .iter()
+            .map(|c| c.node)
+            .filter(|&c| self.node(c).state == State::Inner)
+            .collect();
         let blossom = self.new_blossom(children, mate);
         self.join_tree(blossom, State::Outer, tree);
         for n in thawed {
@@ -75,7 +81,8 @@ impl Solver<'_> {
         }
     }
 
-    /// The cycle that an edge between two outer nodes closes, beginning at the node nearest to the root.
+    /// The cycle that an edge between two outer nodes closes, beginning at the node nearest to the
+    /// root.
     fn cycle(&mut self, e: u32) -> Vec<Child> {
         let [u, v] = self.graph.ends[e as usize];
         let (a, b) = (self.top(u), self.top(v));
@@ -126,7 +133,8 @@ impl Solver<'_> {
         }
     }
 
-    /// Makes a blossom of top nodes. Radii stay as they are: what the children's duals were goes into the offsets.
+    /// Makes a blossom of top nodes. Radii stay as they are: what the children's duals were goes
+    /// into the offsets.
     fn new_blossom(&mut self, children: Vec<Child>, mate: Link) -> u32 {
         let id = self.free_nodes.pop().unwrap_or_else(|| {
             self.nodes.push(Node::vertex(NONE));
@@ -142,7 +150,8 @@ impl Solver<'_> {
         let size_of = |c: &Child| self.node(c.node).size;
         let size = children.iter().map(size_of).sum();
         let largest = children.iter().map(size_of).max().unwrap_or(0);
-        let heir = children.iter().position(|c| size_of(c) == largest).expect("a blossom has children");
+        let heir =
+            children.iter().position(|c| size_of(c) == largest).expect("a blossom has children");
         let Node { label, dual, .. } = *self.node(children[heir].node);
         self.offset[label as usize] += dual;
         self.label_top[label as usize] = id;
@@ -151,7 +160,8 @@ impl Solver<'_> {
                 self.relabel(child.node, label);
             }
         }
-        self.nodes[id as usize] = Node { since: now, mate, size, heir: heir as u32, children, ..Node::vertex(label) };
+        self.nodes[id as usize] =
+            Node { since: now, mate, size, heir: heir as u32, children, ..Node::vertex(label) };
         id
     }
 
@@ -166,8 +176,8 @@ impl Solver<'_> {
         self.free_labels.push(old);
     }
 
-    /// Takes an inner blossom whose dual is 0 apart: the even way round between its two tree edges stays in the tree, the
-    /// other children become free, matched in pairs.
+    /// Takes an inner blossom whose dual is 0 apart: the even way round between its two tree edges
+    /// stays in the tree, the other children become free, matched in pairs.
     pub fn expand(&mut self, b: u32) {
         let tree = self.node(b).tree;
         let Node { mate, up, .. } = *self.node(b);
@@ -221,10 +231,15 @@ impl Solver<'_> {
         while self.node(n).parent != blossom {
             n = self.node(n).parent;
         }
-        self.node(blossom).children.iter().position(|c| c.node == n).expect("a parent holds its child")
+        self.node(blossom)
+            .children
+            .iter()
+            .position(|c| c.node == n)
+            .expect("a parent holds its child")
     }
 
-    /// Makes the children of a blossom with dual 0 top nodes again, with labels of their own, and forgets the blossom.
+    /// Makes the children of a blossom with dual 0 top nodes again, with labels of their own, and
+    /// forgets the blossom.
     fn release(&mut self, b: u32) -> Vec<Child> {
         let children = std::mem::take(&mut self.node_mut(b).children);
         let Node { label, heir, .. } = *self.node(b);
@@ -253,10 +268,10 @@ impl Solver<'_> {
         children
     }
 
-    // ---- the result ----------------------------------------------------------------------------------------------
+    // ---- the result -----------------------------------------------------------------------------
 
-    /// The matched edges: in every blossom, from the outside in, the child at the matched edge takes it over and the
-    /// others are matched in pairs around the cycle.
+    /// The matched edges: in every blossom, from the outside in, the child at the matched edge
+    /// takes it over and the others are matched in pairs around the cycle.
     pub fn matching(&self) -> Vec<u32> {
         let mut mates: Vec<Link> = self.nodes.iter().map(|n| n.mate).collect();
         let tops = (0..self.nodes.len() as u32).filter(|&n| self.node(n).parent == NONE);
@@ -277,7 +292,11 @@ impl Solver<'_> {
             stack.extend(children.iter().map(|c| c.node));
         }
         let vertices = 0..self.graph.vertex_count();
-        vertices.map(|v| mates[v as usize]).filter(|m| m.own <= self.far(*m)).map(|m| m.edge).collect()
+        vertices
+            .map(|v| mates[v as usize])
+            .filter(|m| m.own <= self.far(*m))
+            .map(|m| m.edge)
+            .collect()
     }
 
     /// The dual values at the end of the search.
@@ -286,7 +305,10 @@ impl Solver<'_> {
         let n = self.graph.vertex_count();
         let dual = |i: u32| self.node(i).dual_at(self.now);
         let is_blossom = |&i: &u32| self.node(i).parent != GONE;
-        let blossoms = (n..self.nodes.len() as u32).filter(is_blossom).map(|b| (self.leaves(b), dual(b))).collect();
+        let blossoms = (n..self.nodes.len() as u32)
+            .filter(is_blossom)
+            .map(|b| (self.leaves(b), dual(b)))
+            .collect();
         super::Certificate { vertices: (0..n).map(dual).collect(), blossoms }
     }
 }

@@ -18,8 +18,9 @@ impl Random {
     }
 }
 
-/// Complementary slackness: the matching is perfect, no edge is shorter than its duals, matched edges are tight, blossoms
-/// have duals that are not negative and are full. Together: no perfect matching has a smaller sum.
+/// Complementary slackness: the matching is perfect, no edge is shorter than its duals, matched
+/// edges are tight, blossoms have duals that are not negative and are full. Together: no perfect
+/// matching has a smaller sum.
 fn assert_optimal(graph: &Graph, weights: &[i64], matching: &[u32], certificate: &Certificate) {
     let n = graph.vertex_count() as usize;
     let mut met = vec![0; n];
@@ -33,7 +34,9 @@ fn assert_optimal(graph: &Graph, weights: &[i64], matching: &[u32], certificate:
         .ends
         .iter()
         .zip(weights)
-        .map(|(&[u, v], w)| 4 * w - certificate.vertices[u as usize] - certificate.vertices[v as usize])
+        .map(|(&[u, v], w)| {
+            4 * w - certificate.vertices[u as usize] - certificate.vertices[v as usize]
+        })
         .collect();
     let mut bound: i128 = certificate.vertices.iter().map(|&y| i128::from(y)).sum();
     let mut is_matched = vec![false; weights.len()];
@@ -97,9 +100,12 @@ fn random_cubic(vertices: usize, random: &mut Random) -> Graph {
     Graph::of_ends(vertices, ends.chunks_exact(2).map(|p| [p[0], p[1]]).collect())
 }
 
-/// Hexagons in a torus of `w` by `h` cells: large, cubic, bipartite; an even `twist` shears it; `h` is even.
+/// Hexagons in a torus of `w` by `h` cells: large, cubic, bipartite; an even `twist` shears it; `h`
+/// is even.
 fn brick_wall(w: usize, h: usize, twist: usize) -> Graph {
-    let at = |x: usize, y: usize| ((y % h) * 2 * w + (x + if y >= h { twist } else { 0 }) % (2 * w)) as u32;
+    let at = |x: usize, y: usize| {
+        ((y % h) * 2 * w + (x + if y >= h { twist } else { 0 }) % (2 * w)) as u32
+    };
     let mut ends = Vec::new();
     for y in 0..h {
         for x in 0..2 * w {
@@ -122,18 +128,24 @@ fn small_graphs_agree_with_trying_everything() {
             random_cubic(n, &mut random)
         } else {
             let m = random.below(3 * n) + n / 2;
-            Graph::of_ends(n, (0..m).map(|_| [random.below(n) as u32, random.below(n) as u32]).collect())
+            Graph::of_ends(
+                n,
+                (0..m).map(|_| [random.below(n) as u32, random.below(n) as u32]).collect(),
+            )
         };
         let range = [3, 10, 1 << 40][round % 3];
-        let weights: Vec<i64> = graph.ends.iter().map(|_| random.below(range) as i64 - range as i64 / 3).collect();
+        let weights: Vec<i64> =
+            graph.ends.iter().map(|_| random.below(range) as i64 - range as i64 / 3).collect();
         match brute_force(&graph, &weights, &mut vec![false; n]) {
             Some(least) => {
-                let sum: i64 = assert_solved(&graph, &weights).iter().map(|&e| weights[e as usize]).sum();
+                let sum: i64 =
+                    assert_solved(&graph, &weights).iter().map(|&e| weights[e as usize]).sum();
                 assert_eq!(sum, least);
                 solved += 1;
             }
             None => {
-                let unmatched = least_perfect_matching(&graph, &weights, &Silent).expect_err("no perfect matching");
+                let unmatched = least_perfect_matching(&graph, &weights, &Silent)
+                    .expect_err("no perfect matching");
                 let Unmatched::Barrier(barrier) = unmatched else { panic!("{unmatched:?}") };
                 assert_barrier(&graph, &barrier);
                 refused += 1;
@@ -168,7 +180,8 @@ fn assert_barrier(graph: &Graph, barrier: &Barrier) {
 fn large_graphs_are_proved_least() {
     let mut random = Random(2);
     for (round, range) in [(0, 1), (1, 2), (2, 10), (3, 1000), (4, 1 << 40), (5, 1 << 20)] {
-        let graph = if round % 2 == 0 { random_cubic(3000, &mut random) } else { brick_wall(40, 40, 6) };
+        let graph =
+            if round % 2 == 0 { random_cubic(3000, &mut random) } else { brick_wall(40, 40, 6) };
         let weights: Vec<i64> = graph.ends.iter().map(|_| random.below(range) as i64).collect();
         // A random cubic graph may have a bridge; these have none that matters.
         assert_solved(&graph, &weights);
@@ -192,12 +205,14 @@ fn nearly_equal_weights_and_many_odd_cycles() {
         }
         ends.extend(free.chunks_exact(2).map(|p| [p[0], p[1]]));
         let graph = Graph::of_ends(n, ends);
-        let weights: Vec<i64> = graph.ends.iter().map(|_| (1 << 40) + random.below(4) as i64).collect();
+        let weights: Vec<i64> =
+            graph.ends.iter().map(|_| (1 << 40) + random.below(4) as i64).collect();
         assert_solved(&graph, &weights);
     }
 }
 
-/// Thousands of edges, with ties and without; how fast a hundred thousand are is the bench's to tell.
+/// Thousands of edges, with ties and without; how fast a hundred thousand are is the bench's to
+/// tell.
 #[test]
 fn thousands_of_edges() {
     let mut random = Random(4);

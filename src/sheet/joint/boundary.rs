@@ -1,4 +1,5 @@
-//! The boundaries of all pieces, edge by edge, with the seam that every edge belongs to, and what joints add to them.
+//! The boundaries of all pieces, edge by edge, with the seam that every edge belongs to, and what
+//! joints add to them.
 
 use std::collections::BTreeMap;
 
@@ -21,7 +22,8 @@ pub(crate) struct Contour {
     pub sides: Vec<Option<(usize, usize)>>,
 }
 
-/// Where a side of a seam lies: the contour and the edge, from its corner of the same number to the next.
+/// Where a side of a seam lies: the contour and the edge, from its corner of the same number to the
+/// next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Place {
     pub contour: usize,
@@ -46,7 +48,9 @@ impl Contour {
 
     /// What is cut, all around.
     pub fn path(&self) -> Vec<DVec2> {
-        (0..self.len()).flat_map(|i| self.cut_corners[i].iter().chain(&self.profiles[i]).copied()).collect()
+        (0..self.len())
+            .flat_map(|i| self.cut_corners[i].iter().chain(&self.profiles[i]).copied())
+            .collect()
     }
 
     /// The cut along one edge, from the end of its first corner to the beginning of its second.
@@ -60,10 +64,12 @@ impl Contour {
 impl Boundaries {
     pub fn new(net: &Net) -> Self {
         let mut sides: BTreeMap<_, Vec<(Segment, (usize, usize))>> = BTreeMap::new();
-        let faces: BTreeMap<usize, &FlatFace> = net.pieces.iter().flat_map(|p| &p.faces).map(|f| (f.face, f)).collect();
+        let faces: BTreeMap<usize, &FlatFace> =
+            net.pieces.iter().flat_map(|p| &p.faces).map(|f| (f.face, f)).collect();
         for (s, seam) in net.seams.iter().enumerate() {
             for (k, side) in seam.sides.iter().enumerate() {
-                let found = faces.get(&side.face).and_then(|face| face.side(seam.edge, side.segment));
+                let found =
+                    faces.get(&side.face).and_then(|face| face.side(seam.edge, side.segment));
                 sides.entry(side.piece).or_default().extend(found.map(|segment| (segment, (s, k))));
             }
         }
@@ -109,7 +115,8 @@ impl Boundaries {
         self.of_piece(piece).flat_map(|c| {
             (0..c.len()).flat_map(move |i| {
                 let cut = c.cut_edge(i);
-                let corner: Vec<Segment> = c.cut_corners[i].windows(2).map(|w| [w[0], w[1]]).collect();
+                let corner: Vec<Segment> =
+                    c.cut_corners[i].windows(2).map(|w| [w[0], w[1]]).collect();
                 let along: Vec<Segment> = cut.windows(2).map(|w| [w[0], w[1]]).collect();
                 corner.into_iter().chain(along).map(move |s| (c, i, s))
             })

@@ -1,11 +1,13 @@
 //! Finger joints between plates of one thickness, cut square.
 //!
-//! The faces are the outer sides of the plates. Every edge, in the direction in which its face runs, begins with a finger and
-//! ends with a notch, an even number of zones in all; its partner runs the other way and so has a notch wherever this one has
-//! a finger. At a corner of three plates each holds one of its two neighbours: there is nothing to choose.
+//! The faces are the outer sides of the plates. Every edge, in the direction in which its face
+//! runs, begins with a finger and ends with a notch, an even number of zones in all; its partner
+//! runs the other way and so has a notch wherever this one has a finger. At a corner of three
+//! plates each holds one of its two neighbours: there is nothing to choose.
 //!
-//! With the dihedral angle δ and the thickness t a notch is t / sin δ deep for δ ≥ 90° and t · cot(δ/2) for less, so that the
-//! partner's slab passes; for δ < 90° fingers are shorter by t · cot δ, so that nothing juts out of the model.
+//! With the dihedral angle δ and the thickness t a notch is t / sin δ deep for δ ≥ 90° and t ·
+//! cot(δ/2) for less, so that the partner's slab passes; for δ < 90° fingers are shorter by t · cot
+//! δ, so that nothing juts out of the model.
 
 use glam::DVec2;
 
@@ -20,7 +22,8 @@ use crate::net::{Net, Segment};
 const SHARPEST: f64 = 30.0;
 const FLATTEST: f64 = 140.0;
 
-/// Sines of corner angles below this count as straight or reflex: offset lines are not led to where they meet.
+/// Sines of corner angles below this count as straight or reflex: offset lines are not led to where
+/// they meet.
 const STRAIGHT: f64 = 0.35;
 
 /// Fingers along one edge.
@@ -42,7 +45,11 @@ impl Comb {
         let zones = 2 * (length / (2.0 * fingers.width)).round().max(1.0) as usize;
         // The first finger loses the depth of the notch around the corner.
         let least = (1.5 * deep).max(thickness);
-        let zones = if length / (zones as f64) < least { 2 * (length / (2.0 * least)) as usize } else { zones };
+        let zones = if length / (zones as f64) < least {
+            2 * (length / (2.0 * least)) as usize
+        } else {
+            zones
+        };
         if zones == 0 { Err(Fallback::Short) } else { Ok(Self { zones, short, deep }) }
     }
 
@@ -51,7 +58,8 @@ impl Comb {
     }
 }
 
-/// How far before the edge a plate ends that goes through its partner, and one that ends at the partner's inner side.
+/// How far before the edge a plate ends that goes through its partner, and one that ends at the
+/// partner's inner side.
 pub(super) fn depths(fold_angle: f64, thickness: f64) -> Result<(f64, f64), Fallback> {
     let dihedral = 180.0 - fold_angle;
     if dihedral > 180.0 {
@@ -81,7 +89,8 @@ pub(super) fn add_fingers(
             _ => Err(Fallback::Narrow),
         })
         .collect();
-    // Every round takes fingers away, so that it ends; without any the outlines are those of the net.
+    // Every round takes fingers away, so that it ends; without any the outlines are those of the
+    // net.
     loop {
         boundaries.contours.iter_mut().for_each(|c| shape(c, &combs));
         let mut is_clean = true;
@@ -147,7 +156,8 @@ fn profile([a, b]: Segment, comb: &Comb) -> Vec<DVec2> {
     (1..comb.zones).flat_map(step).collect()
 }
 
-/// The jointed seams of a piece, those that `is_jointed` names, whose cut comes nearer than `web` to the cut of an edge that is no neighbour, or meets any.
+/// The jointed seams of a piece, those that `is_jointed` names, whose cut comes nearer than `web`
+/// to the cut of an edge that is no neighbour, or meets any.
 pub(super) fn in_the_way(
     boundaries: &Boundaries,
     piece: usize,
@@ -179,7 +189,9 @@ pub(super) fn in_the_way(
             } else {
                 let (la, lb) = (p.min(q) - DVec2::splat(web), r.min(s));
                 let (ha, hb) = (p.max(q) + DVec2::splat(web), r.max(s));
-                la.cmple(hb).all() && lb.cmple(ha).all() && super::boundary::segment_distance(a.2, b.2) < web
+                la.cmple(hb).all()
+                    && lb.cmple(ha).all()
+                    && super::boundary::segment_distance(a.2, b.2) < web
             };
             if is_close {
                 found.extend(jointed(a));
@@ -225,7 +237,8 @@ mod tests {
     }
 
     proptest! {
-        /// At every place exactly one of the two sides has a finger, and the two fit into each other.
+        /// At every place exactly one of the two sides has a finger, and the two fit into each
+        /// other.
         #[test]
         fn the_two_sides_are_complementary(fold in 41.0..149.0_f64, length in 20.0..300.0_f64, at in 0.0..1.0_f64) {
             let Ok(comb) = Comb::of(fold, length, &PLY) else { return Ok(()) };

@@ -1,7 +1,8 @@
 //! Flaps: a trapezoid on one side of every seam, that overlaps nothing.
 //!
-//! A flap must keep a gap to everything else on its piece. When it cannot, it is narrowed; before it gets narrower than half
-//! it moves to the partner side; where neither has room for a third of it, the seam stays bare.
+//! A flap must keep a gap to everything else on its piece. When it cannot, it is narrowed; before
+//! it gets narrower than half it moves to the partner side; where neither has room for a third of
+//! it, the seam stays bare.
 
 use std::f64::consts::TAU;
 
@@ -31,8 +32,10 @@ const LEAST_TOP: f64 = 0.3;
 /// Narrower flaps in mm hold no glue.
 const LEAST_WIDTH: f64 = 2.0;
 
-/// Widths that are tried, relative to what was asked for, on the side of the rule (0) and its partner (1).
-const TRIALS: [(usize, f64); 8] = [(0, 1.0), (0, 0.75), (0, 0.5), (1, 1.0), (1, 0.75), (1, 0.5), (0, 0.3), (1, 0.3)];
+/// Widths that are tried, relative to what was asked for, on the side of the rule (0) and its
+/// partner (1).
+const TRIALS: [(usize, f64); 8] =
+    [(0, 1.0), (0, 0.75), (0, 0.5), (1, 1.0), (1, 0.75), (1, 0.5), (0, 0.3), (1, 0.3)];
 
 /// A flap that was made.
 #[derive(Debug, Clone, Copy)]
@@ -119,7 +122,12 @@ fn turn(from: DVec2, to: DVec2) -> f64 {
     from.angle_to(to).rem_euclid(TAU)
 }
 
-fn trapezoid(boundaries: &Boundaries, place: Place, flap: &Flap, share: f64) -> Option<(Segment, Segment)> {
+fn trapezoid(
+    boundaries: &Boundaries,
+    place: Place,
+    flap: &Flap,
+    share: f64,
+) -> Option<(Segment, Segment)> {
     let [a, b] = boundaries.contours[place.contour].edge(place.edge);
     let [(before, before_waits), (after, after_waits)] = neighbours(boundaries, place);
     let room = [turn(before - a, b - a), turn(a - b, after - b)];
@@ -139,14 +147,23 @@ fn trapezoid(boundaries: &Boundaries, place: Place, flap: &Flap, share: f64) -> 
                 return None;
             }
             let out = -along.perp() * width;
-            return Some(([a, b], [a + along * (width * left) + out, b - along * (width * right) + out]));
+            return Some((
+                [a, b],
+                [a + along * (width * left) + out, b - along * (width * right) + out],
+            ));
         }
     }
     None
 }
 
 /// Whether a flap keeps its gap to everything on the piece.
-fn is_free(boundaries: &Boundaries, place: Place, [a, b]: Segment, [p, q]: Segment, kerf: f64) -> bool {
+fn is_free(
+    boundaries: &Boundaries,
+    place: Place,
+    [a, b]: Segment,
+    [p, q]: Segment,
+    kerf: f64,
+) -> bool {
     let own = &boundaries.contours[place.contour];
     let [(before, _), (after, _)] = neighbours(boundaries, place);
     let gap = GAP + kerf;
@@ -160,7 +177,8 @@ fn is_free(boundaries: &Boundaries, place: Place, [a, b]: Segment, [p, q]: Segme
         let starts = std::ptr::eq(contour, own) && c == before && d == a;
         let ends = std::ptr::eq(contour, own) && c == b && d == after;
         // What lies near a corner of the base anyway may do so still.
-        let least = gap.min(0.5 * segment_distance([c, d], [a, a]).min(segment_distance([c, d], [b, b])));
+        let least =
+            gap.min(0.5 * segment_distance([c, d], [a, a]).min(segment_distance([c, d], [b, b])));
         let clear = |s: Segment| {
             let d = segment_distance(s, [c, d]);
             d > 0.0 && d >= least

@@ -22,8 +22,9 @@ struct Drill<'a> {
 
 impl<'a> Drill<'a> {
     fn new(net: &'a Net, boundaries: &Boundaries, holes: &'a Holes, slots: &[Slot]) -> Self {
-        let mut paths: Vec<Vec<Vec<DVec2>>> =
-            (0..net.pieces.len()).map(|i| boundaries.of_piece(i).map(|c| c.path()).collect()).collect();
+        let mut paths: Vec<Vec<Vec<DVec2>>> = (0..net.pieces.len())
+            .map(|i| boundaries.of_piece(i).map(|c| c.path()).collect())
+            .collect();
         slots.iter().for_each(|slot| paths[slot.piece].push(slot.contour.clone()));
         Self { net, paths, holes, drilled: Vec::new() }
     }
@@ -31,7 +32,10 @@ impl<'a> Drill<'a> {
     fn is_free(&self, hole: &Hole) -> bool {
         let least = hole.radius + self.holes.web;
         let paths = &self.paths[hole.piece];
-        let inside = paths.iter().enumerate().all(|(i, c)| (locate(c, hole.centre) == Location::Inside) == (i == 0));
+        let inside = paths
+            .iter()
+            .enumerate()
+            .all(|(i, c)| (locate(c, hole.centre) == Location::Inside) == (i == 0));
         let id = self.net.pieces[hole.piece].id;
         inside
             && paths.iter().all(|c| distance_to_contour(hole.centre, c) >= least)
@@ -51,7 +55,8 @@ impl<'a> Drill<'a> {
     /// Drills both or none.
     fn pair(&mut self, pair: [Hole; 2]) -> bool {
         let [a, b] = pair;
-        let apart = a.piece != b.piece || a.centre.distance(b.centre) >= 2.0 * a.radius + self.holes.web;
+        let apart =
+            a.piece != b.piece || a.centre.distance(b.centre) >= 2.0 * a.radius + self.holes.web;
         let is_free = apart && pair.iter().all(|h| self.is_free(h));
         if is_free {
             self.drilled.extend(pair);
@@ -60,7 +65,8 @@ impl<'a> Drill<'a> {
     }
 }
 
-/// Stitch holes along the stretches, on the seams that are wanted, clear of the slots of other seams.
+/// Stitch holes along the stretches, on the seams that are wanted, clear of the slots of other
+/// seams.
 pub(super) fn stitch(
     net: &Net,
     boundaries: &Boundaries,
@@ -78,7 +84,8 @@ pub(super) fn stitch(
             // A hole in the way of a fold may move a little along the seam.
             let found = [0.0, 0.15, -0.15, 0.3, -0.3].into_iter().any(|shift| {
                 let (seam, side, t) = stretch.at(net, step * (i as f64 + 0.5 + shift));
-                let pair = wanted.contains(&seam).then(|| hole_pair(boundaries, seam, side, t, holes));
+                let pair =
+                    wanted.contains(&seam).then(|| hole_pair(boundaries, seam, side, t, holes));
                 pair.flatten().is_some_and(|pair| drill.pair(pair))
             });
             let (seam, ..) = stretch.at(net, step * (i as f64 + 0.5));
@@ -93,7 +100,13 @@ pub(super) fn stitch(
 }
 
 /// `t` runs along the side `side`; its partner runs the other way.
-fn hole_pair(boundaries: &Boundaries, seam: usize, side: usize, t: f64, holes: &Holes) -> Option<[Hole; 2]> {
+fn hole_pair(
+    boundaries: &Boundaries,
+    seam: usize,
+    side: usize,
+    t: f64,
+    holes: &Holes,
+) -> Option<[Hole; 2]> {
     let hole = |place: Place, t: f64| {
         let contour = &boundaries.contours[place.contour];
         let [a, b] = contour.edge(place.edge);
@@ -119,15 +132,24 @@ pub(super) fn rivet(
         let [a, b] = flap.base;
         let along = (b - a).normalize_or_zero();
         let width = -(flap.top[0] - a).dot(along.perp());
-        let ends = [(flap.top[0] - a).dot(along) / 2.0, (flap.top[1] - a).dot(along).midpoint(a.distance(b))];
+        let ends = [
+            (flap.top[0] - a).dot(along) / 2.0,
+            (flap.top[1] - a).dot(along).midpoint(a.distance(b)),
+        ];
         let count = ((ends[1] - ends[0]) / holes.spacing).floor().max(1.0);
         let [c, d] = boundaries.contours[partner.contour].edge(partner.edge);
         let back = (d - c).normalize_or_zero();
         for i in 0..count as usize {
             let at = ends[0] + (ends[1] - ends[0]) * (i as f64 + 0.5) / count;
             let hole = |piece, centre| Hole { piece, centre, radius: holes.radius };
-            let on_flap = hole(boundaries.contours[own.contour].piece, a + along * at - along.perp() * (width / 2.0));
-            let under = hole(boundaries.contours[partner.contour].piece, d - back * at + back.perp() * (width / 2.0));
+            let on_flap = hole(
+                boundaries.contours[own.contour].piece,
+                a + along * at - along.perp() * (width / 2.0),
+            );
+            let under = hole(
+                boundaries.contours[partner.contour].piece,
+                d - back * at + back.perp() * (width / 2.0),
+            );
             if drill.pair([on_flap, under]) {
                 report.hole_pairs += 1;
             } else {

@@ -1,8 +1,8 @@
 //! Joints: what holds the two sides of a seam together, made on the pieces before kerf and placing.
 //!
-//! Every joint is measured against all that its piece already carries. What would collide is made smaller, goes to the
-//! partner side, or falls back to stitch holes or the bare edge, and the report says so. The net's own outlines, which
-//! `pieces.json` holds, stay as they are.
+//! Every joint is measured against all that its piece already carries. What would collide is made
+//! smaller, goes to the partner side, or falls back to stitch holes or the bare edge, and the
+//! report says so. The net's own outlines, which `pieces.json` holds, stay as they are.
 
 mod boundary;
 mod fingers;
@@ -42,8 +42,8 @@ pub struct JointReport {
     pub tabbed: usize,
     /// Seams that fingers or tabs cannot hold, with the reason; they have the substitute.
     pub fallbacks: Vec<(EdgeLabel, Fallback)>,
-    /// Of these the ones to be mitred, with what to take off the square edge of either side, in degrees; negative where the edge is
-    /// concave.
+    /// Of these the ones to be mitred, with what to take off the square edge of either side, in
+    /// degrees; negative where the edge is concave.
     pub mitred: Vec<(EdgeLabel, f64)>,
     /// Pairs of holes.
     pub hole_pairs: usize,
@@ -119,7 +119,14 @@ pub(crate) fn join(net: &Net, params: &SheetParams) -> Result<Option<Jointed>, S
             drilled = holes::rivet(net, &boundaries, &made, &holes, &mut report);
         }
         JointPlan::Stitch(holes) => {
-            drilled = holes::stitch(net, &boundaries, &stretches(net, &boundaries), &all, (&holes, &[]), &mut report);
+            drilled = holes::stitch(
+                net,
+                &boundaries,
+                &stretches(net, &boundaries),
+                &all,
+                (&holes, &[]),
+                &mut report,
+            );
         }
         JointPlan::Fingers(fingers, holes) => {
             let fallen = fingers::add_fingers(net, &mut boundaries, &fingers, &mut report);
@@ -136,12 +143,16 @@ pub(crate) fn join(net: &Net, params: &SheetParams) -> Result<Option<Jointed>, S
         let mut paths = boundaries.of_piece(i).map(|c| c.path());
         piece.outline = paths.next().unwrap_or_default();
         let slots = slots.iter().filter(|s| s.piece == i).map(|s| s.contour.clone());
-        piece.holes = paths.chain(slots).chain(drilled.iter().filter(|h| h.piece == i).map(Hole::contour)).collect();
+        piece.holes = paths
+            .chain(slots)
+            .chain(drilled.iter().filter(|h| h.piece == i).map(Hole::contour))
+            .collect();
     }
     Ok(Some(Jointed { net, flap_folds, report }))
 }
 
-/// What seams get that fingers or tabs cannot hold: stitch holes, or a mitre, which nothing on a sheet shows.
+/// What seams get that fingers or tabs cannot hold: stitch holes, or a mitre, which nothing on a
+/// sheet shows.
 fn substitute(
     net: &Net,
     boundaries: &Boundaries,
@@ -150,9 +161,17 @@ fn substitute(
     report: &mut JointReport,
 ) -> Vec<Hole> {
     if let Some(holes) = holes {
-        return holes::stitch(net, boundaries, &stretches(net, boundaries), fallen, (holes, slots), report);
+        return holes::stitch(
+            net,
+            boundaries,
+            &stretches(net, boundaries),
+            fallen,
+            (holes, slots),
+            report,
+        );
     }
-    report.mitred = fallen.iter().map(|&s| (net.seams[s].id, net.seams[s].fold_angle / 2.0)).collect();
+    report.mitred =
+        fallen.iter().map(|&s| (net.seams[s].id, net.seams[s].fold_angle / 2.0)).collect();
     Vec::new()
 }
 
@@ -186,7 +205,8 @@ mod tests {
         let n = contour.len();
         for i in 0..n {
             for j in 0..i {
-                let (a, b, c, d) = (contour[i], contour[(i + 1) % n], contour[j], contour[(j + 1) % n]);
+                let (a, b, c, d) =
+                    (contour[i], contour[(i + 1) % n], contour[j], contour[(j + 1) % n]);
                 let next = j + 1 == i || (j == 0 && i + 1 == n);
                 assert!(next || !segments_meet(a, b, c, d), "edges {i} and {j} meet");
             }
@@ -201,9 +221,13 @@ mod tests {
     #[test]
     fn options_of_another_joint_and_missing_ones_are_refused() {
         let net = two_pieces();
-        let params = SheetParams { flap_width: Some(Length::from_mm(5.0)), ..SheetParams::default() };
+        let params =
+            SheetParams { flap_width: Some(Length::from_mm(5.0)), ..SheetParams::default() };
         let text = lay_out(&net, &params).expect_err("no flaps").to_string();
-        assert_eq!(text, "joint none does not use flap-width; leave it out or choose another joint");
+        assert_eq!(
+            text,
+            "joint none does not use flap-width; leave it out or choose another joint"
+        );
         let params = SheetParams { joint: Joint::Fingers, ..SheetParams::default() };
         let text = lay_out(&net, &params).expect_err("no thickness").to_string();
         assert_eq!(text, "joint fingers needs the thickness; give it, for example 3mm");
@@ -243,7 +267,8 @@ mod tests {
             let set = lay_out(&net, &params).expect("two small pieces");
             assert_eq!((set.report.joints.tabbed, set.report.joints.fallbacks.len()), (1, 0));
             let marks: Vec<_> = set.drawings[0].marks().collect();
-            let slots: Vec<_> = marks.iter().filter(|m| m.kind == super::super::MarkKind::Hole).collect();
+            let slots: Vec<_> =
+                marks.iter().filter(|m| m.kind == super::super::MarkKind::Hole).collect();
             assert!(!slots.is_empty());
             // What is cut is the drawn line and half a kerf on both sides of it.
             for slot in &slots {
@@ -253,12 +278,14 @@ mod tests {
                 assert!((sides[0].min(sides[1]) + kerf - 3.0).abs() < 1e-6, "{sides:?}");
                 assert!((sides[0].max(sides[1]) + kerf - 4.0).abs() < 1e-6, "{sides:?}");
             }
-            // The tops of tabs are a kerf wider than what comes out, the gaps between them as much narrower.
-            let tops = marks.iter().filter(|m| m.kind == super::super::MarkKind::Outline).flat_map(|m| {
-                let p = &m.strokes[0].points;
-                let n = p.len();
-                (0..n).map(|i| p[i].distance(p[(i + 1) % n])).collect::<Vec<_>>()
-            });
+            // The tops of tabs are a kerf wider than what comes out, the gaps between them as much
+            // narrower.
+            let tops =
+                marks.iter().filter(|m| m.kind == super::super::MarkKind::Outline).flat_map(|m| {
+                    let p = &m.strokes[0].points;
+                    let n = p.len();
+                    (0..n).map(|i| p[i].distance(p[(i + 1) % n])).collect::<Vec<_>>()
+                });
             let expected = if kerf > 0.0 { slots.len() } else { 2 * slots.len() - 1 };
             assert_eq!(tops.filter(|l| (l - kerf - 4.0).abs() < 1e-6).count(), expected);
         }
@@ -269,15 +296,27 @@ mod tests {
         for joint in [Joint::Fingers, Joint::Tabs] {
             let net = twins(random_convex(3).into_iter().map(|p| 3.0 * p).collect(), 30.0);
             let stitched = join(&net, &with(joint)).expect("good numbers").expect("a joint").report;
-            assert!(stitched.fallbacks.iter().all(|f| f.1 == Fallback::Shallow) && stitched.hole_pairs > 0);
+            assert!(
+                stitched.fallbacks.iter().all(|f| f.1 == Fallback::Shallow)
+                    && stitched.hole_pairs > 0
+            );
             assert_eq!(stitched.fallbacks.len(), net.seams.len());
             let params = SheetParams { substitute: Some(Substitute::Mitre), ..with(joint) };
             let jointed = join(&net, &params).expect("good numbers").expect("a joint");
-            assert_eq!((jointed.report.mitred.len(), jointed.report.hole_pairs), (net.seams.len(), 0));
+            assert_eq!(
+                (jointed.report.mitred.len(), jointed.report.hole_pairs),
+                (net.seams.len(), 0)
+            );
             assert!(jointed.report.mitred.iter().all(|m| m.1 == 15.0));
             assert_eq!(jointed.net, net);
             let both = SheetParams { hole_spacing: Some(Length::from_mm(8.0)), ..params };
-            assert!(join(&net, &both).map(|_| ()).expect_err("no holes").to_string().contains("hole-spacing"));
+            assert!(
+                join(&net, &both)
+                    .map(|_| ())
+                    .expect_err("no holes")
+                    .to_string()
+                    .contains("hole-spacing")
+            );
         }
     }
 

@@ -84,7 +84,8 @@ pub(crate) struct Tabs {
     pub side: FlapSide,
 }
 
-/// A joint with all that it needs; holes for the seams that it cannot hold, or none where these are mitred.
+/// A joint with all that it needs; holes for the seams that it cannot hold, or none where these are
+/// mitred.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum JointPlan {
     None,
@@ -125,11 +126,21 @@ pub(crate) fn plan(params: &SheetParams) -> Result<JointPlan, SheetError> {
         ("thickness", params.thickness.is_some(), &[F, T]),
         ("finger-width", params.finger_width.is_some(), &[F, T]),
         ("substitute", params.substitute.is_some(), &[F, T]),
-        ("hole-spacing", params.hole_spacing.is_some(), if is_mitred { &[][..] } else { &[Stitch, Rivets, F, T] }),
-        ("hole-diameter", params.hole_diameter.is_some(), if is_mitred { &[] } else { &[Stitch, Rivets, F, T] }),
+        (
+            "hole-spacing",
+            params.hole_spacing.is_some(),
+            if is_mitred { &[][..] } else { &[Stitch, Rivets, F, T] },
+        ),
+        (
+            "hole-diameter",
+            params.hole_diameter.is_some(),
+            if is_mitred { &[] } else { &[Stitch, Rivets, F, T] },
+        ),
         ("hole-inset", params.hole_inset.is_some(), if is_mitred { &[] } else { &[Stitch, F, T] }),
     ];
-    if let Some((option, ..)) = given.into_iter().find(|(_, given, of)| *given && !of.contains(&joint)) {
+    if let Some((option, ..)) =
+        given.into_iter().find(|(_, given, of)| *given && !of.contains(&joint))
+    {
         return Err(SheetError::JointOption { option, joint, is_missing: false });
     }
     Ok(match joint {
@@ -145,16 +156,28 @@ pub(crate) fn plan(params: &SheetParams) -> Result<JointPlan, SheetError> {
             if joint == F {
                 JointPlan::Fingers(Fingers { thickness, width }, holes)
             } else {
-                JointPlan::Tabs(Tabs { thickness, width, side: params.flap_side.unwrap_or_default() }, holes)
+                JointPlan::Tabs(
+                    Tabs { thickness, width, side: params.flap_side.unwrap_or_default() },
+                    holes,
+                )
             }
         }
     })
 }
 
-fn length(name: &'static str, value: Option<Length>, default: f64, least: f64) -> Result<f64, SheetError> {
+fn length(
+    name: &'static str,
+    value: Option<Length>,
+    default: f64,
+    least: f64,
+) -> Result<f64, SheetError> {
     let value = value.map_or(default, Length::mm);
     // Written so that NaN is out of range too.
-    if value >= least && value.is_finite() { Ok(value) } else { Err(SheetError::OutOfRange { name, value, least }) }
+    if value >= least && value.is_finite() {
+        Ok(value)
+    } else {
+        Err(SheetError::OutOfRange { name, value, least })
+    }
 }
 
 fn flap(params: &SheetParams, width: f64) -> Result<Flap, SheetError> {
@@ -173,13 +196,19 @@ fn holes(params: &SheetParams, [spacing, diameter]: [f64; 2]) -> Result<Holes, S
     let kerf = params.kerf.mm();
     // What the material wants, where it is known.
     let web = params.made_of.as_ref().map_or(WEB, |m| m.web.mm().max(WEB)) + kerf;
-    // Holes narrower than one and a half times the plate burn out. A little more, since the corners of a drawn circle lie on it.
-    let thickness = params.thickness.or(params.made_of.as_ref().map(|m| m.thickness)).map_or(0.0, Length::mm);
+    // Holes narrower than one and a half times the plate burn out. A little more, since the corners
+    // of a drawn circle lie on it.
+    let thickness =
+        params.thickness.or(params.made_of.as_ref().map(|m| m.thickness)).map_or(0.0, Length::mm);
     let least = if thickness > THIN { 1.55 * thickness + kerf } else { 0.0 };
     let (diameter, spacing) = (diameter.max(least), spacing.max(2.0 * least));
     let diameter = length("hole-diameter", params.hole_diameter, diameter, kerf + 0.1)?;
     let spacing = length("hole-spacing", params.hole_spacing, spacing, diameter + web)?;
-    let inset =
-        length("hole-inset", params.hole_inset, (2.0 * diameter).max(diameter / 2.0 + web), diameter / 2.0 + web)?;
+    let inset = length(
+        "hole-inset",
+        params.hole_inset,
+        (2.0 * diameter).max(diameter / 2.0 + web),
+        diameter / 2.0 + web,
+    )?;
     Ok(Holes { spacing, radius: diameter / 2.0, inset, web })
 }

@@ -1,14 +1,17 @@
-//! Tabs on one side of a seam, slots for them in the partner, for plates of one thickness, cut square.
+//! Tabs on one side of a seam, slots for them in the partner, for plates of one thickness, cut
+//! square.
 //!
-//! The faces are the outer sides of the plates. The plate with the tabs ends at the inner side of its partner; its tabs go on
-//! through the partner to its outer side and do not jut out. The partner keeps its whole face and grows a lip beyond the
-//! edge, so that its slots lie inside of its outline.
+//! The faces are the outer sides of the plates. The plate with the tabs ends at the inner side of
+//! its partner; its tabs go on through the partner to its outer side and do not jut out. The
+//! partner keeps its whole face and grows a lip beyond the edge, so that its slots lie inside of
+//! its outline.
 //!
-//! With the dihedral angle δ and the thickness t the slanted slab of the one plate crosses the other one, measured from the edge into it, from
-//! min(0, t · cot δ) to t / sin δ + max(0, t · cot δ): that is where the slot is, t wide at a right angle and wider else, since
-//! a square cut has to let a slanted plate through. Tabs end max(0, t · cot δ) before the edge, the plate between them
-//! t / sin δ more. Lips end before the corners of the face, where the plates meet as at a finger joint: one keeps the edge,
-//! the other one ends behind it.
+//! With the dihedral angle δ and the thickness t the slanted slab of the one plate crosses the
+//! other one, measured from the edge into it, from min(0, t · cot δ) to t / sin δ + max(0, t · cot
+//! δ): that is where the slot is, t wide at a right angle and wider else, since a square cut has to
+//! let a slanted plate through. Tabs end max(0, t · cot δ) before the edge, the plate between them
+//! t / sin δ more. Lips end before the corners of the face, where the plates meet as at a finger
+//! joint: one keeps the edge, the other one ends behind it.
 
 use glam::DVec2;
 
@@ -20,11 +23,12 @@ use super::{Fallback, JointReport};
 use crate::geom::polygon::{Location, locate};
 use crate::net::{Net, Segment};
 
-/// Trials of a seam, in order: the side by the rule (0) or its partner (1), and the free part at both ends in multiples of
-/// the least one.
+/// Trials of a seam, in order: the side by the rule (0) or its partner (1), and the free part at
+/// both ends in multiples of the least one.
 const TRIALS: [(usize, f64); 4] = [(0, 1.0), (0, 2.0), (1, 1.0), (1, 2.0)];
 
-/// How far a lip may stand out, in thicknesses: its web, and the lean of a slot at the flattest angle, 1.19.
+/// How far a lip may stand out, in thicknesses: its web, and the lean of a slot at the flattest
+/// angle, 1.19.
 pub(super) const FARTHEST_LIP: f64 = 2.2;
 
 /// Tabs along one edge and the slots for them.
@@ -47,7 +51,12 @@ pub(super) struct Row {
 
 impl Row {
     /// The tabs of a seam, or why it can have none.
-    fn of(fold_angle: f64, length: f64, tabs: &Tabs, (side, ends): (usize, f64)) -> Result<Self, Fallback> {
+    fn of(
+        fold_angle: f64,
+        length: f64,
+        tabs: &Tabs,
+        (side, ends): (usize, f64),
+    ) -> Result<Self, Fallback> {
         let (short, deep) = depths(fold_angle, tabs.thickness)?;
         let dihedral = (180.0 - fold_angle).to_radians();
         let web = tabs.thickness;
@@ -117,14 +126,17 @@ pub(super) fn add_tabs(
     report: &mut JointReport,
 ) -> (Vec<Slot>, Vec<usize>) {
     let mut trials = vec![0; net.seams.len()];
-    let mut rows: Vec<Result<Row, Fallback>> =
-        (0..net.seams.len()).map(|s| next_row(net, boundaries, tabs, s, &mut trials[s], Fallback::Narrow)).collect();
-    // Every round takes a trial from a seam, so that it ends; without any the outlines are those of the net.
+    let mut rows: Vec<Result<Row, Fallback>> = (0..net.seams.len())
+        .map(|s| next_row(net, boundaries, tabs, s, &mut trials[s], Fallback::Narrow))
+        .collect();
+    // Every round takes a trial from a seam, so that it ends; without any the outlines are those of
+    // the net.
     loop {
         boundaries.contours.iter_mut().for_each(|c| shape(c, &rows));
         let mut blocked = Vec::new();
         for piece in 0..net.pieces.len() {
-            blocked.extend(in_the_way(boundaries, piece, tabs.thickness / 2.0, |s| rows[s].is_ok()));
+            blocked
+                .extend(in_the_way(boundaries, piece, tabs.thickness / 2.0, |s| rows[s].is_ok()));
             blocked.extend(slots_in_the_way(net, boundaries, piece, &rows));
         }
         blocked.sort_unstable();
@@ -198,7 +210,8 @@ fn edge(boundaries: &Boundaries, place: Place) -> Segment {
 fn shape(contour: &mut Contour, rows: &[Result<Row, Fallback>]) {
     let n = contour.len();
     let row = |i: usize| contour.sides[i].and_then(|(s, k)| Some((rows[s].as_ref().ok()?, k)));
-    let level = |i: usize| row(i).map_or(0.0, |(row, k)| if row.side == k { row.deep } else { 0.0 });
+    let level =
+        |i: usize| row(i).map_or(0.0, |(row, k)| if row.side == k { row.deep } else { 0.0 });
     let levels: Vec<f64> = (0..n).map(level).collect();
     let profiles: Vec<Vec<DVec2>> = (0..n)
         .map(|i| match row(i) {
@@ -209,17 +222,24 @@ fn shape(contour: &mut Contour, rows: &[Result<Row, Fallback>]) {
         .collect();
     for (i, profile) in profiles.into_iter().enumerate() {
         let before = (i + n - 1) % n;
-        contour.cut_corners[i] = corner(contour.edge(before), contour.edge(i), (levels[before], levels[i]));
+        contour.cut_corners[i] =
+            corner(contour.edge(before), contour.edge(i), (levels[before], levels[i]));
         contour.profiles[i] = profile;
     }
 }
 
-/// The seams whose tabs or slots on a piece lack room: slots near a cut, a fold or one another, and either near the plate
-/// that stands on another edge.
-fn slots_in_the_way(net: &Net, boundaries: &Boundaries, piece: usize, rows: &[Result<Row, Fallback>]) -> Vec<usize> {
+/// The seams whose tabs or slots on a piece lack room: slots near a cut, a fold or one another, and
+/// either near the plate that stands on another edge.
+fn slots_in_the_way(
+    net: &Net,
+    boundaries: &Boundaries,
+    piece: usize,
+    rows: &[Result<Row, Fallback>],
+) -> Vec<usize> {
     let paths: Vec<Vec<DVec2>> = boundaries.of_piece(piece).map(Contour::path).collect();
     let id = net.pieces[piece].id;
-    let folds: Vec<Segment> = net.folds.iter().filter(|f| f.piece == id).map(|f| f.segment).collect();
+    let folds: Vec<Segment> =
+        net.folds.iter().filter(|f| f.piece == id).map(|f| f.segment).collect();
     // Edges with plates on them, with their seams and how deep these reach.
     let mut jointed: Vec<(usize, Segment, f64)> = Vec::new();
     for contour in boundaries.of_piece(piece) {
@@ -248,17 +268,18 @@ fn slots_in_the_way(net: &Net, boundaries: &Boundaries, piece: usize, rows: &[Re
             }
             for slot in row.slots(own) {
                 let least = row.web * (1.0 - 1e-9);
-                let inside = paths
-                    .iter()
-                    .enumerate()
-                    .all(|(c, path)| slot.iter().all(|&p| (locate(path, p) == Location::Inside) == (c == 0)));
+                let inside = paths.iter().enumerate().all(|(c, path)| {
+                    slot.iter().all(|&p| (locate(path, p) == Location::Inside) == (c == 0))
+                });
                 let is_free = inside
-                    && paths.iter().all(|path| edges(path).all(|(a, b)| distance(&slot, [a, b]) >= least))
+                    && paths
+                        .iter()
+                        .all(|path| edges(path).all(|(a, b)| distance(&slot, [a, b]) >= least))
                     && folds.iter().all(|&f| distance(&slot, f) >= row.web / 2.0)
                     && others(&slot, 0.0);
-                let beside = slots
-                    .iter()
-                    .filter(|(t, other)| (*t != s) && edges(other).any(|(a, b)| distance(&slot, [a, b]) < least));
+                let beside = slots.iter().filter(|(t, other)| {
+                    (*t != s) && edges(other).any(|(a, b)| distance(&slot, [a, b]) < least)
+                });
                 let beside: Vec<usize> = beside.map(|(t, _)| *t).collect();
                 if !is_free || !beside.is_empty() {
                     found.push(s);
@@ -296,13 +317,15 @@ mod tests {
     }
 
     proptest! {
-        /// In a section across the edge: wherever the plate with the tab is inside its partner, the slot is; the tab does
-        /// not jut out, and the plate between the tabs stays out of its partner.
+        /// In a section across the edge: wherever the plate with the tab is inside its partner, the
+        /// slot is; the tab does not jut out, and the plate between the tabs stays out of its
+        /// partner.
         #[test]
         fn the_slab_goes_through_its_slot(fold in 41.0..149.0_f64, s in -1.0..20.0_f64, r in 0.0..3.0_f64) {
             let row = Row::of(fold, 200.0, &PLY, (0, 1.0)).expect("an angle that tabs can hold");
             let dihedral = (180.0 - fold).to_radians();
-            // The partner lies along x with its inside up; the plate with the tab leans by the dihedral angle.
+            // The partner lies along x with its inside up; the plate with the tab leans by the
+            // dihedral angle.
             let (along, inwards) = (DVec2::from_angle(dihedral), DVec2::new(dihedral.sin(), -dihedral.cos()));
             let p = along * s + inwards * r;
             if (0.0..=3.0).contains(&p.y) && s >= row.short {

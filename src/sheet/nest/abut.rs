@@ -1,8 +1,9 @@
-//! Pieces side to side, so that one cut serves two: every piece is tried with each of its sides against each side of those that
-//! lie already, corner to corner, and goes where it reaches least far and shares most.
+//! Pieces side to side, so that one cut serves two: every piece is tried with each of its sides
+//! against each side of those that lie already, corner to corner, and goes where it reaches least
+//! far and shares most.
 //!
-//! Moving pieces apart, as the usual search does, would lose the touch; instead everything is laid again and again in other
-//! orders while there is work left, and the best layout is kept.
+//! Moving pieces apart, as the usual search does, would lose the touch; instead everything is laid
+//! again and again in other orders while there is work left, and the best layout is kept.
 
 use glam::DVec2;
 
@@ -45,7 +46,14 @@ pub(super) fn lay_abutting(
         let mut field = Field::new(shapes, problem.spacing);
         let mut bins = Bins::new(problem);
         let shake = if best.is_some() { SHAKE } else { 0.0 };
-        let mut start = Start { field: &mut field, chance: &mut chance, bins: &mut bins, trials: 60, shake, progress };
+        let mut start = Start {
+            field: &mut field,
+            chance: &mut chance,
+            bins: &mut bins,
+            trials: 60,
+            shake,
+            progress,
+        };
         match (start.lay_all(), &best) {
             (Err(no_place), None) => return Err(no_place),
             (Err(_), Some(_)) => {}
@@ -57,7 +65,11 @@ pub(super) fn lay_abutting(
             }
         }
         work += field.work;
-        progress.report("nesting: per cent of the effort", (100 * work / effort.work.max(1)).min(100) as usize, 100);
+        progress.report(
+            "nesting: per cent of the effort",
+            (100 * work / effort.work.max(1)).min(100) as usize,
+            100,
+        );
         if work >= effort.work || progress.is_cancelled() {
             return Ok(best.map(|b| b.spots).unwrap_or_default());
         }
@@ -82,7 +94,12 @@ struct Against {
 }
 
 /// The best place of a piece against those in a bin, if there is one.
-pub(super) fn abutting(field: &mut Field<'_>, turns: &Turns, axis: Axis, (i, bin): (usize, usize)) -> Option<Spot> {
+pub(super) fn abutting(
+    field: &mut Field<'_>,
+    turns: &Turns,
+    axis: Axis,
+    (i, bin): (usize, usize),
+) -> Option<Spot> {
     let tolerance = 3e-9 * (field.rooms[bin].high - field.rooms[bin].low).length();
     let mut places = against(field, turns, axis, (i, bin));
     places.sort_by(|a, b| a.key.total_cmp(&b.key));
@@ -93,7 +110,10 @@ pub(super) fn abutting(field: &mut Field<'_>, turns: &Turns, axis: Axis, (i, bin
         posed.turn(&field.shapes[i], spot.angle);
         let Some(touched) = field.touched(i, &posed, spot, tolerance) else { continue };
         let mine = sides_at(field, i, spot);
-        let shared: f64 = touched.iter().map(|&j| shared(&mine, &sides_at(field, j, field.spots[j]), tolerance)).sum();
+        let shared: f64 = touched
+            .iter()
+            .map(|&j| shared(&mine, &sides_at(field, j, field.spots[j]), tolerance))
+            .sum();
         let score = key - WORTH * shared;
         if shared > 0.0 && best.is_none_or(|b| score < b.0) {
             best = Some((score, spot));
@@ -106,12 +126,19 @@ pub(super) fn abutting(field: &mut Field<'_>, turns: &Turns, axis: Axis, (i, bin
     best.map(|b| b.1)
 }
 
-/// All places in the room of the bin at which a side of the piece lies against a side of another, corner to corner.
-fn against(field: &mut Field<'_>, turns: &Turns, axis: Axis, (i, bin): (usize, usize)) -> Vec<Against> {
+/// All places in the room of the bin at which a side of the piece lies against a side of another,
+/// corner to corner.
+fn against(
+    field: &mut Field<'_>,
+    turns: &Turns,
+    axis: Axis,
+    (i, bin): (usize, usize),
+) -> Vec<Against> {
     let mut places = Vec::new();
     let slack = DVec2::splat(1e-9 * (field.rooms[bin].high - field.rooms[bin].low).length());
     let mut posed = Posed::default();
-    let others: Vec<usize> = (0..field.pieces).filter(|&j| field.is_in(j) && field.spots[j].bin == bin).collect();
+    let others: Vec<usize> =
+        (0..field.pieces).filter(|&j| field.is_in(j) && field.spots[j].bin == bin).collect();
     for j in others {
         for [a, b] in sides_at(field, j, field.spots[j]) {
             for &[p, q] in &field.shapes[i].sides {

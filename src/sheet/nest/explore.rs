@@ -1,5 +1,5 @@
-//! From a first layout to a better one: the last sheet is made shorter and shorter, and after every step all pieces of all
-//! sheets are separated again.
+//! From a first layout to a better one: the last sheet is made shorter and shorter, and after every
+//! step all pieces of all sheets are separated again.
 
 use glam::DVec2;
 
@@ -45,7 +45,8 @@ pub(super) struct Explore<'e, 'f, 'a, 'p> {
 impl Explore<'_, '_, '_, '_> {
     /// The field as it is, without collisions, as a layout; empty bins at the end do not count.
     pub fn layout(&self) -> Layout {
-        let bins = self.field.spots[..self.field.pieces].iter().map(|s| s.bin + 1).max().unwrap_or(0);
+        let bins =
+            self.field.spots[..self.field.pieces].iter().map(|s| s.bin + 1).max().unwrap_or(0);
         let mut used: f64 = 0.0;
         if let Some(last) = bins.checked_sub(1) {
             let axis = self.bins.get(last).axis();
@@ -89,9 +90,12 @@ impl Explore<'_, '_, '_, '_> {
                 self.disturb(shorter.0);
             }
             let end = self.separate(shorter.0);
-            // A piece that fits at few angles only may stick out of the shortened sheet, apart from all others.
+            // A piece that fits at few angles only may stick out of the shortened sheet, apart from
+            // all others.
             let is_better = end == End::Apart && self.is_inside();
-            let better = is_better.then(|| self.layout()).filter(|l| (l.bins, l.used) < (best.bins, best.used));
+            let better = is_better
+                .then(|| self.layout())
+                .filter(|l| (l.bins, l.used) < (best.bins, best.used));
             match (end, better) {
                 (_, Some(better)) => {
                     best = better;
@@ -127,7 +131,8 @@ impl Explore<'_, '_, '_, '_> {
         })
     }
 
-    /// Lays pieces straight where there is room for it, and moves them together; no sheet gets longer by that.
+    /// Lays pieces straight where there is room for it, and moves them together; no sheet gets
+    /// longer by that.
     fn settled(&mut self, best: Layout) -> Layout {
         let last = best.bins - 1;
         self.full(best.bins);
@@ -158,7 +163,8 @@ impl Explore<'_, '_, '_, '_> {
             let is_straight = spot.angle == home + 90.0 * quarters;
             let mut search = Search::new(self.field, self.chance, &straight, &only, i);
             let here = Spot { angle: home + 90.0 * quarters, ..spot };
-            let found = if is_straight { None } else { search.best(trials, Some(here), f64::INFINITY) };
+            let found =
+                if is_straight { None } else { search.best(trials, Some(here), f64::INFINITY) };
             if let Some(found) = found.filter(|f| f.loss == 0.0 && search.is_free(f.spot)) {
                 spot = found.spot;
                 self.field.put(i, spot);
@@ -189,14 +195,16 @@ impl Explore<'_, '_, '_, '_> {
         }
     }
 
-    /// Closes the last bin, or makes it shorter. Nothing when that cannot be: one bin with pieces as long as it is.
+    /// Closes the last bin, or makes it shorter. Nothing when that cannot be: one bin with pieces
+    /// as long as it is.
     fn shorter(&mut self, best: &Layout, step: f64) -> Option<(usize, f64)> {
         let last = best.bins - 1;
         let stock = self.bins.get(last);
         let axis = stock.axis();
         let length = axis.of(stock.high - stock.low);
         let used = best.used - step * length;
-        let here: Vec<usize> = (0..self.field.pieces).filter(|&i| best.spots[i].bin == last).collect();
+        let here: Vec<usize> =
+            (0..self.field.pieces).filter(|&i| best.spots[i].bin == last).collect();
         let least = here.iter().map(|&i| self.least(i, axis)).fold(0.0, f64::max);
         self.full(best.bins);
         if used > least {
@@ -220,11 +228,14 @@ impl Explore<'_, '_, '_, '_> {
             return None;
         }
         let mut moved: Vec<usize> = here;
-        moved.sort_by(|&a, &b| self.field.shapes[b].area.total_cmp(&self.field.shapes[a].area).then(a.cmp(&b)));
+        moved.sort_by(|&a, &b| {
+            self.field.shapes[b].area.total_cmp(&self.field.shapes[a].area).then(a.cmp(&b))
+        });
         for &i in &moved {
             self.field.take(i);
         }
-        let mut group_bin: std::collections::BTreeMap<usize, usize> = std::collections::BTreeMap::new();
+        let mut group_bin: std::collections::BTreeMap<usize, usize> =
+            std::collections::BTreeMap::new();
         for i in moved {
             if self.bins.of[i].first().is_none_or(|&b| b >= last) {
                 return None;
@@ -243,7 +254,8 @@ impl Explore<'_, '_, '_, '_> {
         Some((last, axis.of(stock.high - stock.low)))
     }
 
-    /// A bound on how short a bin may be for a piece: its least extent at the angles that are allowed.
+    /// A bound on how short a bin may be for a piece: its least extent at the angles that are
+    /// allowed.
     fn least(&self, i: usize, axis: super::Axis) -> f64 {
         let mut posed = super::shape::Posed::default();
         let angles: Vec<f64> = match &self.turns[i] {
@@ -293,7 +305,9 @@ impl Explore<'_, '_, '_, '_> {
         if order.len() < 3 {
             return;
         }
-        order.sort_by(|&a, &b| self.field.shapes[b].area.total_cmp(&self.field.shapes[a].area).then(a.cmp(&b)));
+        order.sort_by(|&a, &b| {
+            self.field.shapes[b].area.total_cmp(&self.field.shapes[a].area).then(a.cmp(&b))
+        });
         let large = (order.len() / 2).max(2);
         let (i, j) = (order[self.chance.below(large)], order[self.chance.below(large)]);
         let (a, b) = (self.field.spots[i], self.field.spots[j]);

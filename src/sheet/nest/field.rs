@@ -1,7 +1,8 @@
-//! The field of the search: bins with what lies in them, and how much a piece at some place is too near to others.
+//! The field of the search: bins with what lies in them, and how much a piece at some place is too
+//! near to others.
 //!
-//! Parts are found through a grid in every bin. A pair is counted in one cell only, the one that holds the lower left
-//! corner of what the two boxes share.
+//! Parts are found through a grid in every bin. A pair is counted in one cell only, the one that
+//! holds the lower left corner of what the two boxes share.
 
 use glam::DVec2;
 
@@ -14,7 +15,8 @@ pub(super) struct Room {
     pub high: DVec2,
 }
 
-/// What a shortage counts: a little more than in proportion, so that one large one is worse than several small ones.
+/// What a shortage counts: a little more than in proportion, so that one large one is worse than
+/// several small ones.
 fn grown(shortage: f64) -> f64 {
     shortage * shortage.sqrt().sqrt()
 }
@@ -91,7 +93,8 @@ pub(super) struct Field<'a> {
     pub work: u64,
 }
 
-/// Something in a bin that pieces keep away from: its shape, whose origin lies where its frame says, and how far.
+/// Something in a bin that pieces keep away from: its shape, whose origin lies where its frame
+/// says, and how far.
 #[derive(Debug, Clone)]
 pub(super) struct Obstacle {
     pub shape: Shape,
@@ -147,7 +150,8 @@ impl<'a> Field<'a> {
         if other < self.pieces { self.spacing } else { self.clearances[other - self.pieces] }
     }
 
-    /// Where the origin of a turned shape may be in a bin; the low is above the high where it does not fit.
+    /// Where the origin of a turned shape may be in a bin; the low is above the high where it does
+    /// not fit.
     pub fn range(&self, posed: &Posed, bin: usize) -> (DVec2, DVec2) {
         (self.rooms[bin].low - posed.low, self.rooms[bin].high - posed.high)
     }
@@ -205,7 +209,8 @@ impl<'a> Field<'a> {
             let at = self.spots[i].at;
             self.shapes[i].holes.iter().map(move |&(low, high)| {
                 let (middle, half) = (low.midpoint(high), (high - low) / 2.0);
-                // Turned, the box of a hole is no box: what is inside for sure is the square in the middle.
+                // Turned, the box of a hole is no box: what is inside for sure is the square in the
+                // middle.
                 let half = if turn.apply(DVec2::X).abs().max_element() > 0.999 {
                     turn.apply(half).abs()
                 } else {
@@ -217,8 +222,8 @@ impl<'a> Field<'a> {
         })
     }
 
-    /// Calls `found` with every other that piece `i`, turned so and at `at`, is too near to, part by part: number and
-    /// shortage. Stops when it returns false.
+    /// Calls `found` with every other that piece `i`, turned so and at `at`, is too near to, part
+    /// by part: number and shortage. Stops when it returns false.
     fn shortages(
         &self,
         i: usize,
@@ -249,7 +254,8 @@ impl<'a> Field<'a> {
                             continue;
                         }
                         work += 1;
-                        let shortage = posed.shortage(part, theirs, second, there - at, self.apart(other));
+                        let shortage =
+                            posed.shortage(part, theirs, second, there - at, self.apart(other));
                         if shortage > 0.0 && !found(other, shortage) {
                             return work;
                         }
@@ -265,7 +271,8 @@ impl<'a> Field<'a> {
         let mut sum = 0.0;
         let weights = &self.weights[i];
         let work = self.shortages(i, posed, bin, at, |other, shortage| {
-            let weight = weights.iter().find(|(w, _)| *w == other as u32).map_or(1.0, |(_, weight)| *weight);
+            let weight =
+                weights.iter().find(|(w, _)| *w == other as u32).map_or(1.0, |(_, weight)| *weight);
             sum += weight * grown(shortage);
             sum < most
         });
@@ -273,9 +280,15 @@ impl<'a> Field<'a> {
         sum
     }
 
-    /// The pieces that a piece at a place touches, up to a tolerance; nothing where it overlaps one, or is too near to one that
-    /// it does not touch, or to an obstacle.
-    pub fn touched(&mut self, i: usize, posed: &Posed, spot: Spot, tolerance: f64) -> Option<Vec<usize>> {
+    /// The pieces that a piece at a place touches, up to a tolerance; nothing where it overlaps
+    /// one, or is too near to one that it does not touch, or to an obstacle.
+    pub fn touched(
+        &mut self,
+        i: usize,
+        posed: &Posed,
+        spot: Spot,
+        tolerance: f64,
+    ) -> Option<Vec<usize>> {
         let mut most: Vec<(usize, f64)> = Vec::new();
         let work = self.shortages(i, posed, spot.bin, spot.at, |other, shortage| {
             match most.iter_mut().find(|m| m.0 == other) {
@@ -287,7 +300,8 @@ impl<'a> Field<'a> {
         });
         self.work += work;
         most.retain(|m| m.1 > tolerance);
-        let touches = |m: &(usize, f64)| m.0 < self.pieces && (m.1 - self.spacing).abs() <= tolerance;
+        let touches =
+            |m: &(usize, f64)| m.0 < self.pieces && (m.1 - self.spacing).abs() <= tolerance;
         most.iter().all(touches).then(|| most.into_iter().map(|m| m.0).collect())
     }
 

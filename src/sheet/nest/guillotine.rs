@@ -1,8 +1,8 @@
-//! Cuts from edge to edge, as glass is cut: every box lies in the corner of a free rectangle, whose rest is divided by one
-//! cut into two free rectangles.
+//! Cuts from edge to edge, as glass is cut: every box lies in the corner of a free rectangle, whose
+//! rest is divided by one cut into two free rectangles.
 //!
-//! Source: Jylänki 2010, "A Thousand Ways to Pack the Bin", GUILLOTINE. Several orders and rules, then shuffled orders; the
-//! layout with the least area of sheets wins.
+//! Source: Jylänki 2010, "A Thousand Ways to Pack the Bin", GUILLOTINE. Several orders and rules,
+//! then shuffled orders; the layout with the least area of sheets wins.
 
 use glam::DVec2;
 
@@ -12,7 +12,8 @@ use super::stock::StockSheet;
 use super::{Axis, Effort, NoPlace};
 use crate::progress::Progress;
 
-/// A piece as the boxes around it: for every angle, its size with the spacing on its upper and right side.
+/// A piece as the boxes around it: for every angle, its size with the spacing on its upper and
+/// right side.
 #[derive(Debug, Clone)]
 pub(super) struct Boxed {
     pub ways: Vec<(f64, DVec2)>,
@@ -77,8 +78,10 @@ pub(super) fn guillotine(
         progress.report("nesting: guillotine layouts", round as usize, rounds as usize);
         let by = (round % 3) as usize;
         let mut order: Vec<usize> = (0..boxes.len()).collect();
-        let keys: Vec<f64> =
-            boxes.iter().map(|b| key(b, by) * if round < 9 { 1.0 } else { chance.between(0.7, 1.3) }).collect();
+        let keys: Vec<f64> = boxes
+            .iter()
+            .map(|b| key(b, by) * if round < 9 { 1.0 } else { chance.between(0.7, 1.3) })
+            .collect();
         order.sort_by(|&a, &b| keys[b].total_cmp(&keys[a]).then(a.cmp(&b)));
         let packed = pack(boxes, &order, sheets, SPLITS[(round / 3 % 3) as usize])?;
         let cost = cost(&packed.0, boxes, sheets);
@@ -111,7 +114,12 @@ fn cost(places: &[Place], boxes: &[Boxed], sheets: &[StockSheet]) -> f64 {
     bins.into_iter().map(area).sum::<f64>() + area(last) * used / axis.of(size)
 }
 
-fn pack(boxes: &[Boxed], order: &[usize], sheets: &[StockSheet], split: Split) -> Result<Packed, NoPlace> {
+fn pack(
+    boxes: &[Boxed],
+    order: &[usize],
+    sheets: &[StockSheet],
+    split: Split,
+) -> Result<Packed, NoPlace> {
     let mut open: Vec<Sheet> = Vec::new();
     let mut places = vec![Place { bin: 0, angle: 0.0, low: DVec2::ZERO }; boxes.len()];
     for &i in order {
@@ -120,16 +128,23 @@ fn pack(boxes: &[Boxed], order: &[usize], sheets: &[StockSheet], split: Split) -
                 break place;
             }
             let bin = open.len();
-            // Beyond the stock there are only sheets of the last kind; when one of them is too small, all are.
+            // Beyond the stock there are only sheets of the last kind; when one of them is too
+            // small, all are.
             if bin > sheets.len() && open.last().is_some_and(|s| s.is_untouched) {
                 return Err(NoPlace { pieces: vec![i] });
             }
             let stock = &sheet_of(sheets, bin).stock;
-            // Boxes are laid with the spacing on their upper and right side, so the room has it there, too.
-            // What fits exactly may be larger by rounding.
+            // Boxes are laid with the spacing on their upper and right side, so the room has it
+            // there, too. What fits exactly may be larger by rounding.
             let reserve = stock.spacing + stock.rounding();
-            let (low, high) = (DVec2::splat(stock.margin), stock.size - DVec2::splat(stock.margin - reserve));
-            open.push(Sheet { bin, is_untouched: true, free: vec![Free { low, high }], cuts: trimming(stock) });
+            let (low, high) =
+                (DVec2::splat(stock.margin), stock.size - DVec2::splat(stock.margin - reserve));
+            open.push(Sheet {
+                bin,
+                is_untouched: true,
+                free: vec![Free { low, high }],
+                cuts: trimming(stock),
+            });
         };
         let (sheet, free, angle) = place;
         let stock = &sheet_of(sheets, open[sheet].bin).stock;
@@ -173,7 +188,8 @@ fn trimming(stock: &Stock) -> Vec<[DVec2; 2]> {
     vec![left, [DVec2::new(at, at), DVec2::new(stock.size.x, at)]]
 }
 
-/// Cuts a box out of the lower left corner of a free rectangle. Cuts run in the middle of the spacing.
+/// Cuts a box out of the lower left corner of a free rectangle. Cuts run in the middle of the
+/// spacing.
 fn divide(sheet: &mut Sheet, rect: Free, size: DVec2, split: Split, stock: &Stock) {
     let half = stock.spacing / 2.0;
     let corner = (rect.low + size).min(rect.high);
@@ -186,7 +202,8 @@ fn divide(sheet: &mut Sheet, rect: Free, size: DVec2, split: Split, stock: &Stoc
     // Rectangles that reach the margin reach the edge of the glass.
     let last = stock.size - DVec2::splat(stock.margin + half);
     let end = |p: DVec2| DVec2::select(p.cmpge(last), stock.size, p);
-    let (low, at, high) = ((rect.low - half).max(DVec2::ZERO), corner - half, end(rect.high - half));
+    let (low, at, high) =
+        ((rect.low - half).max(DVec2::ZERO), corner - half, end(rect.high - half));
     let (x, y) = ((at.x < stock.size.x).then_some(at.x), (at.y < stock.size.y).then_some(at.y));
     let upright_to = |top: f64| x.map(|x| [DVec2::new(x, low.y), DVec2::new(x, top)]);
     let level_to = |right: f64| y.map(|y| [DVec2::new(low.x, y), DVec2::new(right, y)]);

@@ -46,14 +46,17 @@ pub(crate) fn candidates<'a>(
     sheets: &[StockSheet],
     params: &SheetParams,
 ) -> Vec<Candidate<'a>> {
-    let rotation = |piece: PieceId| params.nest.rotate.0.get(&piece).copied().unwrap_or(params.nest.rotations);
+    let rotation =
+        |piece: PieceId| params.nest.rotate.0.get(&piece).copied().unwrap_or(params.nest.rotations);
     let mut all = Vec::with_capacity(shapes.len());
     for shape in shapes {
         let (rotation, hull) = (rotation(shape.piece), convex_hull(&shape.outline));
         let mut poses: Vec<Option<MinBox>> = Vec::with_capacity(sheets.len());
         for (i, sheet) in sheets.iter().enumerate() {
             // Sheets of one kind stand together.
-            let same = i > 0 && sheets[i - 1].stock == sheet.stock && sheets[i - 1].outline == sheet.outline;
+            let same = i > 0
+                && sheets[i - 1].stock == sheet.stock
+                && sheets[i - 1].outline == sheet.outline;
             let found = if same { poses[i - 1] } else { pose(&hull, rotation, sheet) };
             poses.push(found);
         }
@@ -85,16 +88,22 @@ pub(crate) fn lay(
     if params.nest.guillotine == Guillotine::On {
         return by_guillotine(candidates, sheets, effort, progress);
     }
-    let is_plain = sheets.len() == 1 && sheets[0].bin().obstacles.is_empty() && params.nest.together.0.is_empty();
+    let is_plain = sheets.len() == 1
+        && sheets[0].bin().obstacles.is_empty()
+        && params.nest.together.0.is_empty();
     if is_plain && params.nest.nest_effort == 0 && params.nest.common_line == CommonLine::Off {
         return Ok(Laid { lying: boxes(candidates, &sheets[0], pack_rows), cuts: Vec::new() });
     }
-    let group = |piece: PieceId| params.nest.together.0.iter().position(|g| g.len() > 1 && g.contains(&piece));
+    let group = |piece: PieceId| {
+        params.nest.together.0.iter().position(|g| g.len() > 1 && g.contains(&piece))
+    };
     let pieces = candidates.iter().map(|c| Piece {
         shape: Shape::new(&c.shape.outline, &c.shape.holes),
         turns: match c.rotation.angles() {
             Some(angles) => Turns::Some(angles),
-            None => Turns::Free { home: c.poses.iter().rev().flatten().next().map_or(0.0, |p| p.angle) },
+            None => {
+                Turns::Free { home: c.poses.iter().rev().flatten().next().map_or(0.0, |p| p.angle) }
+            }
         },
         group: group(c.shape.piece),
         fits: c.poses.iter().map(Option::is_some).collect(),
@@ -105,7 +114,8 @@ pub(crate) fn lay(
         spacing: sheets[0].stock.spacing,
         common_line: params.nest.common_line,
     };
-    let start = (is_plain && candidates.len() <= MOST_BOXES).then(|| boxes(candidates, &sheets[0], pack));
+    let start =
+        (is_plain && candidates.len() <= MOST_BOXES).then(|| boxes(candidates, &sheets[0], pack));
     Ok(Laid { lying: nest(&problem, start, effort, progress)?, cuts: Vec::new() })
 }
 
@@ -117,19 +127,26 @@ fn boxes(
 ) -> Vec<Lying> {
     let stock = &sheet.stock;
     let poses: Vec<MinBox> = candidates.iter().filter_map(|c| c.poses[0]).collect();
-    // A box with the spacing on two sides, in a room with the spacing on two sides: neighbours keep their distance.
+    // A box with the spacing on two sides, in a room with the spacing on two sides: neighbours keep
+    // their distance.
     let room = stock.usable() + DVec2::splat(stock.spacing);
     let item = |(c, p): (&Candidate<'_>, &MinBox)| {
         let grown = DVec2::new(p.width, p.height) + DVec2::splat(stock.spacing);
         // A box that touches the room may be larger by rounding.
-        let fit = |size: DVec2| (size - DVec2::splat(stock.rounding())).cmple(room).all().then(|| size.min(room));
+        let fit = |size: DVec2| {
+            (size - DVec2::splat(stock.rounding())).cmple(room).all().then(|| size.min(room))
+        };
         let may_turn = c.rotation.allows(p.angle + 90.0);
         Item { upright: fit(grown), turned: fit(DVec2::new(grown.y, grown.x)).filter(|_| may_turn) }
     };
     let spots = pack(&candidates.iter().zip(&poses).map(item).collect::<Vec<_>>(), room);
     let lying = |((c, pose), spot): ((&Candidate<'_>, &MinBox), super::super::place::Spot)| {
         let angle = rounded(pose.angle + if spot.turned { 90.0 } else { 0.0 });
-        Lying { bin: spot.bin, angle, at: put_low(&c.shape.outline, angle, spot.low + DVec2::splat(stock.margin)) }
+        Lying {
+            bin: spot.bin,
+            angle,
+            at: put_low(&c.shape.outline, angle, spot.low + DVec2::splat(stock.margin)),
+        }
     };
     candidates.iter().zip(&poses).zip(spots).map(lying).collect()
 }
@@ -151,7 +168,8 @@ fn by_guillotine(
         let angles = match c.rotation.angles() {
             Some(angles) => angles,
             None => {
-                let mut angles: Vec<f64> = c.poses.iter().flatten().flat_map(|p| [p.angle, p.angle + 90.0]).collect();
+                let mut angles: Vec<f64> =
+                    c.poses.iter().flatten().flat_map(|p| [p.angle, p.angle + 90.0]).collect();
                 angles.sort_by(f64::total_cmp);
                 angles.dedup();
                 angles
@@ -172,7 +190,8 @@ fn by_guillotine(
     Ok(Laid { lying: lying.collect(), cuts })
 }
 
-/// The part of the last sheet that is left whole: from the furthest cut and the spacing on to the edge.
+/// The part of the last sheet that is left whole: from the furthest cut and the spacing on to the
+/// edge.
 pub(crate) fn offcut(size: DVec2, used: DVec2, spacing: f64) -> Option<[DVec2; 2]> {
     let axis = if size.x >= size.y { Axis::X } else { Axis::Y };
     let from = axis.of(used) + spacing;

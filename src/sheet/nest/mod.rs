@@ -1,9 +1,10 @@
-//! Nesting by true outline: pieces on sheets, as close as the spacing allows, on as few sheets as possible and as little
-//! of the last one.
+//! Nesting by true outline: pieces on sheets, as close as the spacing allows, on as few sheets as
+//! possible and as little of the last one.
 //!
-//! The first layout comes from [`start`]; [`explore`] shortens the last sheet again and again and [`separate`] moves the
-//! pieces of all sheets apart each time. Distances are those of convex parts ([`shape`]), found through a grid ([`field`]).
-//! All is in f64 and deterministic: the budget is work counted in parts measured, not time.
+//! The first layout comes from [`start`]; [`explore`] shortens the last sheet again and again and
+//! [`separate`] moves the pieces of all sheets apart each time. Distances are those of convex parts
+//! ([`shape`]), found through a grid ([`field`]). All is in f64 and deterministic: the budget is
+//! work counted in parts measured, not time.
 
 mod abut;
 mod chance;
@@ -24,7 +25,8 @@ use glam::DVec2;
 
 pub(crate) use self::lay::{Laid, candidates, lay, offcut};
 pub use self::params::{
-    CommonLine, Corners, DefectList, GroupList, Guillotine, NestParams, Rotation, RotationList, StockList,
+    CommonLine, Corners, DefectList, GroupList, Guillotine, NestParams, Rotation, RotationList,
+    StockList,
 };
 pub(crate) use self::stock::StockSheet;
 
@@ -146,7 +148,8 @@ pub(crate) fn nest(
     let mut chance = Chance::new(effort.seed);
     let mut bins = Bins::new(problem);
     let trials = if problem.pieces.len() > FEW_TRIALS { 60 } else { 200 };
-    Start { field: &mut field, chance: &mut chance, bins: &mut bins, trials, shake: 0.0, progress }.lay_all()?;
+    Start { field: &mut field, chance: &mut chance, bins: &mut bins, trials, shake: 0.0, progress }
+        .lay_all()?;
     let mut explore = Explore {
         field: &mut field,
         chance: &mut chance,
@@ -171,7 +174,8 @@ pub(crate) fn nest(
 /// Where the frames of the pieces lie.
 fn lying(spots: &[field::Spot], shapes: &[Shape]) -> Vec<Lying> {
     let lying = spots.iter().zip(shapes).map(|(spot, shape)| {
-        // The angle as the file shows it: far from the origin of its frame a piece would feel the difference.
+        // The angle as the file shows it: far from the origin of its frame a piece would feel the
+        // difference.
         let angle = rounded(rounded(spot.angle).rem_euclid(360.0));
         Lying { bin: spot.bin, angle, at: spot.at - Turn::degrees(angle).apply(shape.origin) }
     });

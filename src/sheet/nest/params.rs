@@ -1,4 +1,5 @@
-//! How pieces are nested: what a sheet looks like, how pieces may be turned, and how long to search.
+//! How pieces are nested: what a sheet looks like, how pieces may be turned, and how long to
+//! search.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -15,8 +16,9 @@ use crate::units::{Length, UnitError, parse_number};
 /// Nesting, the part of the sheet options that says where pieces may lie.
 #[derive(Debug, Clone, PartialEq, clap::Args, Deserialize)]
 pub struct NestParams {
-    /// At which angles pieces may lie: free, 90, 180, fixed, or grain:ANGLE for a grain at that angle in the piece, which
-    /// is laid along the width of the sheet either way. Pieces are never mirrored
+    /// At which angles pieces may lie: free, 90, 180, fixed, or grain:ANGLE for a grain at that
+    /// angle in the piece, which is laid along the width of the sheet either way. Pieces are never
+    /// mirrored
     #[arg(long, value_name = "TURN", default_value = "free")]
     #[serde(default)]
     pub rotations: Rotation,
@@ -28,17 +30,19 @@ pub struct NestParams {
     #[arg(long, value_name = "GROUPS", default_value = "")]
     #[serde(default)]
     pub together: GroupList,
-    /// Sheets that are used up first, in this order, before those of the usual size: 300x200*2,450x450
+    /// Sheets that are used up first, in this order, before those of the usual size:
+    /// 300x200*2,450x450
     #[arg(long, value_name = "LIST", default_value = "")]
     #[serde(default)]
     pub stock: StockList,
-    /// True outline of the sheets of the usual size, when they are no rectangles: corners x,y:x,y:x,y… from the lower left
-    /// corner of the sheet. The margin is kept from it
+    /// True outline of the sheets of the usual size, when they are no rectangles: corners
+    /// x,y:x,y:x,y… from the lower left corner of the sheet. The margin is kept from it
     #[arg(long, value_name = "CORNERS", default_value = "")]
     #[serde(default)]
     pub sheet_outline: Corners,
-    /// Places on sheets that cannot be used, as x,y:x,y for the corners of a box or x,y:x,y:x,y… for a polygon, divided by
-    /// semicolons. 2@ before one means the second sheet only. The spacing is kept from them
+    /// Places on sheets that cannot be used, as x,y:x,y for the corners of a box or x,y:x,y:x,y…
+    /// for a polygon, divided by semicolons. 2@ before one means the second sheet only. The spacing
+    /// is kept from them
     #[arg(long, value_name = "LIST", default_value = "")]
     #[serde(default)]
     pub defects: DefectList,
@@ -46,13 +50,13 @@ pub struct NestParams {
     #[arg(long, value_enum, default_value = "off", num_args = 0..=1, default_missing_value = "on", require_equals = true)]
     #[serde(default)]
     pub guillotine: Guillotine,
-    /// Whether parts may lie side to side and share straight lines, which are cut once; only without kerf. Where they do not
-    /// touch they keep the spacing
+    /// Whether parts may lie side to side and share straight lines, which are cut once; only
+    /// without kerf. Where they do not touch they keep the spacing
     #[arg(long, value_enum, default_value = "off", num_args = 0..=1, default_missing_value = "on", require_equals = true)]
     #[serde(default)]
     pub common_line: CommonLine,
-    /// How long to search for a better layout: about tenths of a second for a hundred pieces or more, less for few. 0 does not nest:
-    /// boxes in rows, for tens of thousands of pieces
+    /// How long to search for a better layout: about tenths of a second for a hundred pieces or
+    /// more, less for few. 0 does not nest: boxes in rows, for tens of thousands of pieces
     #[arg(long, value_name = "N", default_value_t = DEFAULT_EFFORT)]
     #[serde(default = "default_effort")]
     pub nest_effort: u32,
@@ -120,7 +124,8 @@ pub enum Rotation {
     Half,
     /// As it is.
     Fixed,
-    /// With the direction at this angle, in degrees in the piece's frame, along the width of the sheet, either way.
+    /// With the direction at this angle, in degrees in the piece's frame, along the width of the
+    /// sheet, either way.
     Grain(f64),
 }
 
@@ -132,9 +137,11 @@ impl Rotation {
             Self::Quarter => Some(vec![0.0, 90.0, 180.0, 270.0]),
             Self::Half => Some(vec![0.0, 180.0]),
             Self::Fixed => Some(vec![0.0]),
-            Self::Grain(angle) => {
-                Some([-angle, 180.0 - angle].map(|a| super::super::bounding_box::rounded(a.rem_euclid(360.0))).to_vec())
-            }
+            Self::Grain(angle) => Some(
+                [-angle, 180.0 - angle]
+                    .map(|a| super::super::bounding_box::rounded(a.rem_euclid(360.0)))
+                    .to_vec(),
+            ),
         }
     }
 
@@ -208,7 +215,9 @@ impl FromStr for Rotation {
             "fixed" | "0" => Some(Self::Fixed),
             other => other.strip_prefix("grain:").and_then(grain),
         };
-        read.ok_or_else(|| bad(text, "how a piece may be turned", "free, 90, 180, fixed or grain:30"))
+        read.ok_or_else(|| {
+            bad(text, "how a piece may be turned", "free, 90, 180, fixed or grain:30")
+        })
     }
 }
 
@@ -245,7 +254,10 @@ impl FromStr for GroupList {
         for group in entries(text, ';') {
             let mut members = BTreeSet::new();
             for name in entries(group, ',') {
-                members.extend(pieces(name).ok_or_else(|| bad(name, "pieces to keep together", "P01,P02;P05-P07"))?);
+                members.extend(
+                    pieces(name)
+                        .ok_or_else(|| bad(name, "pieces to keep together", "P01,P02;P05-P07"))?,
+                );
             }
             groups.add(members);
         }
@@ -271,8 +283,11 @@ impl FromStr for StockList {
 }
 
 fn corners(text: &str) -> Option<Vec<DVec2>> {
-    let number = |t: &str| t.trim().parse::<Length>().ok().map(Length::mm).filter(|v| v.is_finite());
-    text.split(':').map(|p| p.split_once(',').and_then(|(x, y)| Some(DVec2::new(number(x)?, number(y)?)))).collect()
+    let number =
+        |t: &str| t.trim().parse::<Length>().ok().map(Length::mm).filter(|v| v.is_finite());
+    text.split(':')
+        .map(|p| p.split_once(',').and_then(|(x, y)| Some(DVec2::new(number(x)?, number(y)?))))
+        .collect()
 }
 
 impl FromStr for Corners {
@@ -281,7 +296,8 @@ impl FromStr for Corners {
         if text.trim().is_empty() {
             return Ok(Self::default());
         }
-        let wrong = || bad(text, "corners of a polygon, at least three", "0,0:600,0:600,250:400,400:0,400");
+        let wrong =
+            || bad(text, "corners of a polygon, at least three", "0,0:600,0:600,250:400,400:0,400");
         corners(text).filter(|c| c.len() > 2).map(Self).ok_or_else(wrong)
     }
 }
@@ -291,9 +307,17 @@ impl FromStr for DefectList {
     fn from_str(text: &str) -> Result<Self, UnitError> {
         let read = |entry: &str| {
             let (sheet, rest) = match entry.split_once('@') {
-                Some((sheet, rest)) => {
-                    (Some(sheet.trim().trim_start_matches('S').parse::<usize>().ok()?.checked_sub(1)?), rest)
-                }
+                Some((sheet, rest)) => (
+                    Some(
+                        sheet
+                            .trim()
+                            .trim_start_matches('S')
+                            .parse::<usize>()
+                            .ok()?
+                            .checked_sub(1)?,
+                    ),
+                    rest,
+                ),
                 None => (None, entry),
             };
             let corners = corners(rest)?;
@@ -301,13 +325,21 @@ impl FromStr for DefectList {
                 [] | [_] => None,
                 [a, b] => {
                     let (low, high) = (a.min(b), a.max(b));
-                    Some((sheet, vec![low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)]))
+                    Some((
+                        sheet,
+                        vec![low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)],
+                    ))
                 }
                 _ => Some((sheet, corners)),
             }
         };
-        let wrong = |entry| bad(entry, "a place that cannot be used", "100,100:120,130 or 2@50,50:80,50:60,90");
-        entries(text, ';').map(|e| read(e).ok_or_else(|| wrong(e))).collect::<Result<_, _>>().map(Self)
+        let wrong = |entry| {
+            bad(entry, "a place that cannot be used", "100,100:120,130 or 2@50,50:80,50:60,90")
+        };
+        entries(text, ';')
+            .map(|e| read(e).ok_or_else(|| wrong(e)))
+            .collect::<Result<_, _>>()
+            .map(Self)
     }
 }
 
@@ -331,13 +363,22 @@ mod tests {
     fn lists_are_read() {
         let turns: RotationList = "P03=fixed, P05-P07=90".parse().expect("turns");
         assert_eq!(turns.0.len(), 4);
-        assert_eq!((turns.0[&PieceId(2)], turns.0[&PieceId(6)]), (Rotation::Fixed, Rotation::Quarter));
+        assert_eq!(
+            (turns.0[&PieceId(2)], turns.0[&PieceId(6)]),
+            (Rotation::Fixed, Rotation::Quarter)
+        );
         let groups: GroupList = "P01,P02;P05-P07;P02,P09".parse().expect("groups");
         assert_eq!(groups.0.iter().map(BTreeSet::len).collect::<Vec<_>>(), [3, 3]);
         let stock: StockList = "300x200*2, A4".parse().expect("stock");
-        assert_eq!(stock.0, [(SheetSize::of_mm(300.0, 200.0), 2), (SheetSize::of_mm(210.0, 297.0), 1)]);
+        assert_eq!(
+            stock.0,
+            [(SheetSize::of_mm(300.0, 200.0), 2), (SheetSize::of_mm(210.0, 297.0), 1)]
+        );
         let defects: DefectList = "20,30:10,10; 2@0,0:5cm,0:0,50".parse().expect("defects");
-        assert_eq!((defects.0[0].0, defects.0[0].1[0], defects.0[0].1.len()), (None, DVec2::splat(10.0), 4));
+        assert_eq!(
+            (defects.0[0].0, defects.0[0].1[0], defects.0[0].1.len()),
+            (None, DVec2::splat(10.0), 4)
+        );
         assert_eq!((defects.0[1].0, defects.0[1].1[1]), (Some(1), DVec2::new(50.0, 0.0)));
     }
 
@@ -355,7 +396,8 @@ mod tests {
             "0,0".parse::<DefectList>().expect_err("a point").to_string(),
         ];
         assert!(
-            text.iter().all(|t| t.contains("for example") || t.contains("like") || t.contains("e.g.")),
+            text.iter()
+                .all(|t| t.contains("for example") || t.contains("like") || t.contains("e.g.")),
             "{text:#?}"
         );
     }

@@ -1,5 +1,6 @@
-//! Outlines cut into convex parts: triangles first, then united across their common sides for as long as the union is
-//! convex (Hertel and Mehlhorn 1983). Parts cover a shape exactly, so what parts do not touch, the shape does not.
+//! Outlines cut into convex parts: triangles first, then united across their common sides for as
+//! long as the union is convex (Hertel and Mehlhorn 1983). Parts cover a shape exactly, so what
+//! parts do not touch, the shape does not.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -10,13 +11,14 @@ use crate::geom::polygon::signed_area;
 use crate::geom::predicate::orient2d;
 use crate::geom::triangulate_region;
 
-/// The convex parts, counter-clockwise, of the area between an outline and its holes. Where the contours cross each other
-/// the outline alone counts; where that crosses itself, its convex hull.
+/// The convex parts, counter-clockwise, of the area between an outline and its holes. Where the
+/// contours cross each other the outline alone counts; where that crosses itself, its convex hull.
 pub(super) fn convex_parts(outline: &[DVec2], holes: &[Vec<DVec2>]) -> Vec<Vec<DVec2>> {
     if is_convex(outline) && holes.is_empty() {
         return vec![outline.to_vec()];
     }
-    let contours: Vec<&[DVec2]> = std::iter::once(outline).chain(holes.iter().map(Vec::as_slice)).collect();
+    let contours: Vec<&[DVec2]> =
+        std::iter::once(outline).chain(holes.iter().map(Vec::as_slice)).collect();
     let region = triangulate_region(&contours).or_else(|| triangulate_region(&[outline]));
     let Some((corners, triangles)) = region else {
         return vec![crate::geom::polygon::convex_hull(outline)];
@@ -27,19 +29,28 @@ pub(super) fn convex_parts(outline: &[DVec2], holes: &[Vec<DVec2>]) -> Vec<Vec<D
 
 fn is_convex(contour: &[DVec2]) -> bool {
     let n = contour.len();
-    let turns = (0..n).all(|i| orient2d(contour[i], contour[(i + 1) % n], contour[(i + 2) % n]) >= 0.0);
+    let turns =
+        (0..n).all(|i| orient2d(contour[i], contour[(i + 1) % n], contour[(i + 2) % n]) >= 0.0);
     // A contour that winds twice turns left everywhere, too.
-    turns && n >= 3 && signed_area(&crate::geom::polygon::convex_hull(contour)) <= signed_area(contour) * (1.0 + 1e-12)
+    turns
+        && n >= 3
+        && signed_area(&crate::geom::polygon::convex_hull(contour))
+            <= signed_area(contour) * (1.0 + 1e-12)
 }
 
-/// Unites triangles across the longest sides first, and across the shortest; what leaves fewer parts is taken.
+/// Unites triangles across the longest sides first, and across the shortest; what leaves fewer
+/// parts is taken.
 fn united(corners: &[DVec2], triangles: Vec<[usize; 3]>) -> Vec<Vec<usize>> {
     let long = united_by(corners, &triangles, |s, t| t.total_cmp(&s));
     let short = united_by(corners, &triangles, |s, t| s.total_cmp(&t));
     if short.len() < long.len() { short } else { long }
 }
 
-fn united_by(corners: &[DVec2], triangles: &[[usize; 3]], order: fn(f64, f64) -> Ordering) -> Vec<Vec<usize>> {
+fn united_by(
+    corners: &[DVec2],
+    triangles: &[[usize; 3]],
+    order: fn(f64, f64) -> Ordering,
+) -> Vec<Vec<usize>> {
     let mut parts: Vec<Vec<usize>> = triangles.iter().map(|t| t.to_vec()).collect();
     let mut owner: BTreeMap<(usize, usize), usize> = BTreeMap::new();
     for (p, part) in parts.iter().enumerate() {
@@ -57,7 +68,8 @@ fn united_by(corners: &[DVec2], triangles: &[[usize; 3]], order: fn(f64, f64) ->
         let union = joined(&parts[p], &parts[q], a, b);
         let n = union.len();
         let turns_left = |i: usize| {
-            let (u, v, w) = (corners[union[(i + n - 1) % n]], corners[union[i]], corners[union[(i + 1) % n]]);
+            let (u, v, w) =
+                (corners[union[(i + n - 1) % n]], corners[union[i]], corners[union[(i + 1) % n]]);
             orient2d(u, v, w) >= 0.0
         };
         if (0..n).all(|i| (union[i] != a && union[i] != b) || turns_left(i)) {
@@ -70,7 +82,8 @@ fn united_by(corners: &[DVec2], triangles: &[[usize; 3]], order: fn(f64, f64) ->
     parts
 }
 
-/// Two parts as one, without their side from `a` to `b`, which `p` has in this sense and `q` in the other.
+/// Two parts as one, without their side from `a` to `b`, which `p` has in this sense and `q` in the
+/// other.
 fn joined(p: &[usize], q: &[usize], a: usize, b: usize) -> Vec<usize> {
     let from = |part: &[usize], corner: usize| {
         let start = part.iter().position(|&c| c == corner).expect("the part has this corner");
@@ -97,7 +110,11 @@ mod tests {
         let parts = convex_parts(outline, holes);
         let whole = signed_area(outline) + holes.iter().map(|h| signed_area(h)).sum::<f64>();
         assert!(parts.iter().all(|p| is_convex(p)), "{parts:?}");
-        assert!((area(&parts) - whole).abs() <= 1e-9 * whole, "{} instead of {whole}", area(&parts));
+        assert!(
+            (area(&parts) - whole).abs() <= 1e-9 * whole,
+            "{} instead of {whole}",
+            area(&parts)
+        );
         parts.len()
     }
 
@@ -105,7 +122,8 @@ mod tests {
     fn few_parts_cover_the_shape() {
         assert_eq!(assert_parts(&square(10.0), &[]), 1);
         assert!(assert_parts(&ell(), &[]) <= 3);
-        let hole: Vec<DVec2> = square(4.0).into_iter().rev().map(|p| p + DVec2::splat(3.0)).collect();
+        let hole: Vec<DVec2> =
+            square(4.0).into_iter().rev().map(|p| p + DVec2::splat(3.0)).collect();
         assert!(assert_parts(&square(10.0), &[hole]) <= 6);
     }
 

@@ -1,4 +1,5 @@
-//! A better place for one piece: places at random, near and far, the best of them improved step by step.
+//! A better place for one piece: places at random, near and far, the best of them improved step by
+//! step.
 
 use glam::DVec2;
 
@@ -102,7 +103,10 @@ impl<'f, 'a> Search<'f, 'a> {
     /// Where the holes of pieces in a bin are, large enough for this piece to think of.
     pub fn holes(&self, bin: usize) -> Vec<(DVec2, DVec2)> {
         let area = self.field.shapes[self.piece].area;
-        self.field.holes(bin).filter(|(low, high)| (high.x - low.x) * (high.y - low.y) > area).collect()
+        self.field
+            .holes(bin)
+            .filter(|(low, high)| (high.x - low.x) * (high.y - low.y) > area)
+            .collect()
     }
 
     /// A place at random with the box of the piece inside a box, if it is not too large.
@@ -118,7 +122,8 @@ impl<'f, 'a> Search<'f, 'a> {
         self.pose(spot.angle);
         let (low, high) = self.field.range(&self.scratch, spot.bin);
         // What fits exactly may be larger by rounding.
-        let slack = 1e-9 * (self.field.rooms[spot.bin].high - self.field.rooms[spot.bin].low).length();
+        let slack =
+            1e-9 * (self.field.rooms[spot.bin].high - self.field.rooms[spot.bin].low).length();
         if (low - high).max_element() > slack {
             return None;
         }
@@ -142,13 +147,18 @@ impl<'f, 'a> Search<'f, 'a> {
             kept.insert(at, found);
             kept.truncate(KEPT);
         };
-        let worst = |kept: &Vec<Found>| if kept.len() == KEPT { kept[KEPT - 1].loss } else { f64::INFINITY };
+        let worst = |kept: &Vec<Found>| {
+            if kept.len() == KEPT { kept[KEPT - 1].loss } else { f64::INFINITY }
+        };
         if let Some(spot) = here {
             offer(&mut kept, Found { spot, loss: most });
             for _ in 0..trials.near {
                 let angle = self.turns.near(spot.angle, self.chance);
-                let by = DVec2::new(self.chance.near_zero(), self.chance.near_zero()) * (0.25 * diameter);
-                if let Some(found) = self.try_at(Spot { at: spot.at + by, angle, ..spot }, worst(&kept)) {
+                let by = DVec2::new(self.chance.near_zero(), self.chance.near_zero())
+                    * (0.25 * diameter);
+                if let Some(found) =
+                    self.try_at(Spot { at: spot.at + by, angle, ..spot }, worst(&kept))
+                {
                     offer(&mut kept, found);
                 }
             }
@@ -170,7 +180,11 @@ impl<'f, 'a> Search<'f, 'a> {
             }
         }
         let best = best?;
-        let best = if best.loss > 0.0 { self.improved(best, 2e-3 * diameter, 2e-5 * diameter) } else { best };
+        let best = if best.loss > 0.0 {
+            self.improved(best, 2e-3 * diameter, 2e-5 * diameter)
+        } else {
+            best
+        };
         (best.loss < most).then_some(best)
     }
 
@@ -183,8 +197,8 @@ impl<'f, 'a> Search<'f, 'a> {
         Spot { bin, at: self.chance.point(low, high), angle }
     }
 
-    /// Steps along a random line or about the middle, longer after a success and shorter after none, until they are
-    /// shorter than `last`.
+    /// Steps along a random line or about the middle, longer after a success and shorter after
+    /// none, until they are shorter than `last`.
     fn improved(&mut self, mut found: Found, first: f64, last: f64) -> Found {
         const LONGER: f64 = 1.3;
         const SHORTER: f64 = 0.5;
@@ -205,7 +219,11 @@ impl<'f, 'a> Search<'f, 'a> {
             let mut better = false;
             for sign in [1.0, -1.0] {
                 let Found { spot, loss } = found;
-                let to = Spot { at: spot.at + by * (step * sign), angle: spot.angle + turn * step * sign, ..spot };
+                let to = Spot {
+                    at: spot.at + by * (step * sign),
+                    angle: spot.angle + turn * step * sign,
+                    ..spot
+                };
                 if let Some(next) = self.try_at(to, loss) {
                     (found, better) = (next, true);
                     break;

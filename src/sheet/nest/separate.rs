@@ -1,8 +1,10 @@
-//! Separation: pieces that are too near are moved one by one to where they are less so, and pairs that stay too near
-//! weigh more and more, until all keep their distance or nothing improves any more.
+//! Separation: pieces that are too near are moved one by one to where they are less so, and pairs
+//! that stay too near weigh more and more, until all keep their distance or nothing improves any
+//! more.
 //!
-//! Sources: guided local search (Voudouris and Tsang 1999) for nesting after Egeblad, Nielsen and Odgaard 2007 and Umetani
-//! et al. 2009; the order of moves, the weights and the strikes as Gardeyn, Vanden Berghe and Wauters 2025 describe them.
+//! Sources: guided local search (Voudouris and Tsang 1999) for nesting after Egeblad, Nielsen and
+//! Odgaard 2007 and Umetani et al. 2009; the order of moves, the weights and the strikes as
+//! Gardeyn, Vanden Berghe and Wauters 2025 describe them.
 
 use super::chance::Chance;
 use super::field::{Field, Spot};
@@ -104,9 +106,16 @@ pub(super) fn restore(field: &mut Field<'_>, spots: &[Spot]) {
 }
 
 /// Moves every piece that is too near to another once, in random order.
-fn round(field: &mut Field<'_>, rules: &Rules<'_>, chance: &mut Chance, collisions: &[(u32, u32, f64)]) {
+fn round(
+    field: &mut Field<'_>,
+    rules: &Rules<'_>,
+    chance: &mut Chance,
+    collisions: &[(u32, u32, f64)],
+) {
     let mut is_hit = vec![false; field.spots.len()];
-    collisions.iter().for_each(|&(a, b, _)| (is_hit[a as usize], is_hit[b as usize]) = (true, true));
+    collisions
+        .iter()
+        .for_each(|&(a, b, _)| (is_hit[a as usize], is_hit[b as usize]) = (true, true));
     let mut order: Vec<usize> = (0..field.pieces).filter(|&i| is_hit[i]).collect();
     chance.shuffle(&mut order);
     for i in order {

@@ -1,6 +1,7 @@
 //! Shapes as the search sees them: convex parts, turned once per angle, then only moved.
 //!
-//! The corners of a part are padded to a multiple of four with its last one, so that four dot products are done at a time.
+//! The corners of a part are padded to a multiple of four with its last one, so that four dot
+//! products are done at a time.
 
 use glam::DVec2;
 
@@ -23,7 +24,8 @@ pub(super) struct Shape {
     pub area: f64,
     /// Boxes of the holes, in this frame: places for smaller shapes.
     pub holes: Vec<(DVec2, DVec2)>,
-    /// The true sides of the outline that are long enough to lie against another, the longest first.
+    /// The true sides of the outline that are long enough to lie against another, the longest
+    /// first.
     pub sides: Vec<[DVec2; 2]>,
     parts: Vec<Vec<DVec2>>,
     /// The true hull: parts may be larger by a little, and a shape that fills a sheet must fit.
@@ -42,7 +44,8 @@ impl Shape {
         hull.iter_mut().for_each(|p| *p -= origin);
         let radius = parts.iter().flatten().map(|p| p.length()).fold(0.0, f64::max);
         let area = parts.iter().map(|p| signed_area(p)).sum();
-        let boxes = holes.iter().filter_map(bounds).map(|(low, high)| (low - origin, high - origin));
+        let boxes =
+            holes.iter().filter_map(bounds).map(|(low, high)| (low - origin, high - origin));
         let sides = sides(truly, origin, 2.0 * radius);
         Self { origin, diameter: 2.0 * radius, area, sides, holes: boxes.collect(), parts, hull }
     }
@@ -59,7 +62,8 @@ fn sides(outline: &[DVec2], origin: DVec2, diameter: f64) -> Vec<[DVec2; 2]> {
     const MOST: usize = 24;
     let n = outline.len();
     let all = (0..n).map(|i| [outline[i] - origin, outline[(i + 1) % n] - origin]);
-    let mut sides: Vec<[DVec2; 2]> = all.filter(|[a, b]| a.distance(*b) >= LEAST * diameter).collect();
+    let mut sides: Vec<[DVec2; 2]> =
+        all.filter(|[a, b]| a.distance(*b) >= LEAST * diameter).collect();
     sides.sort_by(|a, b| b[0].distance(b[1]).total_cmp(&a[0].distance(a[1])));
     sides.truncate(MOST);
     sides
@@ -104,7 +108,8 @@ impl Posed {
         self.turn_parts(shape);
     }
 
-    /// Finds the box of a turned shape, and leaves its parts for later. Returns the work, in parts measured.
+    /// Finds the box of a turned shape, and leaves its parts for later. Returns the work, in parts
+    /// measured.
     pub fn turn_box(&mut self, shape: &Shape, angle: f64) -> u64 {
         let turn = Turn::degrees(angle);
         self.angle = angle;
@@ -117,7 +122,8 @@ impl Posed {
         shape.hull.len() as u64 / 16
     }
 
-    /// Turns the parts by the angle that the box was found for, if that has not been done. Returns the work.
+    /// Turns the parts by the angle that the box was found for, if that has not been done. Returns
+    /// the work.
     pub fn turn_parts(&mut self, shape: &Shape) -> u64 {
         if !self.parts.is_empty() {
             return 0;
@@ -149,9 +155,13 @@ impl Posed {
                 self.reach.push(normal.dot(a).max(normal.dot(b)));
             }
             let middle = sum / n as f64;
-            let inner =
-                (first..first + n).map(|k| self.reach[k] - self.normals[k].dot(middle)).fold(f64::INFINITY, f64::min);
-            let outer = (first..first + n).map(|k| self.corner(k).distance_squared(middle)).fold(0.0, f64::max).sqrt();
+            let inner = (first..first + n)
+                .map(|k| self.reach[k] - self.normals[k].dot(middle))
+                .fold(f64::INFINITY, f64::min);
+            let outer = (first..first + n)
+                .map(|k| self.corner(k).distance_squared(middle))
+                .fold(0.0, f64::max)
+                .sqrt();
             let inner = inner.max(0.0);
             self.parts.push(Part { first, corners: n, padded, low, high, middle, inner, outer });
         }
@@ -166,7 +176,9 @@ impl Posed {
     fn least(&self, part: &Part, along: DVec2) -> f64 {
         let range = part.first..part.first + part.padded;
         let mut least = [f64::INFINITY; LANES];
-        for (x, y) in self.xs[range.clone()].chunks_exact(LANES).zip(self.ys[range].chunks_exact(LANES)) {
+        for (x, y) in
+            self.xs[range.clone()].chunks_exact(LANES).zip(self.ys[range].chunks_exact(LANES))
+        {
             for k in 0..LANES {
                 let d = along.x * x[k] + along.y * y[k];
                 least[k] = if d < least[k] { d } else { least[k] };
@@ -175,8 +187,9 @@ impl Posed {
         least[0].min(least[1]).min(least[2].min(least[3]))
     }
 
-    /// How much nearer than `apart` the part `a` of this shape and the part `b` of the other are, which is moved by `by`
-    /// against this one: 0 when they keep that distance; when they overlap, `apart` and the depth of the overlap.
+    /// How much nearer than `apart` the part `a` of this shape and the part `b` of the other are,
+    /// which is moved by `by` against this one: 0 when they keep that distance; when they overlap,
+    /// `apart` and the depth of the overlap.
     pub fn shortage(&self, a: &Part, other: &Self, b: &Part, by: DVec2, apart: f64) -> f64 {
         let between = b.middle + by - a.middle;
         let far = a.outer + b.outer + apart;
@@ -229,7 +242,8 @@ impl Posed {
                 let squared = side.length_squared();
                 for j in b.first..b.first + b.corners {
                     let w = q.corner(j) + by - s;
-                    let along = if squared > 0.0 { (w.dot(side) / squared).clamp(0.0, 1.0) } else { 0.0 };
+                    let along =
+                        if squared > 0.0 { (w.dot(side) / squared).clamp(0.0, 1.0) } else { 0.0 };
                     least = least.min(w.distance_squared(side * along));
                 }
             }
@@ -265,7 +279,8 @@ mod tests {
             let shortage = a.shortage(&a.parts[0], &b, &b.parts[0], by, 3.0);
             let distance = contour_distance(&first, &moved);
             if distance > 0.0 && distance_to_contour(by, &first) > 0.0 && shortage < 3.0 {
-                prop_assert!((shortage - (3.0 - distance).max(0.0)).abs() < 1e-9, "{shortage} at {distance}");
+                prop_assert!((shortage - (3.0 - distance).max(0.0)).abs() < 1e-9, "{shortage} at \
+                {distance}");
             } else {
                 // Moved apart by the depth along the best direction, they no longer overlap.
                 let depth = shortage - 3.0;

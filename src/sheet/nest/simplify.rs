@@ -1,8 +1,9 @@
-//! Fewer corners for the search: an outline with very many is drawn a little larger, a hole a little smaller, never the
-//! other way, so that what keeps its distance in the search keeps it in truth.
+//! Fewer corners for the search: an outline with very many is drawn a little larger, a hole a
+//! little smaller, never the other way, so that what keeps its distance in the search keeps it in
+//! truth.
 //!
-//! A concave corner is left out, which fills a notch; a convex side is left out by lengthening its neighbours until they
-//! meet. The change that adds the least area comes first.
+//! A concave corner is left out, which fills a notch; a convex side is left out by lengthening its
+//! neighbours until they meet. The change that adds the least area comes first.
 
 use glam::DVec2;
 
@@ -18,11 +19,13 @@ const MOST_MOVED: f64 = 1e-3;
 pub(super) fn simplified(outline: &[DVec2], holes: &[Vec<DVec2>]) -> (Vec<DVec2>, Vec<Vec<DVec2>>) {
     let (low, high) = bounds(outline).unwrap_or_default();
     let most = MOST_MOVED * (high - low).length();
-    // A hole runs clockwise: the material lies on the same side of every contour, so one rule serves both.
+    // A hole runs clockwise: the material lies on the same side of every contour, so one rule
+    // serves both.
     (fewer(outline, most), holes.iter().map(|h| fewer(h, most)).collect())
 }
 
-/// One way to lose a corner, at place `at`: what is put instead of how many corners, and the area that it adds.
+/// One way to lose a corner, at place `at`: what is put instead of how many corners, and the area
+/// that it adds.
 struct Change {
     at: usize,
     instead: Option<DVec2>,
@@ -55,12 +58,17 @@ fn change(contour: &[DVec2], i: usize, most: f64) -> Option<Change> {
     let turn = orient2d(before, here, next);
     if turn <= 0.0 {
         let moved = -turn / before.distance(next);
-        return (moved <= most || turn == 0.0).then_some(Change { at: i, instead: None, area: -turn / 2.0 });
+        return (moved <= most || turn == 0.0).then_some(Change {
+            at: i,
+            instead: None,
+            area: -turn / 2.0,
+        });
     }
     if orient2d(here, next, after) <= 0.0 {
         return None;
     }
-    // The lines before → here and next → after meet beyond the side, if the two corners together turn by less than 180°.
+    // The lines before → here and next → after meet beyond the side, if the two corners together
+    // turn by less than 180°.
     let (d, e) = (here - before, after - next);
     let cross = d.perp_dot(e);
     if cross <= 0.0 {
@@ -97,7 +105,8 @@ mod tests {
 
     #[test]
     fn a_circle_with_many_corners_gets_few_and_stays_covered() {
-        let circle: Vec<DVec2> = (0..720).map(|i| DVec2::from_angle(f64::from(i).to_radians() / 2.0) * 50.0).collect();
+        let circle: Vec<DVec2> =
+            (0..720).map(|i| DVec2::from_angle(f64::from(i).to_radians() / 2.0) * 50.0).collect();
         let (fewer, _) = simplified(&circle, &[]);
         assert!(fewer.len() < 80, "{}", fewer.len());
         assert!(circle.iter().all(|&p| locate(&fewer, p) != Location::Outside

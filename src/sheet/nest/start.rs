@@ -1,5 +1,5 @@
-//! The first layout: one piece after the other, the largest first, each as far back on the first sheet as a few hundred
-//! trials find room for it. Pieces of a group go onto one sheet.
+//! The first layout: one piece after the other, the largest first, each as far back on the first
+//! sheet as a few hundred trials find room for it. Pieces of a group go onto one sheet.
 
 use super::abut::abutting;
 use super::chance::Chance;
@@ -44,7 +44,8 @@ impl<'p> Bins<'p> {
     }
 }
 
-/// On so many sheets room is searched for one piece; tens of thousands of large panels take too long otherwise.
+/// On so many sheets room is searched for one piece; tens of thousands of large panels take too
+/// long otherwise.
 const MOST_TRIED: usize = 24;
 
 /// Lays out everything for the first time.
@@ -54,7 +55,8 @@ pub(super) struct Start<'s, 'f, 'a, 'p> {
     pub bins: &'s mut Bins<'p>,
     /// Trials for one piece on one sheet.
     pub trials: usize,
-    /// By how much, at most, the area of a piece counts for more than it is when the order is settled.
+    /// By how much, at most, the area of a piece counts for more than it is when the order is
+    /// settled.
     pub shake: f64,
     pub progress: &'s dyn Progress,
 }
@@ -65,7 +67,8 @@ impl Start<'_, '_, '_, '_> {
         let units = self.units();
         let total = self.field.pieces;
         let mut done = 0;
-        // The area of the smallest piece that found no room on a sheet: larger ones are not tried any more.
+        // The area of the smallest piece that found no room on a sheet: larger ones are not tried
+        // any more.
         let mut refused: Vec<f64> = Vec::new();
         for unit in units {
             self.progress.report("nesting: first layout", done, total);
@@ -106,8 +109,9 @@ impl Start<'_, '_, '_, '_> {
         let mut order: Vec<usize> = (0..self.field.pieces).collect();
         let shapes = self.field.shapes;
         let (shake, chance) = (self.shake, &mut *self.chance);
-        let mut area =
-            |s: &super::shape::Shape| if shake > 0.0 { s.area * (1.0 + shake * chance.unit()) } else { s.area };
+        let mut area = |s: &super::shape::Shape| {
+            if shake > 0.0 { s.area * (1.0 + shake * chance.unit()) } else { s.area }
+        };
         let areas: Vec<f64> = shapes.iter().map(&mut area).collect();
         order.sort_by(|&a, &b| areas[b].total_cmp(&areas[a]).then(a.cmp(&b)));
         let pieces = &self.bins.problem.pieces;
@@ -191,7 +195,10 @@ impl Start<'_, '_, '_, '_> {
         if best.is_none() {
             // Nothing by luck: from the least bad places step by step.
             let many = Trials { anywhere: trials / 2 + 4, near: 0 };
-            best = search.best(many, None, f64::INFINITY).filter(|f| f.loss == 0.0).map(|f| (f64::INFINITY, f.spot));
+            best = search
+                .best(many, None, f64::INFINITY)
+                .filter(|f| f.loss == 0.0)
+                .map(|f| (f64::INFINITY, f.spot));
         }
         let (_, mut spot) = best?;
         let diameter = search.field.shapes[i].diameter;
@@ -199,7 +206,9 @@ impl Start<'_, '_, '_, '_> {
         while step > 1e-3 * diameter {
             let moved = [axis.unit() + axis.other().unit(), axis.unit(), axis.other().unit()]
                 .into_iter()
-                .any(|way| offer(&mut search, Spot { at: spot.at - way * step, ..spot }, &mut best));
+                .any(|way| {
+                    offer(&mut search, Spot { at: spot.at - way * step, ..spot }, &mut best)
+                });
             match best {
                 Some((_, better)) if moved => spot = better,
                 _ => step *= 0.5,

@@ -22,10 +22,12 @@ pub(crate) struct StockSheet {
 }
 
 impl SheetParams {
-    /// The sheets in the order in which they are used; the last as often as needed. Nothing for `sheet = none`.
+    /// The sheets in the order in which they are used; the last as often as needed. Nothing for
+    /// `sheet = none`.
     ///
     /// # Errors
-    /// Numbers out of range, polygons that cross themselves, a margin that leaves nothing of a sheet.
+    /// Numbers out of range, polygons that cross themselves, a margin that leaves nothing of a
+    /// sheet.
     pub(crate) fn sheets(&self) -> Result<Option<Vec<StockSheet>>, SheetError> {
         let Some(usual) = self.stock()? else { return Ok(None) };
         let nest = &self.nest;
@@ -41,15 +43,21 @@ impl SheetParams {
         }
         let most = nest.defects.0.iter().filter_map(|d| d.0).max().map_or(0, |last| last + 1);
         if most > MOST_SHEETS {
-            return Err(SheetError::BadPolygon { name: "defects", why: "they name a sheet above 10000".to_owned() });
+            return Err(SheetError::BadPolygon {
+                name: "defects",
+                why: "they name a sheet above 10000".to_owned(),
+            });
         }
-        while sheets.len() < most + 1 || nest.stock.0.iter().map(|s| s.1).sum::<usize>() + 1 > sheets.len() {
+        while sheets.len() < most + 1
+            || nest.stock.0.iter().map(|s| s.1).sum::<usize>() + 1 > sheets.len()
+        {
             sheets.push(usual.clone());
         }
         let last = sheets.len() - 1;
         for (which, corners) in &nest.defects.0 {
             for (i, sheet) in sheets.iter_mut().enumerate() {
-                // The last one stands for all further ones, which have only the defects of all sheets.
+                // The last one stands for all further ones, which have only the defects of all
+                // sheets.
                 if which.is_none_or(|w| w == i && i < last) {
                     let defect = sound("defects", corners, DVec2::INFINITY)?;
                     sheet.defects.push(defect);
@@ -73,7 +81,8 @@ impl SheetParams {
         if self.kerf.mm() > 0.0 {
             return Err(SheetError::CommonLineKerf { kerf: self.kerf.mm() });
         }
-        let with = [("guillotine", self.nest.guillotine == Guillotine::On), ("hold", self.hold > 0)];
+        let with =
+            [("guillotine", self.nest.guillotine == Guillotine::On), ("hold", self.hold > 0)];
         match with.into_iter().find(|w| w.1) {
             Some((option, _)) => Err(SheetError::CommonLineOption { option }),
             None => Ok(()),
@@ -83,7 +92,8 @@ impl SheetParams {
 
 const MOST_SHEETS: usize = 10_000;
 
-/// A polygon, turned counter-clockwise, that bounds an area, does not cross itself and lies within a sheet.
+/// A polygon, turned counter-clockwise, that bounds an area, does not cross itself and lies within
+/// a sheet.
 fn sound(name: &'static str, corners: &[DVec2], size: DVec2) -> Result<Vec<DVec2>, SheetError> {
     let bad = |why: String| Err(SheetError::BadPolygon { name, why });
     if corners.is_empty() {
@@ -99,8 +109,13 @@ fn sound(name: &'static str, corners: &[DVec2], size: DVec2) -> Result<Vec<DVec2
             }
         }
     }
-    if let Some(p) = corners.iter().find(|p| size.is_finite() && (p.cmplt(DVec2::ZERO) | p.cmpgt(size)).any()) {
-        return bad(format!("corner {},{} lies off the sheet of {} × {} mm", p.x, p.y, size.x, size.y));
+    if let Some(p) =
+        corners.iter().find(|p| size.is_finite() && (p.cmplt(DVec2::ZERO) | p.cmpgt(size)).any())
+    {
+        return bad(format!(
+            "corner {},{} lies off the sheet of {} × {} mm",
+            p.x, p.y, size.x, size.y
+        ));
     }
     let area = signed_area(corners);
     if area == 0.0 {
@@ -128,11 +143,14 @@ impl StockSheet {
             let inside: Vec<DVec2> = self.outline.iter().rev().copied().collect();
             let parts = convex_parts(&frame, &[inside]);
             obstacles.extend(
-                parts.into_iter().map(|p| Obstacle { shape: Shape::new(&p, &[]), clearance: self.stock.margin }),
+                parts
+                    .into_iter()
+                    .map(|p| Obstacle { shape: Shape::new(&p, &[]), clearance: self.stock.margin }),
             );
         }
         for defect in &self.defects {
-            obstacles.push(Obstacle { shape: Shape::new(defect, &[]), clearance: self.stock.spacing });
+            obstacles
+                .push(Obstacle { shape: Shape::new(defect, &[]), clearance: self.stock.spacing });
         }
         Bin { low, high, obstacles }
     }

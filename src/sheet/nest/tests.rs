@@ -1,4 +1,5 @@
-//! Laws of nesting over random sets: what lies on a sheet is measured by `verify`, which shares nothing with the search.
+//! Laws of nesting over random sets: what lies on a sheet is measured by `verify`, which shares
+//! nothing with the search.
 
 use std::collections::BTreeSet;
 
@@ -7,8 +8,12 @@ use proptest::prelude::*;
 
 use super::super::testing::{ell, net_of, piece, random_convex, ring, square};
 use super::super::verify::{clearance, verify};
-use super::super::{CutShape, Layout, SheetError, SheetParams, SheetSet, SheetSize, lay_out, lay_out_watched};
-use super::{Corners, DefectList, GroupList, Guillotine, NestParams, Rotation, RotationList, StockList};
+use super::super::{
+    CutShape, Layout, SheetError, SheetParams, SheetSet, SheetSize, lay_out, lay_out_watched,
+};
+use super::{
+    Corners, DefectList, GroupList, Guillotine, NestParams, Rotation, RotationList, StockList,
+};
 use crate::net::{Net, PieceId};
 use crate::progress::Progress;
 
@@ -26,7 +31,11 @@ fn polygons(count: u64) -> Net {
 }
 
 fn sheet_of(layout: &Layout, piece: usize) -> usize {
-    layout.sheets.iter().position(|s| s.placed.iter().any(|p| p.piece == PieceId(piece))).expect("it lies somewhere")
+    layout
+        .sheets
+        .iter()
+        .position(|s| s.placed.iter().any(|p| p.piece == PieceId(piece)))
+        .expect("it lies somewhere")
 }
 
 #[test]
@@ -51,7 +60,8 @@ fn more_effort_is_never_worse_and_the_seed_decides() {
 fn a_small_piece_lies_in_the_hole_of_a_large_one() {
     let frame = {
         let mut frame = piece(PieceId(0), square(190.0));
-        frame.holes = vec![square(150.0).into_iter().rev().map(|p| p + DVec2::splat(20.0)).collect()];
+        frame.holes =
+            vec![square(150.0).into_iter().rev().map(|p| p + DVec2::splat(20.0)).collect()];
         frame
     };
     let mut net = net_of(vec![square(190.0), square(100.0), square(30.0)]);
@@ -107,10 +117,15 @@ fn sheets_in_stock_come_first_and_larger_pieces_wait_for_larger_sheets() {
 fn outlines_and_defects_are_kept_clear() {
     let net = polygons(8);
     let mut params = params(200.0, 200.0);
-    params.nest.sheet_outline = "0,0:200,0:200,60:60,200:0,200".parse::<Corners>().expect("an outline");
-    params.nest.defects = "40,40:80,60;1@10,100:30,100:20,130".parse::<DefectList>().expect("defects");
+    params.nest.sheet_outline =
+        "0,0:200,0:200,60:60,200:0,200".parse::<Corners>().expect("an outline");
+    params.nest.defects =
+        "40,40:80,60;1@10,100:30,100:20,130".parse::<DefectList>().expect("defects");
     let set = laid(&net, &params);
-    let corners = set.layout.sheets[0].placed.iter().flat_map(|p| p.apply_all(&net.pieces[p.piece.0].outline));
+    let corners = set.layout.sheets[0]
+        .placed
+        .iter()
+        .flat_map(|p| p.apply_all(&net.pieces[p.piece.0].outline));
     for p in corners {
         assert!((p.x + p.y) < 260.0 - 5.0, "{p} is over the slanted side");
         assert!(!(p.x > 38.0 && p.x < 82.0 && p.y > 38.0 && p.y < 62.0), "{p} is on the defect");
@@ -125,19 +140,28 @@ fn outlines_and_defects_are_kept_clear() {
     assert!(error.to_string().contains("300,0"), "{error}");
 }
 
-/// Divides a rectangle by the cuts in their order: each must run from side to side of the part that it lies in.
+/// Divides a rectangle by the cuts in their order: each must run from side to side of the part that
+/// it lies in.
 fn assert_edge_to_edge(size: DVec2, cuts: &[[DVec2; 2]]) {
     let mut parts = vec![(DVec2::ZERO, size)];
     for &[a, b] in cuts {
         let near = |x: f64, y: f64| (x - y).abs() < 1e-6;
         let middle = a.midpoint(b);
-        let at = parts.iter().position(|(l, h)| middle.cmpgt(*l - 1e-7).all() && middle.cmplt(*h + 1e-7).all());
+        let at = parts
+            .iter()
+            .position(|(l, h)| middle.cmpgt(*l - 1e-7).all() && middle.cmplt(*h + 1e-7).all());
         let (low, high) = parts.swap_remove(at.expect("a part that is cut"));
         if near(a.x, b.x) {
-            assert!(near(a.y.min(b.y), low.y) && near(a.y.max(b.y), high.y), "{a} {b} in {low} {high}");
+            assert!(
+                near(a.y.min(b.y), low.y) && near(a.y.max(b.y), high.y),
+                "{a} {b} in {low} {high}"
+            );
             parts.extend([(low, DVec2::new(a.x, high.y)), (DVec2::new(a.x, low.y), high)]);
         } else {
-            assert!(near(a.x.min(b.x), low.x) && near(a.x.max(b.x), high.x), "{a} {b} in {low} {high}");
+            assert!(
+                near(a.x.min(b.x), low.x) && near(a.x.max(b.x), high.x),
+                "{a} {b} in {low} {high}"
+            );
             parts.extend([(low, DVec2::new(high.x, a.y)), (DVec2::new(low.x, a.y), high)]);
         }
     }
@@ -159,11 +183,14 @@ fn guillotine_cuts_go_from_edge_to_edge_and_through_no_piece() {
         let mut moved = set.layout.clone();
         let (low, high) = (sheet_corner(&moved), moved.sheets[0].cuts[3]);
         moved.sheets[0].placed[0].x += high[0].x - low.x - 1.0;
-        let shapes: Vec<CutShape> = net.pieces.iter().map(|p| CutShape::of_piece(p, 0.0).expect("sound")).collect();
+        let shapes: Vec<CutShape> =
+            net.pieces.iter().map(|p| CutShape::of_piece(p, 0.0).expect("sound")).collect();
         assert!(verify(&shapes, &moved, &params).is_err());
     }
-    let whole =
-        laid(&net_of(vec![square(100.0)]), &SheetParams { sheet: SheetSize::of_mm(110.0, 110.0), ..params(0.0, 0.0) });
+    let whole = laid(
+        &net_of(vec![square(100.0)]),
+        &SheetParams { sheet: SheetSize::of_mm(110.0, 110.0), ..params(0.0, 0.0) },
+    );
     assert_eq!(whole.layout.sheets.len(), 1);
 }
 
@@ -198,7 +225,8 @@ fn who_stops_the_search_gets_the_best_so_far() {
     assert!(set.report.is_stopped && !set.layout.sheets.is_empty());
 }
 
-/// A lone piece that fits its sheet at few angles only: the search must see that it cannot be laid shorter, and end.
+/// A lone piece that fits its sheet at few angles only: the search must see that it cannot be laid
+/// shorter, and end.
 #[test]
 fn a_piece_that_hardly_fits_ends_the_search() {
     // The room inside the margin is 120 x 100.
@@ -215,8 +243,8 @@ fn a_piece_that_hardly_fits_ends_the_search() {
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(12))]
-    /// Any pieces, any rotations, any spacing: the re-measuring, which lay_out does itself, finds nothing; nor does a measure
-    /// of every pair.
+    /// Any pieces, any rotations, any spacing: the re-measuring, which lay_out does itself, finds
+    /// nothing; nor does a measure of every pair.
     #[test]
     fn nothing_overlaps_and_the_spacing_is_kept(
         seeds in prop::collection::vec(0_u64..1000, 2..14),

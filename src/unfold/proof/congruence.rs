@@ -6,7 +6,8 @@ use super::{LENGTH, LENGTH_OF_SIZE, ProofError, exceeds};
 use crate::mesh::{EdgeId, FaceId, Mesh};
 use crate::net::Net;
 
-/// Up to so many corners every distance is measured; above, those of each corner to the next two and to the far side.
+/// Up to so many corners every distance is measured; above, those of each corner to the next two
+/// and to the far side.
 const ALL_PAIRS: usize = 32;
 
 /// The largest difference of a distance between two corners of a face.
@@ -29,7 +30,11 @@ fn distortion(points: &[DVec3], flat: &[DVec2]) -> f64 {
     let n = points.len();
     let by = |i: usize, j: usize| (points[i].distance(points[j]) - flat[i].distance(flat[j])).abs();
     let others = |i: usize| -> Vec<usize> {
-        if n <= ALL_PAIRS { (0..i).collect() } else { vec![(i + 1) % n, (i + 2) % n, (i + n / 2) % n, (i + n / 3) % n] }
+        if n <= ALL_PAIRS {
+            (0..i).collect()
+        } else {
+            vec![(i + 1) % n, (i + 2) % n, (i + n / 2) % n, (i + n / 3) % n]
+        }
     };
     (0..n).flat_map(|i| others(i).into_iter().map(move |j| by(i, j))).fold(0.0, larger)
 }
@@ -46,7 +51,10 @@ fn check_partners(mesh: &Mesh, net: &Net, size: f64) -> Result<(), ProofError> {
         let [a, b] = mesh.edge_positions(EdgeId::new(edge));
         a.distance(b)
     };
-    let seams = net.seams.iter().map(|s| (s.id.0, [length(s.sides[0].segment), length(s.sides[1].segment), s.length]));
+    let seams = net
+        .seams
+        .iter()
+        .map(|s| (s.id.0, [length(s.sides[0].segment), length(s.sides[1].segment), s.length]));
     let folds = net.folds.iter().map(|f| (f.id.0, [length(f.segment); 3]));
     for (edge, lengths) in seams.chain(folds) {
         let on_mesh = true_length(edge);

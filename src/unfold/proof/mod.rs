@@ -1,8 +1,10 @@
-//! The proof of a net: measured against the mesh by code that shares nothing with the unfolder but the types.
+//! The proof of a net: measured against the mesh by code that shares nothing with the unfolder but
+//! the types.
 //!
-//! Four questions, each answered by its own method: is everything there once (structure), is every face and every edge as
-//! large as on the mesh (congruence), do two faces of a piece share area (overlap), and do the pieces fold back up into the
-//! mesh from nothing but their own folds and angles (refold).
+//! Four questions, each answered by its own method: is everything there once (structure), is every
+//! face and every edge as large as on the mesh (congruence), do two faces of a piece share area
+//! (overlap), and do the pieces fold back up into the mesh from nothing but their own folds and
+//! angles (refold).
 
 mod congruence;
 mod overlap;
@@ -16,11 +18,14 @@ use crate::code::codes;
 use crate::mesh::Mesh;
 use crate::net::{Net, Proof};
 
-/// Sides of one edge may differ by this much of their length (plus as much of the model's size, for rounding).
+/// Sides of one edge may differ by this much of their length (plus as much of the model's size, for
+/// rounding).
 pub const LENGTH: f64 = 1e-9;
-/// Distances may differ by this much of the model's size: what flattening nearly planar faces may cost.
+/// Distances may differ by this much of the model's size: what flattening nearly planar faces may
+/// cost.
 const LENGTH_OF_SIZE: f64 = 1e-9;
-/// A refolded corner may miss its vertex by this much of the model's size when all faces are planar.
+/// A refolded corner may miss its vertex by this much of the model's size when all faces are
+/// planar.
 pub const REFOLD: f64 = 1e-6;
 
 /// What is wrong with a net. Faces, vertices and edges are named by their numbers in the mesh.
@@ -71,7 +76,8 @@ pub enum ProofError {
     },
     /// A face that was laid down mirrored or without area.
     #[error(
-        "face {face} of piece {piece} lies mirrored or without area ({area:.3e} mm²); corners must run counter-clockwise{}",
+        "face {face} of piece {piece} lies mirrored or without area ({area:.3e} mm²); corners must \
+        run counter-clockwise{}",
         if *whole { ", and so do all faces of this piece: turn the piece over" } else { "" }
     )]
     Mirrored {
@@ -96,7 +102,8 @@ pub enum ProofError {
     },
     /// A face that is not congruent to the face of the mesh.
     #[error(
-        "face {face} is distorted: two corners are {by:.3e} mm nearer or farther than on the mesh ({limit:.3e} allowed)"
+        "face {face} is distorted: two corners are {by:.3e} mm nearer or farther than on the mesh \
+        ({limit:.3e} allowed)"
     )]
     Distorted {
         /// The face.
@@ -108,7 +115,8 @@ pub enum ProofError {
     },
     /// Two sides of one edge with different lengths.
     #[error(
-        "the sides of edge {edge} between the vertices {} and {} differ from it by {by:.3e} mm ({limit:.3e} allowed)",
+        "the sides of edge {edge} between the vertices {} and {} differ from it by {by:.3e} mm \
+        ({limit:.3e} allowed)",
         ends[0], ends[1]
     )]
     Partners {
@@ -140,7 +148,9 @@ pub enum ProofError {
         face: usize,
     },
     /// The net does not fold back into the mesh.
-    #[error("folded back up, face {face} misses vertex {vertex} by {by:.3e} mm ({limit:.3e} allowed)")]
+    #[error(
+        "folded back up, face {face} misses vertex {vertex} by {by:.3e} mm ({limit:.3e} allowed)"
+    )]
     Refold {
         /// The face.
         face: usize,
@@ -196,8 +206,8 @@ pub enum EdgeFault {
     Segment {
         /// The face.
         face: usize,
-        /// How far an end of the segment lies from the nearest side of the face between these vertices, in mm; not a
-        /// number when the face has no such side.
+        /// How far an end of the segment lies from the nearest side of the face between these
+        /// vertices, in mm; not a number when the face has no such side.
         by: f64,
     },
 }
@@ -229,9 +239,12 @@ fn exceeds(by: f64, limit: f64) -> bool {
     by > limit || by.is_nan()
 }
 
-/// The model's size: its box's diagonal, with a share of the distance from the origin, where coordinates are coarser.
+/// The model's size: its box's diagonal, with a share of the distance from the origin, where
+/// coordinates are coarser.
 fn size(mesh: &Mesh) -> f64 {
-    mesh.bounds().map_or(0.0, |(low, high)| (high - low).length() + low.abs().max(high.abs()).max_element() / 256.0)
+    mesh.bounds().map_or(0.0, |(low, high)| {
+        (high - low).length() + low.abs().max(high.abs()).max_element() / 256.0
+    })
 }
 
 #[cfg(test)]

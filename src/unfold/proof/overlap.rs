@@ -1,16 +1,17 @@
 //! Do two faces of a piece share area?
 //!
-//! Each polygon is a sum of signed triangles from its first corner, so the area that two polygons share is the signed sum
-//! of what their triangles share, and that of two triangles is found by clipping one with the sides of the other
-//! (Sutherland and Hodgman 1974). No convexity is needed, and nothing of the unfolder's own test is used.
+//! Each polygon is a sum of signed triangles from its first corner, so the area that two polygons
+//! share is the signed sum of what their triangles share, and that of two triangles is found by
+//! clipping one with the sides of the other (Sutherland and Hodgman 1974). No convexity is needed,
+//! and nothing of the unfolder's own test is used.
 
 use glam::DVec2;
 
 use super::ProofError;
 use crate::net::{FlatFace, Net, Piece};
 
-/// Shared area that still counts as touching: this much of the model's size times the smaller perimeter, ten times the
-/// depth that the unfolder lets through.
+/// Shared area that still counts as touching: this much of the model's size times the smaller
+/// perimeter, ten times the depth that the unfolder lets through.
 const TOUCHING: f64 = 1e-10;
 
 pub(super) fn check(net: &Net, size: f64) -> Result<(), ProofError> {
@@ -42,7 +43,8 @@ impl<'a> Boxed<'a> {
         let polygon = &flat.polygon;
         let low = polygon.iter().copied().fold(DVec2::INFINITY, DVec2::min);
         let high = polygon.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
-        let sides = (0..polygon.len()).map(|i| polygon[i].distance(polygon[(i + 1) % polygon.len()]));
+        let sides =
+            (0..polygon.len()).map(|i| polygon[i].distance(polygon[(i + 1) % polygon.len()]));
         Self { flat, low, high, perimeter: sides.sum() }
     }
 }
@@ -55,7 +57,9 @@ fn near_pairs(piece: &Piece) -> Vec<(Boxed<'_>, Boxed<'_>)> {
     let mut pairs = Vec::new();
     for (i, face) in faces.iter().enumerate() {
         active.retain(|&k| faces[k].high.x > face.low.x);
-        let meet = active.iter().filter(|&&k| faces[k].low.y < face.high.y && face.low.y < faces[k].high.y);
+        let meet = active
+            .iter()
+            .filter(|&&k| faces[k].low.y < face.high.y && face.low.y < faces[k].high.y);
         pairs.extend(meet.map(|&k| (k, i)));
         active.push(i);
     }
@@ -64,13 +68,17 @@ fn near_pairs(piece: &Piece) -> Vec<(Boxed<'_>, Boxed<'_>)> {
 
 /// The area that two simple polygons share.
 fn shared_area(a: &[DVec2], b: &[DVec2]) -> f64 {
-    // Seen from a corner of one of them, the products keep their digits however far out in the net the faces lie.
+    // Seen from a corner of one of them, the products keep their digits however far out in the net
+    // the faces lie.
     let origin = a[0];
     let fan = |polygon: &[DVec2]| -> Vec<[DVec2; 3]> {
-        (1..polygon.len() - 1).map(|i| [polygon[0] - origin, polygon[i] - origin, polygon[i + 1] - origin]).collect()
+        (1..polygon.len() - 1)
+            .map(|i| [polygon[0] - origin, polygon[i] - origin, polygon[i + 1] - origin])
+            .collect()
     };
     let others = fan(b);
-    let of_triangle = |t: &[DVec2; 3]| others.iter().map(|u| shared_by_triangles(*t, *u)).sum::<f64>();
+    let of_triangle =
+        |t: &[DVec2; 3]| others.iter().map(|u| shared_by_triangles(*t, *u)).sum::<f64>();
     fan(a).iter().map(of_triangle).sum()
 }
 

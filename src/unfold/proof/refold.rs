@@ -1,7 +1,8 @@
 //! Do the pieces fold back up into the mesh?
 //!
-//! One face of each piece is placed on the mesh; every other face follows from its neighbour by turning about their fold
-//! through the fold angle. Only pieces, folds and angles are used; then every corner is compared with its vertex.
+//! One face of each piece is placed on the mesh; every other face follows from its neighbour by
+//! turning about their fold through the fold angle. Only pieces, folds and angles are used; then
+//! every corner is compared with its vertex.
 
 use std::collections::{HashMap, VecDeque};
 
@@ -29,7 +30,8 @@ pub(super) fn check(mesh: &Mesh, net: &Net, size: f64) -> Result<f64, ProofError
 #[derive(Clone, Copy)]
 struct Pose {
     turn: DQuat,
-    /// A point of the flat frame and where it lies in space: rotations are about this point, so no digits are lost.
+    /// A point of the flat frame and where it lies in space: rotations are about this point, so no
+    /// digits are lost.
     flat: DVec2,
     space: DVec3,
 }
@@ -40,8 +42,14 @@ impl Pose {
     }
 }
 
-fn refold(mesh: &Mesh, piece: &Piece, folds: &HashMap<usize, Vec<&Fold>>, size: f64) -> Result<f64, ProofError> {
-    let faces: HashMap<usize, &FlatFace> = piece.faces.iter().map(|flat| (flat.face, flat)).collect();
+fn refold(
+    mesh: &Mesh,
+    piece: &Piece,
+    folds: &HashMap<usize, Vec<&Fold>>,
+    size: f64,
+) -> Result<f64, ProofError> {
+    let faces: HashMap<usize, &FlatFace> =
+        piece.faces.iter().map(|flat| (flat.face, flat)).collect();
     let Some(root) = piece.faces.first() else { return Ok(0.0) };
     let mut queue = VecDeque::from([(root, on_mesh(mesh, root), 0)]);
     let mut seen: HashMap<usize, ()> = HashMap::from([(root.face, ())]);
@@ -66,22 +74,27 @@ fn refold(mesh: &Mesh, piece: &Piece, folds: &HashMap<usize, Vec<&Fold>>, size: 
     }
 }
 
-/// How far a face is from planar: its corners' distance from their plane, relative to its extent. Zero for triangles.
+/// How far a face is from planar: its corners' distance from their plane, relative to its extent.
+/// Zero for triangles.
 fn unevenness(mesh: &Mesh, flat: &FlatFace) -> f64 {
     let points = mesh.face_positions(FaceId::new(flat.face));
-    let Some(plane) = Some(&points).filter(|p| p.len() > 3).and_then(|p| fit_plane(p)) else { return 0.0 };
+    let Some(plane) = Some(&points).filter(|p| p.len() > 3).and_then(|p| fit_plane(p)) else {
+        return 0.0;
+    };
     let (off, extent) = points.iter().fold((0.0_f64, 0.0_f64), |(off, extent), &p| {
         (off.max(plane.signed_distance(p).abs()), extent.max(p.distance(points[0])))
     });
     off / extent
 }
 
-/// The pose that lays a face onto the mesh: its first corner, then its plane, then the direction of its longest side.
+/// The pose that lays a face onto the mesh: its first corner, then its plane, then the direction of
+/// its longest side.
 fn on_mesh(mesh: &Mesh, flat: &FlatFace) -> Pose {
     let points = mesh.face_positions(FaceId::new(flat.face));
     let n = points.len();
     let length = |i: usize| flat.polygon[i].distance_squared(flat.polygon[(i + 1) % n]);
-    let longest = (0..n).max_by(|&a, &b| length(a).total_cmp(&length(b))).expect("a face has corners");
+    let longest =
+        (0..n).max_by(|&a, &b| length(a).total_cmp(&length(b))).expect("a face has corners");
     let next = (longest + 1) % n;
     let normal = Plane::newell(&points).map_or(DVec3::Z, |plane| plane.normal());
     let along = points[next] - points[longest];
@@ -92,8 +105,8 @@ fn on_mesh(mesh: &Mesh, flat: &FlatFace) -> Pose {
     Pose { turn, flat: flat.polygon[longest], space: points[longest] }
 }
 
-/// The pose of the face beyond a fold. A mountain bends away from the viewer: a turn about the fold, with the face that is
-/// in place on its left.
+/// The pose of the face beyond a fold. A mountain bends away from the viewer: a turn about the
+/// fold, with the face that is in place on its left.
 fn turned(pose: &Pose, flat: &FlatFace, fold: &Fold) -> Pose {
     let n = flat.vertices.len();
     let forward = (0..n).any(|i| [flat.vertices[i], flat.vertices[(i + 1) % n]] == fold.edge);

@@ -1,7 +1,8 @@
 //! A net in the numbers of a mesh that was read anew.
 //!
-//! A file names faces and vertices; the numbers of edges, and the corner at which a face begins, are ours and depend on who
-//! built the mesh. Before anybody's net is proved its edges are found again by their faces and ends.
+//! A file names faces and vertices; the numbers of edges, and the corner at which a face begins,
+//! are ours and depend on who built the mesh. Before anybody's net is proved its edges are found
+//! again by their faces and ends.
 
 use std::collections::HashSet;
 
@@ -9,11 +10,14 @@ use super::structure::{is_face, is_vertex};
 use crate::mesh::{EdgeId, FaceId, Mesh, VertexId};
 use crate::net::{EdgeLabel, FlatFace, Net};
 
-/// The same net with edges numbered, ends and sides ordered, and faces begun as on the mesh. What the mesh does not have
-/// stays as it is, for [`super::prove`] to find.
+/// The same net with edges numbered, ends and sides ordered, and faces begun as on the mesh. What
+/// the mesh does not have stays as it is, for [`super::prove`] to find.
 pub fn renumbered(mesh: &Mesh, net: &Net) -> Net {
     let mut net = net.clone();
-    net.pieces.iter_mut().flat_map(|piece| &mut piece.faces).for_each(|flat| begin_as_on_mesh(mesh, flat));
+    net.pieces
+        .iter_mut()
+        .flat_map(|piece| &mut piece.faces)
+        .for_each(|flat| begin_as_on_mesh(mesh, flat));
     let mut taken = HashSet::new();
     for fold in &mut net.folds {
         let Some(e) = find(mesh, fold.edge, fold.faces, &mut taken) else { continue };
@@ -39,7 +43,11 @@ pub fn renumbered(mesh: &Mesh, net: &Net) -> Net {
         }
     }
     for rim in &mut net.rims {
-        let Some(e) = edges_of(mesh, rim.face).find(|&e| mesh.is_rim(e) && joins(mesh, e, rim.edge)) else { continue };
+        let Some(e) =
+            edges_of(mesh, rim.face).find(|&e| mesh.is_rim(e) && joins(mesh, e, rim.edge))
+        else {
+            continue;
+        };
         if is_turned(mesh, e, rim.edge) {
             rim.edge.reverse();
             rim.segment.reverse();
@@ -57,15 +65,23 @@ fn begin_as_on_mesh(mesh: &Mesh, flat: &mut FlatFace) {
     if flat.vertices.len() != n || flat.polygon.len() != n {
         return;
     }
-    let fits = |&shift: &usize| (0..n).all(|i| is_vertex(mesh, flat.vertices[(i + shift) % n], corners[i]));
+    let fits = |&shift: &usize| {
+        (0..n).all(|i| is_vertex(mesh, flat.vertices[(i + shift) % n], corners[i]))
+    };
     if let Some(shift) = (0..n).find(fits) {
         flat.vertices.rotate_left(shift);
         flat.polygon.rotate_left(shift);
     }
 }
 
-/// The edge between two faces with these ends. Where two faces share several such edges, each is found once.
-fn find(mesh: &Mesh, ends: [usize; 2], faces: [usize; 2], taken: &mut HashSet<EdgeId>) -> Option<EdgeId> {
+/// The edge between two faces with these ends. Where two faces share several such edges, each is
+/// found once.
+fn find(
+    mesh: &Mesh,
+    ends: [usize; 2],
+    faces: [usize; 2],
+    taken: &mut HashSet<EdgeId>,
+) -> Option<EdgeId> {
     let is_between = |&e: &EdgeId| {
         let [f, g] = mesh.edge_faces(e).map(FaceId::index);
         ([f, g] == faces || [g, f] == faces) && joins(mesh, e, ends)
@@ -77,13 +93,15 @@ fn find(mesh: &Mesh, ends: [usize; 2], faces: [usize; 2], taken: &mut HashSet<Ed
 }
 
 fn edges_of(mesh: &Mesh, face: usize) -> impl Iterator<Item = EdgeId> + '_ {
-    let face = (face < mesh.face_slots() && is_face(mesh, FaceId::new(face))).then(|| FaceId::new(face));
+    let face =
+        (face < mesh.face_slots() && is_face(mesh, FaceId::new(face))).then(|| FaceId::new(face));
     face.into_iter().flat_map(|f| mesh.face_half_edges(f)).map(|h| h.edge())
 }
 
 fn joins(mesh: &Mesh, e: EdgeId, [a, b]: [usize; 2]) -> bool {
     let [v, w] = mesh.edge_vertices(e);
-    (is_vertex(mesh, a, v) && is_vertex(mesh, b, w)) || (is_vertex(mesh, a, w) && is_vertex(mesh, b, v))
+    (is_vertex(mesh, a, v) && is_vertex(mesh, b, w))
+        || (is_vertex(mesh, a, w) && is_vertex(mesh, b, v))
 }
 
 fn is_turned(mesh: &Mesh, e: EdgeId, [a, b]: [usize; 2]) -> bool {

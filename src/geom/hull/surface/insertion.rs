@@ -26,8 +26,9 @@ impl Surface<'_> {
         }
     }
 
-    /// Inserts a point into a part of a surface if that concerns no side at its border and needs no exact walk; whether the
-    /// point is settled. If not, the next walk begins where this one ended, since the next point lies near this one.
+    /// Inserts a point into a part of a surface if that concerns no side at its border and needs no
+    /// exact walk; whether the point is settled. If not, the next walk begins where this one ended,
+    /// since the next point lies near this one.
     pub(in super::super) fn insert_within<S: Signs>(&mut self, cloud: &Cloud<S>, p: u32) -> bool {
         self.insert_quickly(cloud, p) == Quick::Settled
     }
@@ -47,8 +48,17 @@ impl Surface<'_> {
     }
 
     /// Replaces what p sees, beginning with facet `first`, by a fan from p to the rim.
-    pub(in super::super) fn insert_above<S: Signs>(&mut self, cloud: &Cloud<S>, p: u32, first: u32) -> Insertion {
-        if self.is_seen(cloud, first, p) { self.replace_seen(cloud, p, first) } else { Insertion::NotSeen }
+    pub(in super::super) fn insert_above<S: Signs>(
+        &mut self,
+        cloud: &Cloud<S>,
+        p: u32,
+        first: u32,
+    ) -> Insertion {
+        if self.is_seen(cloud, first, p) {
+            self.replace_seen(cloud, p, first)
+        } else {
+            Insertion::NotSeen
+        }
     }
 
     /// The same for a facet that is known to see p.
@@ -62,8 +72,8 @@ impl Surface<'_> {
         insertion
     }
 
-    /// Lists the seen facets, marking them, and the sides around them in counter-clockwise order; not to the end when one of
-    /// them lies at the border of a part.
+    /// Lists the seen facets, marking them, and the sides around them in counter-clockwise order;
+    /// not to the end when one of them lies at the border of a part.
     fn collect_seen<S: Signs>(&mut self, cloud: &Cloud<S>, p: u32, first: u32) -> Insertion {
         let Scratch { seen, rim, stack } = &mut self.scratch;
         seen.clear();
@@ -109,7 +119,8 @@ impl Surface<'_> {
                 }
                 slot[0] |= SEEN;
                 seen.push(f);
-                // Both are looked at before either is needed, so that one does not wait for the other.
+                // Both are looked at before either is needed, so that one does not wait for the
+                // other.
                 match (sees(facets, next), sees(facets, second)) {
                     (true, true) => {
                         stack.push(second | ENTER);
@@ -133,7 +144,8 @@ impl Surface<'_> {
         Insertion::Done
     }
 
-    /// Builds the fan in the slots of the seen facets, so that neighbours stay near each other in memory.
+    /// Builds the fan in the slots of the seen facets, so that neighbours stay near each other in
+    /// memory.
     fn fan<S: Signs>(&mut self, cloud: &Cloud<S>, p: u32) {
         let Scratch { seen, rim, .. } = &mut self.scratch;
         let count = rim.len();

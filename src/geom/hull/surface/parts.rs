@@ -1,7 +1,7 @@
 //! A surface in parts that grow side by side, each in its own stretch of the slots.
 //!
-//! A facet at the border of a part is never replaced there, so it keeps its slot, and the parts fit together again whatever
-//! happened inside them.
+//! A facet at the border of a part is never replaced there, so it keeps its slot, and the parts fit
+//! together again whatever happened inside them.
 
 use super::{BORDER, NONE, Pole, Slot, Surface, link};
 
@@ -37,7 +37,8 @@ impl Division {
 }
 
 impl Surface<'_> {
-    /// Divides the surface by what `part_of` says of each facet's first corner. `room` tells for each part how many facets can be added there.
+    /// Divides the surface by what `part_of` says of each facet's first corner. `room` tells for
+    /// each part how many facets can be added there.
     ///
     /// Until [`Self::join`] the surface itself is of no use.
     pub(in super::super) fn divide(
@@ -49,8 +50,11 @@ impl Surface<'_> {
         let poles: Vec<Pole> = self.poles[..self.used].to_vec();
         self.facets[..self.used].fill([0; 6]);
         let mut sizes = vec![0; room.len()];
-        let mut division =
-            Division { part_of: vec![NONE; whole.len()], slot_in_part: vec![NONE; whole.len()], begins: vec![0] };
+        let mut division = Division {
+            part_of: vec![NONE; whole.len()],
+            slot_in_part: vec![NONE; whole.len()],
+            begins: vec![0],
+        };
         for (f, facet) in whole.iter().enumerate().filter(|(_, facet)| facet[0] != facet[1]) {
             let part = part_of(facet[0]);
             division.part_of[f] = part as u32;
@@ -64,7 +68,9 @@ impl Surface<'_> {
             if let Some((part, slot)) = division.place_of(f as u32) {
                 let [a, b, c, across @ ..] = *facet;
                 let [ab, bc, ca] = across.map(|side| match division.place_of(side >> 2) {
-                    Some((other, slot)) if other != part => link(division.begin(other) + slot, side & 3) | BORDER,
+                    Some((other, slot)) if other != part => {
+                        link(division.begin(other) + slot, side & 3) | BORDER
+                    }
                     place => place.map_or(NONE, |(_, slot)| link(slot, side & 3)),
                 });
                 let at = division.begins[part] + slot as usize;
@@ -84,7 +90,8 @@ impl Surface<'_> {
         (parts, division)
     }
 
-    /// Ends the growth of a part that begins at slot `begin` of the whole surface: its facets point into that again.
+    /// Ends the growth of a part that begins at slot `begin` of the whole surface: its facets point
+    /// into that again.
     pub(in super::super) fn into_growth(self, begin: u32) -> Growth {
         for slot in self.facets[..self.used].iter_mut().filter(|slot| slot[0] != slot[1]) {
             for side in &mut slot[3..] {

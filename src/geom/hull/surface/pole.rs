@@ -1,8 +1,9 @@
 //! The poles of facets, and what they tell of a point without a look at the corners.
 //!
-//! The pole y of a plane that misses the centre is the point with y·x = 1 for all x on the plane; x lies beyond it, seen from the
-//! centre, where y·x > 1. So one product of three terms tells whether a facet sees a point. A pole is rounded: it is kept
-//! only where that can be wrong by less than [`POLE_BOUND`], and values nearer to 1 are left to the corners.
+//! The pole y of a plane that misses the centre is the point with y·x = 1 for all x on the plane; x
+//! lies beyond it, seen from the centre, where y·x > 1. So one product of three terms tells whether
+//! a facet sees a point. A pole is rounded: it is kept only where that can be wrong by less than
+//! [`POLE_BOUND`], and values nearer to 1 are left to the corners.
 
 use glam::DVec3;
 
@@ -41,10 +42,12 @@ impl Ray {
 
 /// The pole of the plane through `apex` and the ends of two rays from there, counter-clockwise.
 ///
-/// No coordinate exceeds 1, and each may be off by `noise` = ν. With u half an ulp of 1 the entries of a ray, of at most m, are off
-/// by η = 2ν + 2u; those of the normal n by 11mη; D = n·apex by 60mη, which is little where the test below holds. Then an entry of
-/// the pole y is off by (11 + 60|yᵢ|)mη/D and two roundings, and y·x for any x of the cloud by (33 + 60s)mη/D + s(5.2u + ν), where
-/// s = Σ|yᵢ|. As D ≤ 6m² and m ≤ 2, the second term is below 43smη/D; and as 1 ≤ s in all but rounding, the sum is below 138smη/D.
+/// No coordinate exceeds 1, and each may be off by `noise` = ν. With u half an ulp of 1 the entries
+/// of a ray, of at most m, are off by η = 2ν + 2u; those of the normal n by 11mη; D = n·apex by
+/// 60mη, which is little where the test below holds. Then an entry of the pole y is off by (11 +
+/// 60|yᵢ|)mη/D and two roundings, and y·x for any x of the cloud by (33 + 60s)mη/D + s(5.2u + ν),
+/// where s = Σ|yᵢ|. As D ≤ 6m² and m ≤ 2, the second term is below 43smη/D; and as 1 ≤ s in all but
+/// rounding, the sum is below 138smη/D.
 #[inline(always)]
 pub(super) fn pole(apex: DVec3, a: Ray, b: Ray, noise: f64) -> Pole {
     let normal = a.along.cross(b.along);
@@ -80,7 +83,8 @@ mod tests {
             apex in point(), ways in prop::array::uniform2(point()), sizes in prop::array::uniform2(0..40),
             weights in prop::array::uniform2(-2.0..2.0_f64), nudge in point(), nearness in 0..60,
         ) {
-            // Triangles of every size and shape, slivers among them, and points ever nearer to their planes.
+            // Triangles of every size and shape, slivers among them, and points ever nearer to
+            // their planes.
             let corner = |i: usize| (apex + ways[i] * 0.5_f64.powi(sizes[i])).clamp(DVec3::NEG_ONE, DVec3::ONE);
             let (a, b) = (corner(0), corner(1));
             let near = apex + (a - apex) * weights[0] + (b - apex) * weights[1] + nudge * 0.5_f64.powi(nearness);

@@ -11,8 +11,9 @@ use crate::geom::hull::cloud::{Cloud, Signs};
 const QUICK_STEPS: usize = 4096;
 
 impl Surface<'_> {
-    /// Goes from facet to facet, always to the neighbour whose plane p lies farthest beyond, to the first that certainly sees
-    /// p. Ends at [`Self::last`]; false where no neighbour is better and none sees p for certain.
+    /// Goes from facet to facet, always to the neighbour whose plane p lies farthest beyond, to the
+    /// first that certainly sees p. Ends at [`Self::last`]; false where no neighbour is better and
+    /// none sees p for certain.
     pub(super) fn climb(&mut self, target: DVec3) -> bool {
         let mut best = (product(&self.poles[self.last as usize], target), self.last);
         loop {
@@ -34,10 +35,12 @@ impl Surface<'_> {
         }
     }
 
-    /// Walks over the sides that the ray from the centre to p certainly lies beyond, the farther of two.
+    /// Walks over the sides that the ray from the centre to p certainly lies beyond, the farther of
+    /// two.
     ///
-    /// Ends at [`Self::last`] and tells whether the ray certainly passes through that facet; `None` when it led nowhere. Carries along
-    /// the products of the corners of the side that was crossed with the target, so that a step costs one more.
+    /// Ends at [`Self::last`] and tells whether the ray certainly passes through that facet; `None`
+    /// when it led nowhere. Carries along the products of the corners of the side that was crossed
+    /// with the target, so that a step costs one more.
     pub(super) fn quick_walk<S: Signs>(&mut self, cloud: &Cloud<S>, p: u32) -> Option<bool> {
         let target = cloud.point(p);
         let bound = cloud.turn_bound();
@@ -100,8 +103,9 @@ impl Surface<'_> {
         self.try_all(cloud, p)
     }
 
-    /// The walk with a corner of the hull for its centre. Facets around that corner, or in one plane with it, are flat seen
-    /// from there: they are tested on the way, and a point in their plane proves nothing.
+    /// The walk with a corner of the hull for its centre. Facets around that corner, or in one
+    /// plane with it, are flat seen from there: they are tested on the way, and a point in their
+    /// plane proves nothing.
     fn walk_from_apex<S: Signs>(&mut self, cloud: &Cloud<S>, p: u32) -> Option<u32> {
         let mut f = self.last;
         for _ in 0..QUICK_STEPS {
@@ -111,7 +115,8 @@ impl Surface<'_> {
             }
             let facet = self.facet(f);
             // The ray runs below a facet at the apex and leaves it across the opposite side.
-            let opposite = facet.corners.iter().position(|&v| Some(v) == self.apex).map(|i| (i + 1) % 3);
+            let opposite =
+                facet.corners.iter().position(|&v| Some(v) == self.apex).map(|i| (i + 1) % 3);
             match opposite.or_else(|| self.first_crossed(cloud, f, p)) {
                 Some(side) => f = facet.across[side],
                 None => break,
@@ -120,7 +125,11 @@ impl Surface<'_> {
         let Facet { corners: [a, b, c], .. } = self.facet(f);
         self.last = f;
         let is_inside = |a, b| cloud.signs.turn(a, b, p) == Side::Normal;
-        if is_inside(a, b) && is_inside(b, c) && is_inside(c, a) { None } else { self.try_all(cloud, p) }
+        if is_inside(a, b) && is_inside(b, c) && is_inside(c, a) {
+            None
+        } else {
+            self.try_all(cloud, p)
+        }
     }
 
     /// A side of the facet that the ray from the centre to p lies strictly beyond.
@@ -128,7 +137,9 @@ impl Surface<'_> {
         let corners = self.facet(f).corners;
         let first = self.random_side();
         let mut sides = (0..3).map(|k| (first + k) % 3);
-        sides.find(|&side| cloud.signs.turn(corners[side], corners[(side + 1) % 3], p) == Side::Reverse)
+        sides.find(|&side| {
+            cloud.signs.turn(corners[side], corners[(side + 1) % 3], p) == Side::Reverse
+        })
     }
 
     fn try_all<S: Signs>(&mut self, cloud: &Cloud<S>, p: u32) -> Option<u32> {
@@ -141,7 +152,8 @@ impl Surface<'_> {
         side == Side::Normal
     }
 
-    /// A walk that chose its sides always in the same order could run in circles over coplanar facets.
+    /// A walk that chose its sides always in the same order could run in circles over coplanar
+    /// facets.
     fn random_side(&mut self) -> usize {
         self.random = self.random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         // The upper bits of the generator, times three, divided by their range.

@@ -4,7 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DAffine2, DVec2};
 
-/// Points on a curve's way after its beginning; `scale` is how much larger it will be in millimetres.
+/// Points on a curve's way after its beginning; `scale` is how much larger it will be in
+/// millimetres.
 pub(super) struct Flattener {
     /// Largest distance from the true curve, in the curve's own units.
     tolerance: f64,
@@ -46,7 +47,13 @@ impl Flattener {
     }
 
     /// An elliptic arc: centre + cos t · `x` + sin t · `y`, from `from` over `sweep` radians.
-    pub fn arc(&self, centre: DVec2, [x, y]: [DVec2; 2], (from, sweep): (f64, f64), out: &mut Vec<DVec2>) {
+    pub fn arc(
+        &self,
+        centre: DVec2,
+        [x, y]: [DVec2; 2],
+        (from, sweep): (f64, f64),
+        out: &mut Vec<DVec2>,
+    ) {
         let radius = x.length().max(y.length());
         let step = 2.0 * (1.0 - (self.tolerance / radius).min(0.5)).acos();
         let pieces = (sweep.abs() / step).ceil().clamp(1.0, MOST) as usize;
@@ -65,7 +72,8 @@ impl Flattener {
         points
     }
 
-    /// The arc of a bulge (tangent of a quarter of its angle, positive to the left of the way) from a to b.
+    /// The arc of a bulge (tangent of a quarter of its angle, positive to the left of the way) from
+    /// a to b.
     pub fn bulge(&self, a: DVec2, b: DVec2, bulge: f64, out: &mut Vec<DVec2>) {
         let chord = b - a;
         if bulge == 0.0 || chord == DVec2::ZERO || !bulge.is_finite() {
@@ -81,8 +89,8 @@ impl Flattener {
         }
     }
 
-    /// The arc of an SVG path from a to b (its implementation notes, F.6.5): radii, the turn of the x axis in degrees, the
-    /// flags for the large arc and for the positive direction.
+    /// The arc of an SVG path from a to b (its implementation notes, F.6.5): radii, the turn of the
+    /// x axis in degrees, the flags for the large arc and for the positive direction.
     pub fn svg_arc(
         &self,
         [a, b]: [DVec2; 2],
@@ -129,7 +137,8 @@ impl Flattener {
     /// A rational B-spline (de Boor's algorithm at even steps of every span).
     pub fn spline(&self, degree: usize, knots: &[f64], control: &[(DVec2, f64)]) -> Vec<DVec2> {
         let mut points = Vec::new();
-        let sound = degree >= 1 && control.len() > degree && knots.len() == control.len() + degree + 1;
+        let sound =
+            degree >= 1 && control.len() > degree && knots.len() == control.len() + degree + 1;
         if !sound {
             return control.iter().map(|c| c.0).collect();
         }
@@ -138,7 +147,8 @@ impl Flattener {
             if to <= from || !(to - from).is_finite() {
                 continue;
             }
-            let way: f64 = control[k - degree..=k].windows(2).map(|w| w[0].0.distance(w[1].0)).sum();
+            let way: f64 =
+                control[k - degree..=k].windows(2).map(|w| w[0].0.distance(w[1].0)).sum();
             let pieces = (way / self.tolerance).sqrt().ceil().clamp(4.0, 500.0) as usize;
             let first = usize::from(!points.is_empty());
             for i in first..=pieces {
@@ -151,7 +161,8 @@ impl Flattener {
 }
 
 fn de_boor(k: usize, u: f64, degree: usize, knots: &[f64], control: &[(DVec2, f64)]) -> DVec2 {
-    let mut d: Vec<(DVec2, f64)> = control[k - degree..=k].iter().map(|&(p, w)| (p * w, w)).collect();
+    let mut d: Vec<(DVec2, f64)> =
+        control[k - degree..=k].iter().map(|&(p, w)| (p * w, w)).collect();
     for r in 1..=degree {
         for j in (r..=degree).rev() {
             let i = j + k - degree;
@@ -163,7 +174,8 @@ fn de_boor(k: usize, u: f64, degree: usize, knots: &[f64], control: &[(DVec2, f6
     d[degree].0 / d[degree].1
 }
 
-/// The sweep of an arc that runs counter-clockwise from one angle to another, in degrees, as radians in (0, 2π].
+/// The sweep of an arc that runs counter-clockwise from one angle to another, in degrees, as
+/// radians in (0, 2π].
 pub(super) fn sweep_between(from: f64, to: f64) -> f64 {
     let sweep = (to - from).to_radians().rem_euclid(TAU);
     if sweep < 1e-12 * PI { TAU } else { sweep }

@@ -71,7 +71,10 @@ pub(super) fn read(bytes: &[u8]) -> Result<Artwork, ArtError> {
 
 fn pairs(bytes: &[u8]) -> Result<Pairs, ArtError> {
     if bytes.starts_with(b"AutoCAD Binary DXF") {
-        return Err(ArtError::Dxf { line: 1, fault: "this is binary DXF; save it as text (ASCII) DXF" });
+        return Err(ArtError::Dxf {
+            line: 1,
+            fault: "this is binary DXF; save it as text (ASCII) DXF",
+        });
     }
     // Names in old code pages do not matter here.
     let text = String::from_utf8_lossy(bytes);
@@ -113,7 +116,11 @@ fn parse(pairs: &Pairs) -> Drawing {
             continue;
         }
         let end = (i + 1..pairs.len()).find(|&k| pairs[k].0 == 0).unwrap_or(pairs.len());
-        let entity = Entity { kind: value.to_owned(), pairs: pairs[i + 1..end].to_vec(), vertices: Vec::new() };
+        let entity = Entity {
+            kind: value.to_owned(),
+            pairs: pairs[i + 1..end].to_vec(),
+            vertices: Vec::new(),
+        };
         i = end;
         match (section.as_str(), entity.kind.as_str()) {
             (_, "ENDSEC") => section.clear(),
@@ -274,7 +281,9 @@ fn insert(
     (transform, layer, colour): (&DAffine2, &str, i64),
     depth: usize,
 ) -> Result<(), ArtError> {
-    let Some(block) = entity.text(2).and_then(|name| drawing.blocks.get(name)) else { return Ok(()) };
+    let Some(block) = entity.text(2).and_then(|name| drawing.blocks.get(name)) else {
+        return Ok(());
+    };
     let scale = DVec2::new(entity.number(41).unwrap_or(1.0), entity.number(42).unwrap_or(1.0));
     let turn = DAffine2::from_angle(entity.number(50).unwrap_or(0.0).to_radians());
     let at = entity.point(10).unwrap_or_default();

@@ -5,7 +5,8 @@ use glam::{DAffine2, DVec2};
 use super::curve::{Flattener, sweep_between};
 use super::dxf::Entity;
 
-/// The line of an entity in its own coordinates and whether it is closed; nothing for what is no line.
+/// The line of an entity in its own coordinates and whether it is closed; nothing for what is no
+/// line.
 pub(super) fn outline(entity: &Entity, transform: &DAffine2) -> Option<(Vec<DVec2>, bool)> {
     let flattener = Flattener::of(transform);
     match entity.kind.as_str() {
@@ -54,7 +55,8 @@ fn polyline(entity: &Entity, flattener: &Flattener) -> Option<(Vec<DVec2>, bool)
     // Of splines the points of the frame are left out.
     let is_frame = |v: &&Entity| v.flags(70) & 16 != 0;
     let of = |v: &Entity| Some((v.point(10)?, v.number(42).unwrap_or(0.0)));
-    let vertices: Vec<(DVec2, f64)> = entity.vertices.iter().filter(|v| !is_frame(v)).filter_map(of).collect();
+    let vertices: Vec<(DVec2, f64)> =
+        entity.vertices.iter().filter(|v| !is_frame(v)).filter_map(of).collect();
     Some(bulged(&vertices, entity.flags(70) & 1 != 0, flattener))
 }
 
@@ -75,7 +77,8 @@ fn bulged(vertices: &[(DVec2, f64)], closed: bool, flattener: &Flattener) -> (Ve
 fn ellipse(entity: &Entity, flattener: &Flattener) -> Option<(Vec<DVec2>, bool)> {
     let (centre, major) = (entity.point(10)?, entity.point(11)?);
     let minor = major.perp() * entity.number(40)?;
-    let (from, to) = (entity.number(41).unwrap_or(0.0), entity.number(42).unwrap_or(std::f64::consts::TAU));
+    let (from, to) =
+        (entity.number(41).unwrap_or(0.0), entity.number(42).unwrap_or(std::f64::consts::TAU));
     let sweep = sweep_between(from.to_degrees(), to.to_degrees());
     if sweep >= std::f64::consts::TAU - 1e-9 {
         return Some((flattener.ellipse(centre, [major, minor]), true));
@@ -87,7 +90,12 @@ fn ellipse(entity: &Entity, flattener: &Flattener) -> Option<(Vec<DVec2>, bool)>
 
 fn spline(entity: &Entity, flattener: &Flattener) -> Option<(Vec<DVec2>, bool)> {
     let zip = |x: i32| -> Vec<DVec2> {
-        entity.numbers(x).into_iter().zip(entity.numbers(x + 10)).map(|(x, y)| DVec2::new(x, y)).collect()
+        entity
+            .numbers(x)
+            .into_iter()
+            .zip(entity.numbers(x + 10))
+            .map(|(x, y)| DVec2::new(x, y))
+            .collect()
     };
     let control = zip(10);
     if control.is_empty() {
@@ -97,7 +105,8 @@ fn spline(entity: &Entity, flattener: &Flattener) -> Option<(Vec<DVec2>, bool)> 
     }
     let weights = entity.numbers(41);
     let weight = |i: usize| if weights.len() == control.len() { weights[i] } else { 1.0 };
-    let weighted: Vec<(DVec2, f64)> = control.iter().enumerate().map(|(i, &p)| (p, weight(i))).collect();
+    let weighted: Vec<(DVec2, f64)> =
+        control.iter().enumerate().map(|(i, &p)| (p, weight(i))).collect();
     let degree = entity.number(71).unwrap_or(3.0).clamp(1.0, 25.0) as usize;
     Some((flattener.spline(degree, &entity.numbers(40), &weighted), entity.flags(70) & 1 != 0))
 }

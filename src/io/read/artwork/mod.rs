@@ -1,7 +1,7 @@
 //! Drawings of others: SVG, DXF and PDF as lines in millimetres for [`crate::lint`].
 //!
-//! Curves are flattened to within [`FLATNESS`]; transforms, blocks and nested pages are carried out; what is not lines is
-//! counted. One page of a file is one [`Artwork`].
+//! Curves are flattened to within [`FLATNESS`]; transforms, blocks and nested pages are carried
+//! out; what is not lines is counted. One page of a file is one [`Artwork`].
 
 mod curve;
 mod dxf;
@@ -60,7 +60,9 @@ pub enum ArtError {
     #[error("no readable PDF: {0}")]
     Pdf(&'static str),
     /// Nested without end.
-    #[error("groups or blocks are nested deeper than {DEEPEST} levels; they may contain themselves")]
+    #[error(
+        "groups or blocks are nested deeper than {DEEPEST} levels; they may contain themselves"
+    )]
     TooDeep,
 }
 
@@ -105,10 +107,12 @@ impl ArtFormat {
     }
 }
 
-/// Reads the pages of a drawing. The path serves only to tell the format where the content does not.
+/// Reads the pages of a drawing. The path serves only to tell the format where the content does
+/// not.
 ///
 /// # Errors
-/// [`ArtError`] for files that cannot be followed; strange but readable content is left to the judge.
+/// [`ArtError`] for files that cannot be followed; strange but readable content is left to the
+/// judge.
 pub fn read_artwork(path: &Path, bytes: &[u8]) -> Result<(ArtFormat, Vec<Artwork>), ArtError> {
     if bytes.iter().all(u8::is_ascii_whitespace) {
         return Err(ArtError::Empty);

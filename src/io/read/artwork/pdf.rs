@@ -1,4 +1,5 @@
-//! PDF: objects found by scanning the whole file, so that damaged tables do not matter; the pages in order.
+//! PDF: objects found by scanning the whole file, so that damaged tables do not matter; the pages
+//! in order.
 
 use std::collections::BTreeMap;
 
@@ -94,7 +95,8 @@ fn scan(bytes: &[u8]) -> Result<Objects, ArtError> {
     {
         return Err(ArtError::Pdf("it is encrypted; save it without a password"));
     }
-    let packed: Vec<Object> = objects.values().filter(|o| type_of(o) == Some("ObjStm")).cloned().collect();
+    let packed: Vec<Object> =
+        objects.values().filter(|o| type_of(o) == Some("ObjStm")).cloned().collect();
     for object in &packed {
         // Objects that stand by themselves are the newer ones.
         for (id, inner) in unpacked(object)? {
@@ -114,7 +116,11 @@ fn number_before(bytes: &[u8], end: usize) -> Option<u32> {
     let generation = digits(end);
     let before = end.checked_sub(generation + 1)?;
     let number = digits(before);
-    std::str::from_utf8(&bytes[before - number..before]).ok()?.parse().ok().filter(|_| generation > 0)
+    std::str::from_utf8(&bytes[before - number..before])
+        .ok()?
+        .parse()
+        .ok()
+        .filter(|_| generation > 0)
 }
 
 /// A dictionary with the stream after it, if there is one.
@@ -127,9 +133,12 @@ fn stream(bytes: &[u8], lexer: &mut Lexer<'_>, dict: Dict) -> Object {
     start += usize::from(bytes.get(start) == Some(&b'\r'));
     start += usize::from(bytes.get(start) == Some(&b'\n'));
     let said = dict.get("Length").and_then(Object::number).map(|n| start + n.max(0.0) as usize);
-    // The length may be wrong, or stand elsewhere: what counts is where the stream says that it ends.
-    let is_end = |e: &usize| *e <= bytes.len() && find(bytes, b"endstream", *e).is_some_and(|f| f <= e + 2);
-    let end = said.filter(is_end).or_else(|| find(bytes, b"endstream", start)).unwrap_or(bytes.len());
+    // The length may be wrong, or stand elsewhere: what counts is where the stream says that it
+    // ends.
+    let is_end =
+        |e: &usize| *e <= bytes.len() && find(bytes, b"endstream", *e).is_some_and(|f| f <= e + 2);
+    let end =
+        said.filter(is_end).or_else(|| find(bytes, b"endstream", start)).unwrap_or(bytes.len());
     lexer.at = end;
     Object::Stream(dict, bytes[start.min(end)..end].to_vec())
 }
@@ -143,7 +152,11 @@ fn unpacked(object: &Object) -> Result<Vec<(u32, Object)>, ArtError> {
     let mut head = Lexer { bytes: &bytes, at: 0 };
     let mut inner = Vec::new();
     for _ in 0..count.min(bytes.len()) {
-        let (Some(Object::Number(id)), Some(Object::Number(offset))) = (head.object(), head.object()) else { break };
+        let (Some(Object::Number(id)), Some(Object::Number(offset))) =
+            (head.object(), head.object())
+        else {
+            break;
+        };
         let at = first + offset.max(0.0) as usize;
         inner.extend(Lexer { bytes: &bytes, at }.object().map(|o| (id as u32, o)));
     }

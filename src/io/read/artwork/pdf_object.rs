@@ -65,7 +65,8 @@ impl Lexer<'_> {
         while let Some(&b) = self.bytes.get(self.at) {
             if b == b'%' {
                 let rest = &self.bytes[self.at..];
-                self.at += rest.iter().position(|b| matches!(b, b'\n' | b'\r')).unwrap_or(rest.len());
+                self.at +=
+                    rest.iter().position(|b| matches!(b, b'\n' | b'\r')).unwrap_or(rest.len());
             } else if is_space(b) {
                 self.at += 1;
             } else {
@@ -136,7 +137,9 @@ impl Lexer<'_> {
         let mut i = 0;
         while i < raw.len() {
             let code = (raw[i] == b'#').then(|| raw.get(i + 1..i + 3)).flatten();
-            let code = code.and_then(|c| std::str::from_utf8(c).ok()).and_then(|c| u8::from_str_radix(c, 16).ok());
+            let code = code
+                .and_then(|c| std::str::from_utf8(c).ok())
+                .and_then(|c| u8::from_str_radix(c, 16).ok());
             name.push(code.unwrap_or(raw[i]));
             i += if code.is_some() { 3 } else { 1 };
         }
@@ -195,8 +198,9 @@ impl Lexer<'_> {
             self.skip();
             let generation = self.token();
             self.skip();
-            let is_reference =
-                !generation.is_empty() && generation.bytes().all(|b| b.is_ascii_digit()) && self.token() == "R";
+            let is_reference = !generation.is_empty()
+                && generation.bytes().all(|b| b.is_ascii_digit())
+                && self.token() == "R";
             if let (true, Ok(id)) = (is_reference, word.parse()) {
                 return Object::Reference(id);
             }
@@ -235,11 +239,14 @@ pub(super) fn unpack(dict: &Dict, raw: &[u8]) -> Result<Vec<u8>, &'static str> {
                 let plain = plain.unwrap_or_else(|e| e.output);
                 predicted(plain, parameters.get(i).and_then(Object::dict))
             }
-            Some("ASCIIHexDecode" | "AHx") => Lexer { bytes: &[b"<", &bytes[..]].concat(), at: 0 }.hex(),
+            Some("ASCIIHexDecode" | "AHx") => {
+                Lexer { bytes: &[b"<", &bytes[..]].concat(), at: 0 }.hex()
+            }
             Some("ASCII85Decode" | "A85") => ascii85(&bytes),
             _ => {
                 return Err(
-                    "a page is packed in a way that is not read (LZW or encrypted); export it again as PDF 1.4 or later",
+                    "a page is packed in a way that is not read (LZW or encrypted); export it \
+                    again as PDF 1.4 or later",
                 );
             }
         };
@@ -250,12 +257,17 @@ pub(super) fn unpack(dict: &Dict, raw: &[u8]) -> Result<Vec<u8>, &'static str> {
 /// Undoes the PNG predictors, which compressed tables of objects use.
 fn predicted(bytes: Vec<u8>, parameters: Option<&Dict>) -> Vec<u8> {
     let of = |name: &str, default: f64| {
-        parameters.and_then(|p| p.get(name)).and_then(Object::number).unwrap_or(default).clamp(0.0, 65536.0) as usize
+        parameters
+            .and_then(|p| p.get(name))
+            .and_then(Object::number)
+            .unwrap_or(default)
+            .clamp(0.0, 65536.0) as usize
     };
     if of("Predictor", 1.0) < 10 {
         return bytes;
     }
-    let width = (of("Columns", 1.0) * of("Colors", 1.0) * of("BitsPerComponent", 8.0)).div_ceil(8).max(1);
+    let width =
+        (of("Columns", 1.0) * of("Colors", 1.0) * of("BitsPerComponent", 8.0)).div_ceil(8).max(1);
     let step = (of("Colors", 1.0) * of("BitsPerComponent", 8.0)).div_ceil(8).max(1);
     let mut before = vec![0_u8; width];
     let mut plain = Vec::with_capacity(bytes.len());

@@ -26,19 +26,29 @@ struct State {
 struct Painter<'a> {
     objects: &'a Objects,
     out: Collector,
-    /// Names of the layers that are open, innermost last; content that belongs to none is marked, too.
+    /// Names of the layers that are open, innermost last; content that belongs to none is marked,
+    /// too.
     layers: Vec<Option<String>>,
-    /// Whether lines go on beyond what a clipping path shows: the page is a window on something larger.
+    /// Whether lines go on beyond what a clipping path shows: the page is a window on something
+    /// larger.
     is_window: bool,
 }
 
 pub(super) fn page(objects: &Objects, dict: &Dict) -> Result<Artwork, ArtError> {
     let corners = match objects.entry(dict, "MediaBox") {
-        Some(Object::Array(items)) => items.iter().filter_map(|o| objects.get(o).number()).collect(),
+        Some(Object::Array(items)) => {
+            items.iter().filter_map(|o| objects.get(o).number()).collect()
+        }
         _ => vec![0.0, 0.0, 612.0, 792.0],
     };
-    let &[x, y, right, top] = corners.as_slice() else { return Err(ArtError::Pdf("a page has no size")) };
-    let unit = objects.entry(dict, "UserUnit").and_then(Object::number).filter(|u| *u > 0.0).unwrap_or(1.0);
+    let &[x, y, right, top] = corners.as_slice() else {
+        return Err(ArtError::Pdf("a page has no size"));
+    };
+    let unit = objects
+        .entry(dict, "UserUnit")
+        .and_then(Object::number)
+        .filter(|u| *u > 0.0)
+        .unwrap_or(1.0);
     let scale = POINT * unit;
     let low = DVec2::new(x.min(right), y.min(top));
     let mut size = DVec2::new((right - x).abs(), (top - y).abs()) * scale;
@@ -56,7 +66,8 @@ pub(super) fn page(objects: &Objects, dict: &Dict) -> Result<Artwork, ArtError> 
         size = DVec2::new(size.y, size.x);
     }
     let state = State { transform: turned * upright, stroke: [0; 3], fill: [0; 3], clip: None };
-    let mut painter = Painter { objects, out: Collector::default(), layers: Vec::new(), is_window: false };
+    let mut painter =
+        Painter { objects, out: Collector::default(), layers: Vec::new(), is_window: false };
     let content = contents(objects, dict)?;
     let empty = Dict::new();
     let resources = objects.entry(dict, "Resources").and_then(Object::dict).unwrap_or(&empty);
@@ -97,7 +108,13 @@ impl Building {
 }
 
 impl Painter<'_> {
-    fn paint(&mut self, content: &[u8], resources: &Dict, state: State, depth: usize) -> Result<(), ArtError> {
+    fn paint(
+        &mut self,
+        content: &[u8],
+        resources: &Dict,
+        state: State,
+        depth: usize,
+    ) -> Result<(), ArtError> {
         if depth > DEEPEST {
             return Err(ArtError::TooDeep);
         }
@@ -149,7 +166,9 @@ impl Painter<'_> {
 
     /// Building and painting of paths.
     fn draw(&mut self, operator: &str, n: &[f64], path: &mut Building, state: &State) {
-        let at = |i: usize| DVec2::new(n.get(i).copied().unwrap_or(0.0), n.get(i + 1).copied().unwrap_or(0.0));
+        let at = |i: usize| {
+            DVec2::new(n.get(i).copied().unwrap_or(0.0), n.get(i + 1).copied().unwrap_or(0.0))
+        };
         let current = path.points.last().copied().unwrap_or_default();
         let flattener = Flattener::of(&state.transform);
         match operator {
@@ -165,7 +184,8 @@ impl Painter<'_> {
             "re" => {
                 path.finish(false);
                 let (low, size) = (at(0), at(2));
-                let corners = [low, low + DVec2::new(size.x, 0.0), low + size, low + DVec2::new(0.0, size.y)];
+                let corners =
+                    [low, low + DVec2::new(size.x, 0.0), low + size, low + DVec2::new(0.0, size.y)];
                 path.done.push((corners.to_vec(), true));
             }
             "S" | "B" | "B*" => self.stroke(path, state, false),
@@ -193,7 +213,8 @@ impl Painter<'_> {
             if points.len() < 2 {
                 continue;
             }
-            let points: Vec<DVec2> = points.into_iter().map(|p| state.transform.transform_point2(p)).collect();
+            let points: Vec<DVec2> =
+                points.into_iter().map(|p| state.transform.transform_point2(p)).collect();
             if let Some((low, high)) = state.clip
                 && let Some((from, to)) = bounds(&points)
             {
@@ -204,17 +225,28 @@ impl Painter<'_> {
     }
 
     /// A form is content in content; an image is not judged.
-    fn object(&mut self, stack: &[Object], resources: &Dict, state: &State, depth: usize) -> Result<(), ArtError> {
+    fn object(
+        &mut self,
+        stack: &[Object],
+        resources: &Dict,
+        state: &State,
+        depth: usize,
+    ) -> Result<(), ArtError> {
         let objects = self.objects;
         let name = stack.last().and_then(Object::name).unwrap_or_default();
-        let found = objects.entry(resources, "XObject").and_then(Object::dict).and_then(|x| objects.entry(x, name));
+        let found = objects
+            .entry(resources, "XObject")
+            .and_then(Object::dict)
+            .and_then(|x| objects.entry(x, name));
         let Some(Object::Stream(dict, raw)) = found else { return Ok(()) };
         if objects.entry(dict, "Subtype").and_then(Object::name) != Some("Form") {
             self.out.unread("image");
             return Ok(());
         }
         let numbers: Vec<f64> = match objects.entry(dict, "Matrix") {
-            Some(Object::Array(items)) => items.iter().filter_map(|o| objects.get(o).number()).collect(),
+            Some(Object::Array(items)) => {
+                items.iter().filter_map(|o| objects.get(o).number()).collect()
+            }
             _ => Vec::new(),
         };
         let mut inner = state.clone();
@@ -286,7 +318,14 @@ struct TextState {
 }
 
 impl TextState {
-    fn operate(&mut self, operator: &str, n: &[f64], stack: &[Object], state: &State, out: &mut Collector) -> bool {
+    fn operate(
+        &mut self,
+        operator: &str,
+        n: &[f64],
+        stack: &[Object],
+        state: &State,
+        out: &mut Collector,
+    ) -> bool {
         match operator {
             "BT" => self.line = DAffine2::IDENTITY,
             "Tm" => self.line = matrix(n),
@@ -322,6 +361,7 @@ impl TextState {
 /// Goes on after the `EI` of an inline image.
 fn skip_image(lexer: &mut Lexer<'_>) {
     let rest = &lexer.bytes[lexer.at..];
-    let is_end = |w: &[u8]| w[0].is_ascii_whitespace() && &w[1..3] == b"EI" && w[3].is_ascii_whitespace();
+    let is_end =
+        |w: &[u8]| w[0].is_ascii_whitespace() && &w[1..3] == b"EI" && w[3].is_ascii_whitespace();
     lexer.at += rest.windows(4).position(is_end).map_or(rest.len(), |i| i + 3);
 }

@@ -42,10 +42,12 @@ struct Reader<'a> {
 }
 
 pub(super) fn read(bytes: &[u8]) -> Result<Artwork, ArtError> {
-    let text = std::str::from_utf8(bytes)
-        .map_err(|e| ArtError::Svg(format!("byte {} is no UTF-8; save it as UTF-8", e.valid_up_to())))?;
+    let text = std::str::from_utf8(bytes).map_err(|e| {
+        ArtError::Svg(format!("byte {} is no UTF-8; save it as UTF-8", e.valid_up_to()))
+    })?;
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
-    let document = Document::parse_with_options(text, options).map_err(|e| ArtError::Svg(e.to_string()))?;
+    let document =
+        Document::parse_with_options(text, options).map_err(|e| ArtError::Svg(e.to_string()))?;
     let root = document.root_element();
     if root.tag_name().name() != "svg" {
         return Err(ArtError::Svg(format!("the root is <{}>, not <svg>", root.tag_name().name())));
@@ -69,15 +71,22 @@ pub(super) fn read(bytes: &[u8]) -> Result<Artwork, ArtError> {
     Ok(reader.out.finish(Some(size), unit))
 }
 
-/// The page in mm, the way from user units to pixels with the size of the view, and what the file says about its unit.
+/// The page in mm, the way from user units to pixels with the size of the view, and what the file
+/// says about its unit.
 fn page(root: Node<'_, '_>) -> (DVec2, (DAffine2, DVec2), UnitState) {
-    let side = |name: &str| root.attribute(name).and_then(|v| length(v, f64::NAN)).filter(|l| l.0 > 0.0);
-    let view = root.attribute("viewBox").map(point_list).filter(|p| p.len() == 2 && p[1].min_element() > 0.0);
+    let side =
+        |name: &str| root.attribute(name).and_then(|v| length(v, f64::NAN)).filter(|l| l.0 > 0.0);
+    let view = root
+        .attribute("viewBox")
+        .map(point_list)
+        .filter(|p| p.len() == 2 && p[1].min_element() > 0.0);
     let (width, height) = (side("width"), side("height"));
     let own = view.as_ref().map_or(DVec2::new(300.0, 150.0), |v| v[1]);
-    let size = DVec2::new(width.as_ref().map_or(own.x, |w| w.0), height.as_ref().map_or(own.y, |h| h.0));
-    let is_said =
-        |l: &Option<(f64, String)>| l.as_ref().is_some_and(|l| !matches!(l.1.as_str(), "" | "px" | "em" | "ex"));
+    let size =
+        DVec2::new(width.as_ref().map_or(own.x, |w| w.0), height.as_ref().map_or(own.y, |h| h.0));
+    let is_said = |l: &Option<(f64, String)>| {
+        l.as_ref().is_some_and(|l| !matches!(l.1.as_str(), "" | "px" | "em" | "ex"))
+    };
     let mut unit = if is_said(&width) && is_said(&height) {
         UnitState::Known
     } else {
@@ -92,7 +101,11 @@ fn page(root: Node<'_, '_>) -> (DVec2, (DAffine2, DVec2), UnitState) {
             "width and height do not have the proportions of the viewBox; lengths are not true",
         );
     }
-    (size * PIXEL, (fit(view[0], view[1], size, root.attribute("preserveAspectRatio")), view[1]), unit)
+    (
+        size * PIXEL,
+        (fit(view[0], view[1], size, root.attribute("preserveAspectRatio")), view[1]),
+        unit,
+    )
 }
 
 /// A view box fitted into a viewport.
@@ -114,7 +127,9 @@ fn fit(low: DVec2, view: DVec2, port: DVec2, how: Option<&str>) -> DAffine2 {
         }
     };
     let rest = (port - view * scale) * DVec2::new(share("xMin", "xMax"), share("YMin", "YMax"));
-    DAffine2::from_translation(rest) * DAffine2::from_scale(scale) * DAffine2::from_translation(-low)
+    DAffine2::from_translation(rest)
+        * DAffine2::from_scale(scale)
+        * DAffine2::from_translation(-low)
 }
 
 /// The rules of all style sheets whose selectors are one tag, class or id.
@@ -133,8 +148,10 @@ fn rules(document: &Document<'_>) -> Rules {
 }
 
 fn declarations(text: &str) -> Vec<(String, String)> {
-    let pair =
-        |d: &str| d.split_once(':').map(|(k, v)| (k.trim().to_owned(), v.replace("!important", "").trim().to_owned()));
+    let pair = |d: &str| {
+        d.split_once(':')
+            .map(|(k, v)| (k.trim().to_owned(), v.replace("!important", "").trim().to_owned()))
+    };
     text.split(';').filter_map(pair).collect()
 }
 
@@ -176,7 +193,8 @@ impl<'a> Reader<'a> {
         if matches!(tag, "g" | "svg" | "a") {
             let name = node.attribute((INKSCAPE, "label")).or_else(|| node.attribute("id"));
             if let Some(name) = name {
-                // A group inside a layer that is known does not change the layer unless it tells one itself.
+                // A group inside a layer that is known does not change the layer unless it tells
+                // one itself.
                 let told = Operation::of_name(name);
                 if told.is_some() || here.operation.is_none() {
                     here.layer = name.to_owned();
@@ -193,18 +211,22 @@ impl<'a> Reader<'a> {
         if here.depth > DEEPEST * 4 {
             return Err(ArtError::TooDeep);
         }
-        let side = |name: &str, whole: f64| node.attribute(name).and_then(|v| length(v, whole)).map_or(0.0, |l| l.0);
+        let side = |name: &str, whole: f64| {
+            node.attribute(name).and_then(|v| length(v, whole)).map_or(0.0, |l| l.0)
+        };
         let (w, h) = (here.view.x, here.view.y);
         match node.tag_name().name() {
             "g" | "a" | "switch" => self.children(node, &here)?,
             "svg" => {
-                here.transform *= DAffine2::from_translation(DVec2::new(side("x", w), side("y", h)));
+                here.transform *=
+                    DAffine2::from_translation(DVec2::new(side("x", w), side("y", h)));
                 self.viewport(node, &mut here);
                 self.children(node, &here)?;
             }
             "use" => self.reuse(node, here, DVec2::new(side("x", w), side("y", h)))?,
             "text" => {
-                let text: String = node.descendants().filter_map(|n| n.text()).collect::<Vec<_>>().concat();
+                let text: String =
+                    node.descendants().filter_map(|n| n.text()).collect::<Vec<_>>().concat();
                 let at = here.transform.transform_point2(DVec2::new(side("x", w), side("y", h)));
                 if is_visible && !text.trim().is_empty() {
                     self.out.text(text.split_whitespace().collect::<Vec<_>>().join(" "), at);
@@ -222,18 +244,30 @@ impl<'a> Reader<'a> {
 
     /// The view box of a nested view or symbol.
     fn viewport(&self, node: Node<'_, '_>, here: &mut Context) {
-        let side = |name: &str, whole: f64| node.attribute(name).and_then(|v| length(v, whole)).map_or(whole, |l| l.0);
+        let side = |name: &str, whole: f64| {
+            node.attribute(name).and_then(|v| length(v, whole)).map_or(whole, |l| l.0)
+        };
         let port = DVec2::new(side("width", here.view.x), side("height", here.view.y));
-        if let Some(view) =
-            node.attribute("viewBox").map(point_list).filter(|v| v.len() == 2 && v[1].min_element() > 0.0)
+        if let Some(view) = node
+            .attribute("viewBox")
+            .map(point_list)
+            .filter(|v| v.len() == 2 && v[1].min_element() > 0.0)
         {
             here.transform *= fit(view[0], view[1], port, node.attribute("preserveAspectRatio"));
             here.view = view[1];
         }
     }
 
-    fn reuse(&mut self, node: Node<'a, 'a>, mut here: Context, shift: DVec2) -> Result<(), ArtError> {
-        let link = node.attribute("href").or_else(|| node.attribute((XLINK, "href"))).and_then(|l| l.strip_prefix('#'));
+    fn reuse(
+        &mut self,
+        node: Node<'a, 'a>,
+        mut here: Context,
+        shift: DVec2,
+    ) -> Result<(), ArtError> {
+        let link = node
+            .attribute("href")
+            .or_else(|| node.attribute((XLINK, "href")))
+            .and_then(|l| l.strip_prefix('#'));
         let Some(&target) = link.and_then(|id| self.ids.get(id)) else { return Ok(()) };
         here.transform *= DAffine2::from_translation(shift);
         // One use in another counts for more than one group in another.
@@ -253,8 +287,11 @@ impl<'a> Reader<'a> {
         let Some(colour) = here.stroke.or(here.fill) else { return };
         for (points, closed) in subpaths {
             let points = points.into_iter().map(|p| here.transform.transform_point2(p)).collect();
-            let told = here.operation.or_else(|| node.attribute((INKSCAPE, "label")).and_then(Operation::of_name));
-            let place = Place { layer: &here.layer, name: node.attribute("id"), operation: told, colour };
+            let told = here
+                .operation
+                .or_else(|| node.attribute((INKSCAPE, "label")).and_then(Operation::of_name));
+            let place =
+                Place { layer: &here.layer, name: node.attribute("id"), operation: told, colour };
             self.out.path((points, closed), &place);
         }
     }
@@ -280,7 +317,9 @@ fn shape(node: Node<'_, '_>, here: &Context, side: Side<'_>) -> Subpaths {
             let axes = [DVec2::X * radii.x, DVec2::Y * radii.y];
             vec![(flattener.ellipse(at("cx", "cy"), axes), true)]
         }
-        "rect" => rectangle(at("x", "y"), at("width", "height"), (node, side, here.view), &flattener),
+        "rect" => {
+            rectangle(at("x", "y"), at("width", "height"), (node, side, here.view), &flattener)
+        }
         _ => Vec::new(),
     }
 }

@@ -9,7 +9,11 @@ pub(super) type Subpaths = Vec<(Vec<DVec2>, bool)>;
 
 /// Reads path data up to its first mistake, as browsers do.
 pub(super) fn subpaths(data: &str, flattener: &Flattener) -> Subpaths {
-    let mut reader = PathReader { numbers: Numbers { text: data.as_bytes(), at: 0 }, done: Vec::new(), flattener };
+    let mut reader = PathReader {
+        numbers: Numbers { text: data.as_bytes(), at: 0 },
+        done: Vec::new(),
+        flattener,
+    };
     reader.read();
     reader.done
 }
@@ -30,7 +34,12 @@ impl PathReader<'_> {
         loop {
             match self.numbers.letter() {
                 Some(letter) => command = letter,
-                None if self.numbers.is_at_end() || command == 0 || command.eq_ignore_ascii_case(&b'z') => break,
+                None if self.numbers.is_at_end()
+                    || command == 0
+                    || command.eq_ignore_ascii_case(&b'z') =>
+                {
+                    break;
+                }
                 // Further numbers after a move are lines.
                 None if command == b'M' => command = b'L',
                 None if command == b'm' => command = b'l',
@@ -56,7 +65,9 @@ impl PathReader<'_> {
             if points.is_empty() {
                 points.push(current);
             }
-            let Some(next) = self.draw(letter, base, current, &mut control, &mut points) else { break };
+            let Some(next) = self.draw(letter, base, current, &mut control, &mut points) else {
+                break;
+            };
             current = next;
         }
         self.flush(&mut points);
@@ -78,19 +89,22 @@ impl PathReader<'_> {
         points: &mut Vec<DVec2>,
     ) -> Option<DVec2> {
         let n = &mut self.numbers;
-        let mirrored = |kind: u8, of: &(DVec2, u8)| if of.1 == kind { 2.0 * current - of.0 } else { current };
+        let mirrored =
+            |kind: u8, of: &(DVec2, u8)| if of.1 == kind { 2.0 * current - of.0 } else { current };
         let (end, last) = match letter {
             b'L' => (base + n.point()?, (current, 0)),
             b'H' => (DVec2::new(base.x + n.number()?, current.y), (current, 0)),
             b'V' => (DVec2::new(current.x, base.y + n.number()?), (current, 0)),
             b'C' | b'S' => {
-                let first = if letter == b'C' { base + n.point()? } else { mirrored(b'C', control) };
+                let first =
+                    if letter == b'C' { base + n.point()? } else { mirrored(b'C', control) };
                 let (second, end) = (base + n.point()?, base + n.point()?);
                 self.flattener.cubic([current, first, second, end], points);
                 (end, (second, b'C'))
             }
             b'Q' | b'T' => {
-                let middle = if letter == b'Q' { base + n.point()? } else { mirrored(b'Q', control) };
+                let middle =
+                    if letter == b'Q' { base + n.point()? } else { mirrored(b'Q', control) };
                 let end = base + n.point()?;
                 self.flattener.quadratic([current, middle, end], points);
                 (end, (middle, b'Q'))
@@ -184,7 +198,8 @@ pub(super) fn point_list(text: &str) -> Vec<DVec2> {
     std::iter::from_fn(|| numbers.point()).collect()
 }
 
-/// A length with its unit in user units of 1/96 in, or in percent of `whole`. The unit is returned, too.
+/// A length with its unit in user units of 1/96 in, or in percent of `whole`. The unit is returned,
+/// too.
 pub(super) fn length(text: &str, whole: f64) -> Option<(f64, String)> {
     let mut numbers = Numbers::of(text);
     let value = numbers.number()?;
@@ -212,7 +227,9 @@ pub(super) fn transform(text: &str) -> DAffine2 {
         let Some((name, arguments)) = part.split_once('(') else { continue };
         let mut numbers = Numbers::of(arguments);
         let n: Vec<f64> = std::iter::from_fn(|| numbers.number()).collect();
-        let shear = |x: f64, y: f64| DAffine2::from_mat2(DMat2::from_cols(DVec2::new(1.0, y), DVec2::new(x, 1.0)));
+        let shear = |x: f64, y: f64| {
+            DAffine2::from_mat2(DMat2::from_cols(DVec2::new(1.0, y), DVec2::new(x, 1.0)))
+        };
         all *= match (name.trim_matches(|c: char| c.is_whitespace() || c == ','), n.as_slice()) {
             ("matrix", &[a, b, c, d, e, f]) => DAffine2::from_cols_array(&[a, b, c, d, e, f]),
             ("translate", &[x]) => DAffine2::from_translation(DVec2::new(x, 0.0)),

@@ -83,34 +83,48 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Header, usize, &[u8]), Located> {
     let mut rest = bytes;
     let first = take_line(&mut rest).unwrap_or_default();
     if first.trim_ascii() != b"ply" {
-        return Err(Located::at(1, ContentFault::NotThisFormat { format: "PLY", text: excerpt(first) }));
+        return Err(Located::at(
+            1,
+            ContentFault::NotThisFormat { format: "PLY", text: excerpt(first) },
+        ));
     }
     let mut encoding = None;
     let mut elements = Vec::new();
     for number in 2.. {
         let Some(line) = take_line(&mut rest) else { break };
-        let fault =
-            |wanted| Located::at(number, ContentFault::BadHeader { text: excerpt(line), format: "PLY", wanted });
+        let fault = |wanted| {
+            Located::at(
+                number,
+                ContentFault::BadHeader { text: excerpt(line), format: "PLY", wanted },
+            )
+        };
         let parts: Vec<&[u8]> = words(line).collect();
         match parts[..] {
             [] | [b"comment" | b"obj_info", ..] => {}
             [b"format", name, ..] => {
                 let known = encoding_of(name);
-                encoding = Some(
-                    known.ok_or_else(|| fault("known formats are ascii and binary_little_endian or _big_endian"))?,
-                );
+                encoding = Some(known.ok_or_else(|| {
+                    fault("known formats are ascii and binary_little_endian or _big_endian")
+                })?);
             }
             [b"element", name, count] => {
                 let element = element(name, count);
-                elements.push(element.ok_or_else(|| fault("an element needs a name and a count below 2^64"))?);
+                elements.push(
+                    element
+                        .ok_or_else(|| fault("an element needs a name and a count below 2^64"))?,
+                );
             }
             [b"property", ref about @ ..] => {
-                let property = property(about).ok_or_else(|| fault("a property needs a known type and a name"))?;
-                let element = elements.last_mut().ok_or_else(|| fault("properties stand after their element"))?;
+                let property = property(about)
+                    .ok_or_else(|| fault("a property needs a known type and a name"))?;
+                let element = elements
+                    .last_mut()
+                    .ok_or_else(|| fault("properties stand after their element"))?;
                 element.properties.push(property);
             }
             [b"end_header"] => {
-                let encoding = encoding.ok_or_else(|| fault("a line like `format ascii 1.0` must come before it"))?;
+                let encoding = encoding
+                    .ok_or_else(|| fault("a line like `format ascii 1.0` must come before it"))?;
                 return Ok((Header { encoding, elements }, number, rest));
             }
             _ => return Err(fault("write a comment as `comment ...`")),
@@ -138,7 +152,11 @@ fn encoding_of(name: &[u8]) -> Option<Encoding> {
 
 fn element(name: &[u8], count: &[u8]) -> Option<Element> {
     let count = std::str::from_utf8(count).ok()?.parse().ok()?;
-    Some(Element { name: String::from_utf8_lossy(name).into_owned(), count, properties: Vec::new() })
+    Some(Element {
+        name: String::from_utf8_lossy(name).into_owned(),
+        count,
+        properties: Vec::new(),
+    })
 }
 
 fn property(about: &[&[u8]]) -> Option<Property> {
@@ -147,5 +165,9 @@ fn property(about: &[&[u8]]) -> Option<Property> {
         [item, name] => (None, item, name),
         _ => return None,
     };
-    Some(Property { name: String::from_utf8_lossy(name).into_owned(), item: Scalar::of_name(item)?, list_count })
+    Some(Property {
+        name: String::from_utf8_lossy(name).into_owned(),
+        item: Scalar::of_name(item)?,
+        list_count,
+    })
 }

@@ -32,12 +32,15 @@ impl Missing {
     pub fn within(self, element: &Element, index: usize) -> Located {
         let name = element.name.clone();
         match self {
-            Self::End => {
-                Located::anywhere(ContentFault::CutShort { element: name, index, count: element.count as usize })
-            }
-            Self::NotANumber { text, line } => {
-                Located::at(line, ContentFault::BadValue { text, element: name, index, wanted: "a number" })
-            }
+            Self::End => Located::anywhere(ContentFault::CutShort {
+                element: name,
+                index,
+                count: element.count as usize,
+            }),
+            Self::NotANumber { text, line } => Located::at(
+                line,
+                ContentFault::BadValue { text, element: name, index, wanted: "a number" },
+            ),
         }
     }
 }
@@ -60,8 +63,9 @@ impl Values for Text<'_> {
         let start = self.rest.iter().position(|b| !b.is_ascii_whitespace()).ok_or(Missing::End)?;
         let (space, from_word) = self.rest.split_at(start);
         // CR LF is one end, and so is CR alone.
-        let ends =
-            (0..space.len()).filter(|&i| space[i] == b'\n' || space[i] == b'\r' && space.get(i + 1) != Some(&b'\n'));
+        let ends = (0..space.len()).filter(|&i| {
+            space[i] == b'\n' || space[i] == b'\r' && space.get(i + 1) != Some(&b'\n')
+        });
         self.line += ends.count();
         let end = from_word.iter().position(u8::is_ascii_whitespace).unwrap_or(from_word.len());
         let (word, rest) = from_word.split_at(end);

@@ -6,12 +6,14 @@ use super::super::{FaceKind, Link, Mesh};
 use crate::mesh::{FaceId, HalfEdgeId, VertexId};
 
 impl Mesh {
-    /// Replaces a vertex by a face with a corner on each of its edges: V + k − 1, E + k, F + 1 for k edges.
+    /// Replaces a vertex by a face with a corner on each of its edges: V + k − 1, E + k, F + 1 for
+    /// k edges.
     ///
-    /// `outgoing` are the half-edges that leave `v`, in the order of [`Mesh::outgoing`], and `places` the positions of the
-    /// new corners on them. The first new corner keeps the id of `v`; the others are appended to `corners`. Returns the new
-    /// face. The same as dividing every edge, joining the new vertices through the faces and
-    /// cutting out what is left around `v`, without making what would go again.
+    /// `outgoing` are the half-edges that leave `v`, in the order of [`Mesh::outgoing`], and
+    /// `places` the positions of the new corners on them. The first new corner keeps the id of `v`;
+    /// the others are appended to `corners`. Returns the new face. The same as dividing every edge,
+    /// joining the new vertices through the faces and cutting out what is left around `v`, without
+    /// making what would go again.
     ///
     /// The caller has seen that `v` has at least two edges and no self-loop.
     pub(crate) fn replace_vertex(
@@ -34,7 +36,8 @@ impl Mesh {
         let k = outgoing.len();
         let (mut first_side, mut last_side) = (None, None);
         for i in 0..k {
-            // The face of the next half-edge arrives at v by the twin of this one: its new side leads from here to there.
+            // The face of the next half-edge arrives at v by the twin of this one: its new side
+            // leads from here to there.
             let (h, next) = (outgoing[i], outgoing[(i + 1) % k]);
             let (here, there) = (corners[first_corner + i], corners[first_corner + (i + 1) % k]);
             let side = self.new_edge(here, there).half_edge();
@@ -66,12 +69,15 @@ mod tests {
     #[test]
     fn every_corner_of_a_cube_becomes_a_triangle() {
         let corner = |i: usize| DVec3::new((i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2) as f64);
-        let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let faces =
+            [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
         let mut mesh = Mesh::from_faces((0..8).map(corner), faces).expect("a cube");
         for v in (0..8).map(VertexId::new) {
             let outgoing: Vec<HalfEdgeId> = mesh.outgoing(v).collect();
-            let places: Vec<DVec3> =
-                outgoing.iter().map(|&h| mesh.position(v).lerp(mesh.position(mesh.target(h)), 0.25)).collect();
+            let places: Vec<DVec3> = outgoing
+                .iter()
+                .map(|&h| mesh.position(v).lerp(mesh.position(mesh.target(h)), 0.25))
+                .collect();
             let mut corners = Vec::new();
             let cap = mesh.replace_vertex(v, &outgoing, &places, &mut corners);
             assert_sound(&mesh);

@@ -19,14 +19,16 @@ pub(crate) struct Region {
 impl Mesh {
     /// Cuts a region of faces out and closes every boundary walk of it by one new face.
     ///
-    /// Edges between two faces of the region and vertices with no edge left go; the edges on the region's boundary stay.
-    /// The same as deleting the region's inner edges one by one, in time proportional to the region, except that a region
-    /// of any genus and any number of boundary walks is closed by discs. Returns one half-edge on each new face. A
-    /// component that lies wholly in the region disappears.
+    /// Edges between two faces of the region and vertices with no edge left go; the edges on the
+    /// region's boundary stay. The same as deleting the region's inner edges one by one, in time
+    /// proportional to the region, except that a region of any genus and any number of boundary
+    /// walks is closed by discs. Returns one half-edge on each new face. A component that lies
+    /// wholly in the region disappears.
     ///
-    /// Where the boundary passes a vertex several times, `pairing` may choose how the walks go on: it is given the boundary
-    /// half-edges that end there, each with its successor around the region, and may permute the successors. The fans that
-    /// no longer hang together then get vertices of their own.
+    /// Where the boundary passes a vertex several times, `pairing` may choose how the walks go on:
+    /// it is given the boundary half-edges that end there, each with its successor around the
+    /// region, and may permute the successors. The fans that no longer hang together then get
+    /// vertices of their own.
     pub(crate) fn replace_region(
         &mut self,
         faces: &[FaceId],
@@ -39,8 +41,11 @@ impl Mesh {
     /// Everything that goes with a region of distinct faces.
     fn region_of(&mut self, faces: &[FaceId]) -> Region {
         let mut region = Region { faces: faces.to_vec(), ..Region::default() };
-        let members: Vec<HalfEdgeId> =
-            faces.iter().filter_map(|&f| self.face_start(f)).flat_map(|s| self.loop_from(s)).collect();
+        let members: Vec<HalfEdgeId> = faces
+            .iter()
+            .filter_map(|&f| self.face_start(f))
+            .flat_map(|s| self.loop_from(s))
+            .collect();
         let mut sorted = faces.to_vec();
         sorted.sort_unstable();
         let is_inside = |f: FaceId| sorted.binary_search(&f).is_ok();
@@ -62,7 +67,8 @@ impl Mesh {
         region
     }
 
-    /// [`Self::replace_region`] for a caller that knows all that goes; nothing but that is looked at.
+    /// [`Self::replace_region`] for a caller that knows all that goes; nothing but that is looked
+    /// at.
     pub(crate) fn replace_region_of(
         &mut self,
         region: &Region,
@@ -71,7 +77,8 @@ impl Mesh {
         for &f in &region.faces {
             self.free_face(f);
         }
-        let is_inside = |mesh: &Self, h: HalfEdgeId| mesh.faces[mesh.face(h).index()].start == Link::FREE;
+        let is_inside =
+            |mesh: &Self, h: HalfEdgeId| mesh.faces[mesh.face(h).index()].start == Link::FREE;
         let mut boundary: Vec<(HalfEdgeId, HalfEdgeId)> = Vec::with_capacity(region.boundary.len());
         for &h in &region.boundary {
             let mut next = self.next(h);
@@ -98,7 +105,8 @@ impl Mesh {
         self.close_loops(&boundary)
     }
 
-    /// Offers the passes of every vertex with more than one of them to `pairing`; returns those vertices.
+    /// Offers the passes of every vertex with more than one of them to `pairing`; returns those
+    /// vertices.
     fn pair_at_touched_vertices(
         &self,
         boundary: &mut [(HalfEdgeId, HalfEdgeId)],
@@ -126,7 +134,9 @@ impl Mesh {
         let mut fans: Vec<Vec<HalfEdgeId>> = Vec::new();
         for start in leaving {
             if !fans.iter().flatten().any(|&h| h == start) {
-                let walk = std::iter::successors(Some(start), |&h| Some(self.next(h.twin())).filter(|&n| n != start));
+                let walk = std::iter::successors(Some(start), |&h| {
+                    Some(self.next(h.twin())).filter(|&n| n != start)
+                });
                 fans.push(walk.collect());
             }
         }

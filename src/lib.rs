@@ -28,15 +28,11 @@
 //!
 //! The modules are layers; each uses only those below it (`docs/architecture.md`).
 
-pub mod code;
-pub mod geom;
-pub mod progress;
-pub mod units;
+pub use kerfold_kernel::{code, geom, measure, mesh, progress, units};
+pub use kerfold_sheet::{lint, net, sheet};
 
-pub mod mesh;
-pub mod net;
+pub mod explain;
 
-pub mod measure;
 pub mod seam;
 pub mod select;
 pub mod shape;
@@ -45,14 +41,18 @@ pub mod bloom;
 pub mod check;
 pub mod op;
 pub mod panel;
-pub mod sheet;
 pub mod unfold;
 
 pub mod io;
-pub mod lint;
 pub mod picture;
 pub mod recipe;
 
 pub mod gallery;
 
+#[cfg(feature = "cli")]
 pub mod cli;
+
+/// Small meshes for tests, shared with the kernel's own.
+#[cfg(test)]
+#[path = "../crates/kerfold-kernel/src/measure/fixtures.rs"]
+mod fixtures;

@@ -5,7 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use kerfold::code::{Code, Coded, pages};
+use kerfold::code::{Code, Coded};
+use kerfold::explain::pages;
 use kerfold::op::OpError;
 use kerfold::recipe::{StepError, StepFailure};
 

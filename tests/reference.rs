@@ -61,7 +61,7 @@ fn called(text: &str) -> (BTreeSet<&str>, BTreeSet<&str>) {
 #[test]
 fn the_pages_of_errors_name_options_and_verbs_that_exist() {
     let made = kerfold::cli::reference();
-    let pages: Vec<&str> = kerfold::code::pages().iter().map(|page| page.text).collect();
+    let pages: Vec<&str> = kerfold::explain::pages().iter().map(|page| page.text).collect();
     let text = pages.join("\n");
     let (flags, verbs) = called(&text);
     assert!(flags.len() > 40 && verbs.len() > 10, "the pages were not read");

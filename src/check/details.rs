@@ -74,7 +74,7 @@ pub fn details(mesh: &Mesh) -> Details {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::fixtures::{cube, octahedron, open_box};
+    use crate::fixtures::{cube, octahedron, open_box};
 
     #[test]
     fn a_cube_has_right_angles_everywhere() {

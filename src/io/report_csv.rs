@@ -42,7 +42,7 @@ fn quoted(field: &str) -> String {
 mod tests {
     use super::*;
     use crate::check::{CheckParams, check};
-    use crate::measure::fixtures::{cube, cube_corners, ell_prism};
+    use crate::fixtures::{cube, cube_corners, ell_prism};
     use crate::mesh::{Mesh, VertexId};
     use glam::DVec3;
 

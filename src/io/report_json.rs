@@ -343,7 +343,7 @@ fn object(fields: &[(&str, String)]) -> String {
 mod tests {
     use super::*;
     use crate::check::{CheckParams, Requirement, check};
-    use crate::measure::fixtures::{cube, ell_prism, octahedron, open_box};
+    use crate::fixtures::{cube, ell_prism, octahedron, open_box};
     use crate::measure::summary;
     use serde_json::{Value, json};
 

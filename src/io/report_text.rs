@@ -377,7 +377,7 @@ fn share(share: f64) -> String {
 mod tests {
     use super::*;
     use crate::check::{CheckParams, Profile, Requirement, check};
-    use crate::measure::fixtures::{cube, ell_prism, octahedron, open_box};
+    use crate::fixtures::{cube, ell_prism, octahedron, open_box};
     use crate::measure::summary;
     use crate::mesh::{Mesh, VertexId};
 

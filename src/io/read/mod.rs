@@ -355,7 +355,8 @@ impl Source<'_> {
                 (face(*h), vec![face(*f), face(*g)])
             }
             BuildError::FlippedFace { first, second, .. } => (face(*second), vec![face(*first)]),
-            BuildError::NoFaces | BuildError::TooMany { .. } => (None, vec![]),
+            // No faces, or too many; or a fault of a later kernel that names no line.
+            _ => (None, vec![]),
         };
         IoError::Mesh {
             place: self.place(line),
@@ -376,7 +377,8 @@ impl Source<'_> {
             BuildError::FlippedFace { first, second, .. } => {
                 [first, second].into_iter().for_each(in_file)
             }
-            BuildError::NoFaces | BuildError::NotFinite { .. } | BuildError::TooMany { .. } => {}
+            // The others name no face.
+            _ => {}
         }
         fault
     }

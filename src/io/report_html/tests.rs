@@ -10,7 +10,7 @@ use crate::check::{Details, Report};
 use crate::io::report_json::check_json_with;
 use crate::io::report_page::ReportRows;
 use crate::io::report_page::words::{figure, optional};
-use crate::measure::fixtures::{cube, octahedron, open_box};
+use crate::fixtures::{cube, octahedron, open_box};
 use crate::mesh::{Mesh, VertexId};
 use crate::picture::RenderParams;
 use crate::recipe::report_pictures;

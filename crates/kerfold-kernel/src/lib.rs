@@ -1,0 +1,13 @@
+//! A half-edge mesh kernel.
+
+pub mod code;
+pub mod geom;
+pub mod progress;
+pub mod units;
+
+#[cfg(feature = "mesh")]
+pub mod measure;
+#[cfg(feature = "mesh")]
+pub mod mesh;
+#[cfg(feature = "mesh")]
+pub mod shape;

@@ -9,11 +9,11 @@
 mod clock;
 
 use clock::{peak_megabytes, process_seconds};
-use kerfold::io::svg::write_svg;
+use kerfold::io::sheet::svg::write_svg;
+use kerfold::make::{PanelFiles, SolidFile, panel_model, panel_outputs};
 use kerfold::mesh::Mesh;
 use kerfold::panel::{Hardware, PanelParams, ReferenceSide, panel_net, plates, schedule};
 use kerfold::progress::Silent;
-use kerfold::recipe::{PanelFiles, SolidFile, panel_model, panel_outputs};
 use kerfold::shape::{hexagonal_facade, random_tangent_polytope};
 use kerfold::sheet::{Labels, NestParams, SheetParams, lay_out};
 use kerfold::unfold::Source;

@@ -5,7 +5,7 @@
 
 use std::error::Error;
 
-use kerfold::io::svg::write_svg;
+use kerfold::io::sheet::svg::write_svg;
 use kerfold::progress::Silent;
 use kerfold::shape::{SolidParams, solid};
 use kerfold::sheet::{Joint, SheetParams, lay_out};

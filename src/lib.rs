@@ -44,6 +44,7 @@ pub mod panel;
 pub mod unfold;
 
 pub mod io;
+pub mod make;
 pub mod picture;
 pub mod recipe;
 

@@ -48,11 +48,7 @@ fn assert_order(net: &Net) {
     // Closing goes on like a zip: where nothing else is open at one end, as long as there is
     // such a place.
     let vertices = |number: usize| -> BTreeSet<usize> {
-        assembly.stretches[number - 1]
-            .seams
-            .iter()
-            .flat_map(|&(s, _)| net.seams[s].edge)
-            .collect()
+        assembly.stretches[number - 1].seams.iter().flat_map(|&(s, _)| net.seams[s].edge).collect()
     };
     let mut open: Vec<usize> = assembly.steps.iter().map(|s| s.number).collect();
     for (i, step) in assembly.steps.iter().enumerate() {

@@ -7,8 +7,9 @@ use std::path::{Path, PathBuf};
 
 use kerfold::code::{Code, Coded};
 use kerfold::explain::pages;
+use kerfold::make::MakeError;
 use kerfold::op::OpError;
-use kerfold::recipe::{StepError, StepFailure};
+use kerfold::recipe::StepError;
 
 fn source_files(folder: &Path) -> Vec<PathBuf> {
     let entries =
@@ -136,7 +137,7 @@ fn every_page_is_a_title_and_two_sentences() {
 
 #[test]
 fn an_error_shows_the_code_of_its_innermost_cause() {
-    let cause = Box::new(StepFailure::from(OpError::OffsetOutOfRange { offset: 3.0 }));
+    let cause = Box::new(MakeError::from(OpError::OffsetOutOfRange { offset: 3.0 }));
     let error = StepError { step: 2, verb: "cut vertex", cause };
     assert_eq!(error.code().to_string(), "E301");
 }

@@ -2,9 +2,9 @@
 //! the lines that are drawn are read.
 
 use glam::DVec2;
+use kerfold::make::{FabricateParams, fabricate};
 use kerfold::net::Net;
 use kerfold::progress::Silent;
-use kerfold::recipe::{FabricateParams, fabricate};
 use kerfold::shape::{SolidParams, solid};
 use kerfold::sheet::{
     Angles, Drawing, Joint, LayerKind, MarkKind, SheetParams, SheetSet, SheetSize, lay_out,

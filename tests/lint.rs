@@ -5,12 +5,13 @@ use std::path::Path;
 
 use glam::DVec2;
 use kerfold::io::artwork::read_artwork;
-use kerfold::io::pdf::tiles::write_tiles;
-use kerfold::io::sheet_files::sheet_bytes;
+use kerfold::io::sheet::files::sheet_bytes;
+use kerfold::io::sheet::pdf::tiles::write_tiles;
 use kerfold::lint::{Check, Finding, LintParams, lint};
+use kerfold::make::{material, with_material};
 use kerfold::net::{MeshCounts, Net, Piece, PieceId, Proof};
 use kerfold::progress::Silent;
-use kerfold::recipe::{Job, Recipe, material, with_material};
+use kerfold::recipe::{Job, Recipe};
 use kerfold::sheet::{
     CommonLine, NestParams, Paper, Preset, ScoreStyle, SheetFormat, SheetParams, SheetSize,
     kerf_coupon, lay_out,

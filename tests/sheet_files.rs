@@ -1,11 +1,11 @@
 //! DXF, PDF and LightBurn files of a small net, judged by what their formats demand; readers that
 //! others wrote judge them in `.ci/readers`.
 
-use kerfold::io::dxf::write_dxf;
-use kerfold::io::lbrn2::write_lbrn2;
-use kerfold::io::pdf::tiles::write_tiles;
-use kerfold::io::pdf::write_pdf;
-use kerfold::io::sheet_files::sheet_files;
+use kerfold::io::sheet::dxf::write_dxf;
+use kerfold::io::sheet::files::sheet_files;
+use kerfold::io::sheet::lbrn2::write_lbrn2;
+use kerfold::io::sheet::pdf::tiles::write_tiles;
+use kerfold::io::sheet::pdf::write_pdf;
 use kerfold::progress::Silent;
 use kerfold::recipe::{Job, Recipe};
 use kerfold::sheet::{Drawing, Paper, PartFiles, Preset, SheetParams};

@@ -7,8 +7,8 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use glam::DVec2;
-use kerfold::io::layout_json::write_layout_json;
-use kerfold::io::svg::write_svg;
+use kerfold::io::sheet::layout::write_layout_json;
+use kerfold::io::sheet::svg::write_svg;
 use kerfold::net::{
     EdgeLabel, FlatFace, Fold, FoldKind, MeshCounts, Net, Piece, PieceId, Proof, Seam, SeamSide,
     Segment,

@@ -305,9 +305,7 @@ mod tests {
     use crate::check::{
         CheckKind, CheckParams, Element, Profile, Report, Requirement, Unit, Verdict, check,
     };
-    use crate::fixtures::{
-        CUBE_FACES, cube, cube_corners, ell_prism, octahedron, open_box, torus,
-    };
+    use crate::fixtures::{CUBE_FACES, cube, cube_corners, ell_prism, octahedron, open_box, torus};
     use crate::mesh::{Mesh, VertexId};
     use crate::units::Length;
     use glam::DVec3;

@@ -8,15 +8,15 @@ use super::output::command_line;
 use super::{Console, Outcome};
 use crate::check::{CheckParams, Report, check, details};
 use crate::io::output::write_file;
-use crate::io::report_csv::check_csv;
-use crate::io::report_html::check_html;
-use crate::io::report_json::check_json_with;
-use crate::io::report_page::{ReportPage, ReportRows};
-use crate::io::report_pdf::check_pdf;
-use crate::io::report_text::check_text;
+use crate::io::report::csv::check_csv;
+use crate::io::report::html::check_html;
+use crate::io::report::json::check_json_with;
+use crate::io::report::page::{ReportPage, ReportRows};
+use crate::io::report::pdf::check_pdf;
+use crate::io::report::text::check_text;
+use crate::make::report_pictures;
 use crate::mesh::Mesh;
 use crate::picture::{RenderParams, UpAxis, View};
-use crate::recipe::report_pictures;
 
 /// Measure planarity, valence, manifoldness, convexity and genus against limits; exit code 1 when
 /// something breaks them

@@ -7,7 +7,8 @@ use super::run::finish;
 use super::terminal::Terminal;
 use super::{Console, Outcome};
 use crate::io::ReadOptions;
-use crate::recipe::{DformParams, Job, ReadStep, Recipe, ShowParams, Step};
+use crate::make::{DformParams, ShowParams};
+use crate::recipe::{Job, ReadStep, Recipe, Step};
 use crate::shape::{ShapeError, SolidName, SolidParams};
 use crate::sheet::SheetParams;
 

@@ -10,9 +10,10 @@ use crate::io::IoError;
 use crate::io::artwork::ArtError;
 use crate::io::pieces_json::PiecesJsonError;
 use crate::lint::LimitError;
+use crate::make::MakeError;
 use crate::op::OpError;
 use crate::picture::PictureError;
-use crate::recipe::{RecipeError, StepError, StepFailure};
+use crate::recipe::{RecipeError, StepError};
 use crate::seam::SeamError;
 use crate::shape::ShapeError;
 
@@ -39,7 +40,7 @@ pub(super) enum CliError {
     something.svg, .dxf, .pdf or .lbrn2", path.display())]
     UnknownSheetFormat { path: PathBuf },
     #[error(transparent)]
-    Step(#[from] StepFailure),
+    Step(#[from] MakeError),
     #[error("{}: {error}", path.display())]
     Recipe { path: PathBuf, error: Box<RecipeError> },
     #[error("{}: there are no recipes in this folder; put files that end in .toml into it", path.display())]

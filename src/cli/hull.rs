@@ -7,10 +7,10 @@ use super::terminal::Terminal;
 use super::{Console, Outcome};
 use crate::io::output::write_file;
 use crate::io::{ReadOptions, read_mesh};
+use crate::make::solid_of_planes;
 use crate::mesh::Mesh;
 use crate::op::{HullParams, HullReport, HullStep, OpContext, hull};
 use crate::picture::{RenderParams, render_model};
-use crate::recipe::solid_of_planes;
 
 /// Make the convex hull of a mesh, its dual (one plane through each corner of the hull), or the
 /// solid that half-spaces bound

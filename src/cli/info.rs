@@ -4,8 +4,8 @@ use super::error::CliError;
 use super::input::Input;
 use super::output::command_line;
 use super::{Console, Outcome};
-use crate::io::report_json::info_json;
-use crate::io::report_text::info_text;
+use crate::io::report::json::info_json;
+use crate::io::report::text::info_text;
 use crate::measure::summary;
 
 /// Tell what a mesh is: counts, parts, genus, rims, size, edge lengths, valences

@@ -8,8 +8,8 @@ use super::error::CliError;
 use super::output::command_line;
 use super::{Console, Outcome};
 use crate::io::output::write_file;
-use crate::io::sheet_files::sheet_bytes;
-use crate::recipe::{MaterialError, StepFailure, material};
+use crate::io::sheet::files::sheet_bytes;
+use crate::make::{MakeError, MaterialError, material};
 use crate::sheet::{Preset, SheetFormat, SheetParams, kerf_coupon};
 use crate::units::Length;
 
@@ -65,7 +65,7 @@ pub(super) fn run(args: &KerfTestArgs, console: &Console) -> Result<Outcome, Cli
 }
 
 fn failure(error: MaterialError) -> CliError {
-    CliError::Step(StepFailure::from(error))
+    CliError::Step(MakeError::from(error))
 }
 
 fn format_of(path: &Path) -> Result<SheetFormat, CliError> {

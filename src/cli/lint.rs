@@ -10,7 +10,7 @@ use super::{Console, Outcome};
 use crate::code::Coded;
 use crate::io::artwork::read_artwork;
 use crate::lint::{Artwork, Finding, LintParams, LintReport, lint};
-use crate::recipe::{StepFailure, material};
+use crate::make::{MakeError, material};
 
 /// Find what a shop would send back in drawings to be cut, anybody's: SVG, DXF or PDF
 #[derive(Debug, clap::Args)]
@@ -59,7 +59,7 @@ fn limits(args: &LintArgs) -> Result<LintParams, CliError> {
     let mut params = args.params.clone();
     if let Some(name) = &args.material {
         let made_of = material(name, args.materials.as_deref())
-            .map_err(|e| CliError::Step(StepFailure::from(e)))?;
+            .map_err(|e| CliError::Step(MakeError::from(e)))?;
         params.thickness = params.thickness.or(Some(made_of.thickness));
         params.kerf = params.kerf.or(Some(made_of.kerf));
         params.web = params.web.or(Some(made_of.web));

@@ -8,8 +8,8 @@ use super::error::CliError;
 use super::output::{command_line, short};
 use super::terminal::Terminal;
 use super::{Console, Outcome};
-use crate::recipe::{
-    Fabrication, NestStep, StepFailure, fabrication_outputs, nest_files, with_material,
+use crate::make::{
+    Fabrication, MakeError, NestStep, fabrication_outputs, nest_files, with_material,
 };
 use crate::sheet::SheetParams;
 
@@ -36,7 +36,7 @@ pub(super) struct NestArgs {
 
 pub(super) fn run(args: &NestArgs, console: &Console) -> Result<Outcome, CliError> {
     let progress = Terminal::new(console.quiet);
-    let sheet = with_material(&args.sheet, Path::new("")).map_err(StepFailure::from)?;
+    let sheet = with_material(&args.sheet, Path::new("")).map_err(MakeError::from)?;
     let fabrication = nest_files(&args.nest, &sheet, Path::new(""), &progress)?;
     let command = command_line();
     let written =

@@ -9,8 +9,8 @@ use super::error::CliError;
 use super::input::Input;
 use super::terminal::Terminal;
 use super::{Console, Outcome};
+use crate::make::operate;
 use crate::op::{OpContext, Operate};
-use crate::recipe::operate;
 
 /// A mesh, the parameters of an operator, and the mesh to write.
 #[derive(Debug, Args)]

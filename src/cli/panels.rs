@@ -12,8 +12,8 @@ use super::unfold::summary_json;
 use super::{Console, Outcome};
 use crate::code::Coded;
 use crate::io::panels_json::finding;
+use crate::make::{MakeError, PanelFiles, Panelled, panel_model, panel_outputs, with_material};
 use crate::panel::{PanelFinding, PanelParams, PanelRequirement};
-use crate::recipe::{PanelFiles, Panelled, StepFailure, panel_model, panel_outputs, with_material};
 use crate::sheet::SheetParams;
 use crate::unfold::Source;
 
@@ -41,7 +41,7 @@ pub(super) struct PanelsArgs {
 
 pub(super) fn run(args: &PanelsArgs, console: &Console) -> Result<Outcome, CliError> {
     let read = args.input.read()?;
-    let sheet = with_material(&args.sheet, Path::new("")).map_err(StepFailure::from)?;
+    let sheet = with_material(&args.sheet, Path::new("")).map_err(MakeError::from)?;
     let progress = Terminal::new(console.quiet);
     let source = Source { scale: read.scale, split_vertices: &read.splits };
     let panelled =

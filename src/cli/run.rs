@@ -10,7 +10,8 @@ use super::panels::{panels_json, panels_text};
 use super::terminal::Terminal;
 use super::unfold::{summary_json, summary_text};
 use super::{Console, Outcome};
-use crate::recipe::{Fabrication, Job, Recipe, job_outputs};
+use crate::make::Fabrication;
+use crate::recipe::{Job, Recipe, job_outputs};
 use crate::sheet::SheetParams;
 
 /// Run a recipe: model, picture, report, pieces and sheets into a folder
@@ -53,7 +54,7 @@ pub(super) fn finish(
             "command": command, "name": name, "written": written, "notes": job.notes, "model": model_json(job.mesh()?),
             "verdict": report.verdict().name(), "fabrication": job.fabrication.as_ref().map(|(f, sheet)| summary_json(f, sheet)),
             "panels": panelled.map(panels_json),
-            "unclean": job.unclean.iter().map(ToString::to_string).collect::<Vec<_>>(),
+            "unclean": job.with_findings.iter().map(ToString::to_string).collect::<Vec<_>>(),
         });
         console.result(&format!("{summary:#}\n"))?;
     } else {
@@ -65,7 +66,7 @@ pub(super) fn finish(
             report.verdict().name(),
             job.check.profile.name()
         );
-        job.unclean.iter().for_each(|step| text += &format!("{step}\n"));
+        job.with_findings.iter().for_each(|step| text += &format!("{step}\n"));
         text +=
             &job.fabrication.as_ref().map_or_else(String::new, |(f, sheet)| summary_text(f, sheet));
         text += &panelled.map_or_else(String::new, panels_text);
@@ -76,7 +77,7 @@ pub(super) fn finish(
     }
     let has_panel_findings = panelled.is_some_and(|p| !p.findings.is_empty());
     let is_unclean =
-        has_findings && job.is_check_asked || has_panel_findings || !job.unclean.is_empty();
+        has_findings && job.is_check_asked || has_panel_findings || !job.with_findings.is_empty();
     Ok(if is_unclean { Outcome::Findings } else { Outcome::Clean })
 }
 

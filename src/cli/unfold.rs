@@ -9,12 +9,12 @@ use super::input::Input;
 use super::output::{command_line, model_text, short};
 use super::terminal::Terminal;
 use super::{Console, Outcome};
-use crate::picture::RenderParams;
-use crate::progress::Progress;
-use crate::recipe::{
-    FabricateParams, Fabrication, ShowParams, StepFailure, fabricate, fabrication_outputs,
+use crate::make::{
+    FabricateParams, Fabrication, MakeError, ShowParams, fabricate, fabrication_outputs,
     show_outputs, with_material,
 };
+use crate::picture::RenderParams;
+use crate::progress::Progress;
 use crate::sheet::SheetParams;
 use crate::unfold::{Source, UnfoldParams};
 
@@ -39,7 +39,7 @@ pub(super) struct UnfoldArgs {
 
 pub(super) fn run(args: &UnfoldArgs, console: &Console) -> Result<Outcome, CliError> {
     let read = args.input.read()?;
-    let sheet = with_material(&args.sheet, Path::new("")).map_err(StepFailure::from)?;
+    let sheet = with_material(&args.sheet, Path::new("")).map_err(MakeError::from)?;
     let progress = Terminal::new(console.quiet);
     let source = Source { scale: read.scale, split_vertices: &read.splits };
     let fabrication =

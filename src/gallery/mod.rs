@@ -15,8 +15,9 @@ use std::thread;
 pub use self::bundle::{BundledFile, bundled};
 pub use self::page::{gallery_html, gallery_markdown};
 use crate::code::{Code, Coded};
+use crate::make::{MakeError, Output};
 use crate::progress::Progress;
-use crate::recipe::{Job, Output, Recipe, RecipeError, StepError, StepFailure, job_outputs};
+use crate::recipe::{Job, Recipe, RecipeError, StepError, job_outputs};
 
 /// A recipe to be shown.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -94,7 +95,7 @@ pub enum GalleryError {
         /// Its name.
         name: String,
         /// What is wrong.
-        error: Box<StepFailure>,
+        error: Box<MakeError>,
     },
 }
 
@@ -142,7 +143,7 @@ pub fn exhibit(
         story: story(&recipe.text),
         recipe: recipe.text.clone(),
         findings: job
-            .unclean
+            .with_findings
             .iter()
             .map(ToString::to_string)
             .chain(findings.map(|f| f.message.clone()))

@@ -6,29 +6,19 @@
 
 mod base64;
 pub mod bloom_glb;
-pub mod dxf;
 mod error;
 mod format;
-pub mod layout_json;
-pub mod lbrn2;
 pub mod map_files;
 mod number;
 pub mod order_json;
 pub mod output;
 pub mod panels_csv;
 pub mod panels_json;
-pub mod pdf;
 pub mod pieces_json;
 pub mod planes_csv;
 mod read;
-pub mod report_csv;
-pub mod report_html;
-pub mod report_json;
-pub mod report_page;
-pub mod report_pdf;
-pub mod report_text;
-pub mod sheet_files;
-pub mod svg;
+pub mod report;
+pub mod sheet;
 mod write;
 
 pub use error::{ContentFault, IoError, Place};

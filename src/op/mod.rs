@@ -1,13 +1,8 @@
 //! Modelling operators, mesh in, mesh out; one operator, one file.
 
-mod bridge;
-mod chain;
-mod corner;
-mod cutter;
-mod divide;
+mod cut;
 mod error;
 mod finding;
-mod flat;
 mod handle;
 mod hull;
 mod menger;
@@ -16,23 +11,18 @@ mod planarize;
 mod report;
 mod resolve;
 mod rind;
-mod section;
 mod sierpinski;
 mod slice;
 mod subdivide;
-mod sweep;
 mod truncate;
 mod truncate_edge;
 mod truncate_face;
 mod truncate_vertex;
 
 #[cfg(test)]
-mod patterns;
-#[cfg(test)]
 mod tests;
 
-pub use chain::CutChain;
-pub use cutter::{Capping, Reach};
+pub use cut::{Capping, CutChain, Reach};
 pub use error::OpError;
 pub use finding::OpFinding;
 pub use handle::{FaceCorner, HandleParams, HandleReport, Weights, handle};

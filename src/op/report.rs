@@ -1,6 +1,6 @@
 //! What a chain of cuts made and removed.
 
-use super::cutter::{Cutter, Lineage};
+use super::cut::{Cutter, Lineage};
 use crate::mesh::{FaceId, Mesh, VertexId};
 use crate::select::Made;
 
@@ -96,7 +96,7 @@ pub(super) struct RoundMarks {
 impl RoundMarks {
     /// What the round made, in the ids that the cutter's mesh has now.
     pub(super) fn collect(&self, cutter: &Cutter) -> Made {
-        let mesh = &cutter.mesh;
+        let mesh = cutter.mesh();
         let is_cap = |f: FaceId| self.caps.binary_search(&cutter.lineage_of(f)).is_ok();
         let faces: Vec<FaceId> = mesh.faces().filter(|&f| is_cap(f)).collect();
         let mut vertices: Vec<VertexId> =

@@ -25,7 +25,7 @@ use std::collections::{BTreeSet, BinaryHeap, HashMap};
 use glam::DVec3;
 use serde::Deserialize;
 
-use super::cutter::{Capping, Cutter, Reach, SlicingPlane};
+use super::cut::{Capping, Cutter, Reach, SlicingPlane};
 use super::{OpContext, OpError};
 use crate::check::short;
 use crate::mesh::{FaceId, HalfEdgeId, Mesh, VertexId};
@@ -110,10 +110,10 @@ pub fn resolve(
 ) -> Result<(Mesh, ResolveReport), OpError> {
     let chosen = params.select.vertices(&context.select(mesh))?;
     let mut cutter = Cutter::new(mesh.clone());
-    cutter.capping = Capping::Always;
+    cutter.set_capping(Capping::Always);
     let depth = params.depth.mm();
     // Both sides of the moved plane must be clear of rounding.
-    let least = 8.0 * cutter.bound;
+    let least = 8.0 * cutter.bound();
     if !(depth > least && depth.is_finite()) {
         return Err(OpError::DepthTooSmall { depth, least });
     }
@@ -152,13 +152,13 @@ impl Resolving {
     /// Moves one face after the other, if it can move by `least`: those with the most waiting
     /// vertices first, then those with the lowest id.
     fn move_faces(&mut self, least: f64, context: &OpContext<'_>) -> Result<(), OpError> {
-        let mesh = &self.cutter.mesh;
+        let mesh = self.cutter.mesh();
         let faces: BTreeSet<FaceId> =
             self.open.iter().flat_map(|&v| mesh.vertex_faces(v)).collect();
         let mut queue: BinaryHeap<(usize, Reverse<FaceId>)> =
             faces.into_iter().map(|f| (self.waiting_at(f), Reverse(f))).collect();
         while let Some((promised, Reverse(f))) = queue.pop() {
-            let waiting = if self.cutter.mesh.has_face(f) { self.waiting_at(f) } else { 0 };
+            let waiting = if self.cutter.mesh().has_face(f) { self.waiting_at(f) } else { 0 };
             if waiting == 0 {
                 continue;
             }
@@ -175,12 +175,12 @@ impl Resolving {
     }
 
     fn waiting_at(&self, f: FaceId) -> usize {
-        self.cutter.mesh.face_vertices(f).filter(|v| self.open.contains(v)).count()
+        self.cutter.mesh().face_vertices(f).filter(|v| self.open.contains(v)).count()
     }
 
     /// How far a face can move inwards; `None` when it touches a rim or itself or is not planar.
     fn possible_move(&self, f: FaceId) -> Option<f64> {
-        let mesh = &self.cutter.mesh;
+        let mesh = self.cutter.mesh();
         let plane = mesh.plane(f)?;
         let height = |v: VertexId| plane.signed_distance(mesh.position(v));
         let mut depth = self.depth;
@@ -204,7 +204,7 @@ impl Resolving {
     }
 
     fn move_face(&mut self, f: FaceId, depth: f64) -> Result<(), OpError> {
-        let mesh = &self.cutter.mesh;
+        let mesh = self.cutter.mesh();
         let plane = mesh.plane(f).expect("a face that can move has a plane").moved(-depth);
         let corners: Vec<VertexId> = mesh.face_vertices(f).collect();
         let old: Vec<DVec3> = corners
@@ -219,8 +219,8 @@ impl Resolving {
             .map(|h| mesh.face(h.twin()))
             .collect();
         self.cutter.cut(&SlicingPlane { plane, given: None }, Reach::Local(&corners));
-        let caps = std::mem::take(&mut self.cutter.done.caps);
-        let mesh = &mut self.cutter.mesh;
+        let caps = self.cutter.take_caps();
+        let mesh = self.cutter.mesh_mut();
         for cap in caps {
             if let Some(group) = &group {
                 mesh.set_group(cap, group);
@@ -250,7 +250,7 @@ impl Resolving {
     }
 
     fn finish(self) -> (Mesh, ResolveReport) {
-        let (mut mesh, mut report) = (self.cutter.mesh, self.report);
+        let (mut mesh, mut report) = (self.cutter.into_mesh(), self.report);
         let map = mesh.compact();
         report.resolved.sort_unstable();
         report.unresolved = self.open.into_iter().filter_map(|v| map.vertex(v)).collect();

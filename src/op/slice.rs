@@ -11,7 +11,7 @@ use std::str::FromStr;
 use glam::DVec3;
 use serde::{Deserialize, Deserializer};
 
-use super::cutter::{Cutter, Reach, SlicingPlane};
+use super::cut::{Cutter, Reach, SlicingPlane};
 use super::report::{CutReport, RoundMarks, finish};
 use super::{Capping, OpContext, OpError};
 use crate::mesh::Mesh;
@@ -91,21 +91,21 @@ pub fn slice(
     };
     let plane = SlicingPlane::given(normal, point)?;
     let mut cutter = Cutter::new(mesh.clone());
-    cutter.capping = params.cap;
+    cutter.set_capping(params.cap);
     cutter.cut(&plane, Reach::Global);
-    if cutter.mesh.face_count() == 0 {
+    if cutter.mesh().face_count() == 0 {
         return Err(OpError::NothingLeft { cut: 1, cuts: 1 });
     }
     let marks = RoundMarks { caps: vec![cutter.cap_lineage(0)], strips: Vec::new() };
     let made = marks.collect(&cutter);
     let report = CutReport {
         cuts: 1,
-        missed: usize::from(cutter.done.is_miss),
-        lids: cutter.done.lids,
+        missed: usize::from(cutter.last_cut().is_miss),
+        lids: cutter.last_cut().lids,
         made,
         ..CutReport::default()
     };
-    Ok(finish(cutter.mesh, report))
+    Ok(finish(cutter.into_mesh(), report))
 }
 
 /// Cuts a mesh by a plane and keeps both parts: first the one on the reverse side, then the one on

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 
 use super::OpError;
-use super::cutter::{Cutter, Lineage, Reach, SlicingPlane};
+use super::cut::{Cutter, Lineage, Reach, SlicingPlane};
 use super::report::{CutReport, RoundMarks, finish};
 use crate::geom::Plane;
 use crate::mesh::{Mesh, VertexId};
@@ -182,7 +182,7 @@ pub(super) fn truncate(
     }
     report.overcut.sort_unstable();
     report.overcut.dedup();
-    Ok(finish(cutter.mesh, report))
+    Ok(finish(cutter.into_mesh(), report))
 }
 
 /// Tries a round, makes the offsets of those elements smaller whose cuts meet, and tries again from
@@ -253,11 +253,11 @@ fn cut_round(
             element.vertices.iter().copied().filter(|&v| cutter.is_original(v)).collect();
         let reach = if scope == Scope::Local { Reach::Local(&seeds) } else { Reach::Global };
         cutter.cut(&plane, reach);
-        if cutter.mesh.face_count() == 0 {
+        if cutter.mesh().face_count() == 0 {
             round.emptied_by = Some(i);
             break;
         }
-        let cut = &cutter.done;
+        let cut = cutter.last_cut();
         round.missed += usize::from(cut.is_miss);
         round.lids += cut.lids;
         let is_own = |v: &VertexId| element.vertices.contains(v);

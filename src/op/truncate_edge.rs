@@ -8,7 +8,7 @@
 
 use serde::Deserialize;
 
-use super::cutter::Cutter;
+use super::cut::Cutter;
 use super::truncate::{Element, Offsets, Settings, edge_point, truncate};
 use super::truncate_vertex::{default_offset, default_repeat};
 use super::{CutReport, Disjoint, OpContext, OpError, Scope};
@@ -88,7 +88,7 @@ pub fn truncate_edges(
 }
 
 fn element(cutter: &Cutter, e: EdgeId, t: f64, bend: f64) -> Result<Element, OpError> {
-    let mesh = &cutter.mesh;
+    let mesh = cutter.mesh();
     let around = |h: HalfEdgeId| mesh.outgoing(mesh.origin(h)).filter(move |out| out.edge() != e);
     let points: Vec<_> = e
         .half_edges()

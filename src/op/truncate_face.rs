@@ -7,7 +7,7 @@
 
 use serde::Deserialize;
 
-use super::cutter::Cutter;
+use super::cut::Cutter;
 use super::truncate::{Element, Offsets, Settings, edge_point, truncate};
 use super::truncate_vertex::{default_offset, default_repeat};
 use super::{CutReport, Disjoint, OpContext, OpError, Scope};
@@ -72,7 +72,7 @@ pub fn truncate_faces(
     let settings = Settings { offset, scope, repeat, disjoint };
     truncate(mesh, &settings, context, |cutter: &Cutter, made: Option<&Made>, offsets: &Offsets| {
         let faces = made.map_or(&chosen, |made| &made.faces);
-        faces.iter().map(|&f| element(&cutter.mesh, f, offsets.of(f.index()))).collect()
+        faces.iter().map(|&f| element(cutter.mesh(), f, offsets.of(f.index()))).collect()
     })
 }
 

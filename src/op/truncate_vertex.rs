@@ -17,7 +17,7 @@
 
 use serde::Deserialize;
 
-use super::cutter::Cutter;
+use super::cut::Cutter;
 use super::truncate::{Element, Offsets, Settings, edge_point, truncate};
 use super::{CutReport, Disjoint, OpContext, OpError, Scope};
 use crate::geom::Plane;
@@ -90,7 +90,7 @@ pub fn truncate_vertices(
     let settings = Settings { offset, scope, repeat, disjoint };
     truncate(mesh, &settings, context, |cutter: &Cutter, made: Option<&Made>, offsets: &Offsets| {
         let vertices = made.map_or(&chosen, |made| &made.vertices);
-        vertices.iter().map(|&v| element(&cutter.mesh, v, offsets.of(v.index()))).collect()
+        vertices.iter().map(|&v| element(cutter.mesh(), v, offsets.of(v.index()))).collect()
     })
 }
 

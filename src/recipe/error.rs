@@ -2,21 +2,8 @@
 
 use std::fmt;
 
-use super::materials::MaterialError;
-use super::panels::PanelOptionError;
-use crate::check::CheckError;
 use crate::code::{Code, Coded, codes};
-use crate::io::IoError;
-use crate::io::planes_csv::PlanesError;
-use crate::mesh::BuildError;
-use crate::op::OpError;
-use crate::panel::PanelError;
-use crate::picture::PictureError;
-use crate::seam::SeamError;
-use crate::select::SelectError;
-use crate::shape::ShapeError;
-use crate::sheet::SheetError;
-use crate::unfold::UnfoldError;
+use crate::make::MakeError;
 
 /// A place in a recipe file, counted from 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -109,7 +96,7 @@ pub struct StepError {
     /// What it does.
     pub verb: &'static str,
     /// Why it failed.
-    pub cause: Box<StepFailure>,
+    pub cause: Box<MakeError>,
 }
 
 impl Coded for StepError {
@@ -117,81 +104,3 @@ impl Coded for StepError {
         self.cause.code()
     }
 }
-
-/// What stopped a step.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum StepFailure {
-    /// The step needs a mesh, and none has been made.
-    #[error("there is no mesh yet; begin with a step that names a solid or reads a file")]
-    NoMesh,
-    /// The step would throw away the mesh made so far.
-    #[error("there is a mesh already; only the first step may make or read one")]
-    SecondMesh,
-    /// A file could not be read.
-    #[error(transparent)]
-    Io(#[from] IoError),
-    /// A file holds no half-spaces, or they bound no solid.
-    #[error(transparent)]
-    Planes(#[from] PlanesError),
-    /// A solid could not be made.
-    #[error(transparent)]
-    Shape(#[from] ShapeError),
-    /// An operator refused.
-    #[error(transparent)]
-    Op(#[from] OpError),
-    /// A selection could not be read on the mesh.
-    #[error(transparent)]
-    Select(#[from] SelectError),
-    /// No such seams.
-    #[error(transparent)]
-    Seam(#[from] SeamError),
-    /// A limit of the check is no limit.
-    #[error(transparent)]
-    Check(#[from] CheckError),
-    /// The mesh could not be unfolded.
-    #[error(transparent)]
-    Unfold(#[from] UnfoldError),
-    /// A file of pieces could not be taken.
-    #[error(transparent)]
-    Nest(#[from] super::NestError),
-    /// The pieces could not be laid out.
-    #[error(transparent)]
-    Sheet(#[from] SheetError),
-    /// The material could not be taken.
-    #[error(transparent)]
-    Material(#[from] MaterialError),
-    /// The faces could not be made into plates.
-    #[error(transparent)]
-    Panel(#[from] PanelError),
-    /// Options of panels that do not fit together.
-    #[error(transparent)]
-    PanelOption(#[from] PanelOptionError),
-    /// A state of folding is no mesh.
-    #[error("the pieces cannot be drawn while they fold: {0}; unfold the mesh again")]
-    State(BuildError),
-    /// The picture could not be drawn.
-    #[error(transparent)]
-    Picture(#[from] PictureError),
-}
-
-codes!(error StepFailure {
-    NoMesh = 711,
-    SecondMesh = 712,
-    State = 713,
-} through {
-    Io.0,
-    Planes.0,
-    Shape.0,
-    Op.0,
-    Select.0,
-    Seam.0,
-    Check.0,
-    Unfold.0,
-    Nest.0,
-    Sheet.0,
-    Material.0,
-    Panel.0,
-    PanelOption.0,
-    Picture.0,
-});

@@ -3,13 +3,13 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use super::{
-    DformParams, FabricateParams, Fabrication, OperatorStep, PanelFiles, Panelled, Recipe,
-    ShowParams, Step, StepError, StepFailure, carve_dform, fabricate, nest_files, operate,
-    panel_model, solid_of_planes, with_material,
-};
+use super::{OperatorStep, Recipe, Step, StepError};
 use crate::check::{CheckParams, Report, check};
 use crate::io::{ReadMesh, read_mesh};
+use crate::make::{
+    DformParams, FabricateParams, Fabrication, MakeError, PanelFiles, Panelled, ShowParams,
+    carve_dform, fabricate, nest_files, operate, panel_model, solid_of_planes, with_material,
+};
 use crate::mesh::{Mesh, SplitVertex};
 use crate::op::{HullParams, HullStep, OpContext, OpError, hull};
 use crate::panel::PanelParams;
@@ -22,14 +22,14 @@ use crate::unfold::{Source, UnfoldParams};
 
 /// An operator of a recipe that did not reach what was asked for; the notes say what is missing.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct UncleanStep {
+pub struct StepWithFindings {
     /// The number of the step, from 1.
     pub step: usize,
     /// Its verb.
     pub verb: &'static str,
 }
 
-impl fmt::Display for UncleanStep {
+impl fmt::Display for StepWithFindings {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "step {} ({}) has findings, see its notes", self.step, self.verb)
     }
@@ -43,7 +43,7 @@ pub struct Job {
     /// What the user should know, in order.
     pub notes: Vec<String>,
     /// Operators that did not reach what was asked for, as far as no later step mends it.
-    pub unclean: Vec<UncleanStep>,
+    pub with_findings: Vec<StepWithFindings>,
     /// How the picture of the model looks.
     pub render: RenderParams,
     /// The dual hull on its way, as the last hull was asked for.
@@ -80,9 +80,9 @@ impl Job {
     /// The mesh as it is by now.
     ///
     /// # Errors
-    /// [`StepFailure::NoMesh`] before the first step.
-    pub fn mesh(&self) -> Result<&Mesh, StepFailure> {
-        self.mesh.as_ref().ok_or(StepFailure::NoMesh)
+    /// [`MakeError::NoMesh`] before the first step.
+    pub fn mesh(&self) -> Result<&Mesh, MakeError> {
+        self.mesh.as_ref().ok_or(MakeError::NoMesh)
     }
 
     /// Whether there is a mesh; a job that only nests pieces has none.
@@ -93,8 +93,8 @@ impl Job {
     /// The report on the mesh as it is by now.
     ///
     /// # Errors
-    /// [`StepFailure::NoMesh`], or [`StepFailure::Check`] for a limit that is none.
-    pub fn report(&self) -> Result<Report, StepFailure> {
+    /// [`MakeError::NoMesh`], or [`MakeError::Check`] for a limit that is none.
+    pub fn report(&self) -> Result<Report, MakeError> {
         Ok(check(self.mesh()?, &self.check)?)
     }
 
@@ -104,7 +104,7 @@ impl Job {
         step: &Step,
         folder: &Path,
         progress: &dyn Progress,
-    ) -> Result<(), StepFailure> {
+    ) -> Result<(), MakeError> {
         if progress.is_cancelled() {
             return Err(OpError::Cancelled.into());
         }
@@ -129,9 +129,9 @@ impl Job {
                 let operated = operate(params.as_ref(), folder, self.mesh()?, &context)?;
                 self.notes.extend(operated.notes);
                 // To planarize again is how to mend faces that did not become planar.
-                self.unclean.retain(|u| u.verb != "planarize" || *verb != "planarize");
+                self.with_findings.retain(|u| u.verb != "planarize" || *verb != "planarize");
                 if !operated.is_clean {
-                    self.unclean.push(UncleanStep { step: number, verb });
+                    self.with_findings.push(StepWithFindings { step: number, verb });
                 }
                 (self.mesh, self.made) = (Some(operated.mesh), operated.made);
             }
@@ -141,7 +141,7 @@ impl Job {
                 self.notes.extend(report.notes());
                 self.hull_steps = report.steps;
                 // The hull is a solid of its own, whatever its corners came from.
-                self.unclean.clear();
+                self.with_findings.clear();
                 (self.mesh, self.made) = (Some(mesh), None);
             }
             Step::Check(params) => (self.check, self.is_check_asked) = (params.clone(), true),
@@ -167,9 +167,9 @@ impl Job {
         Ok(())
     }
 
-    fn start(&mut self, mesh: Mesh) -> Result<(), StepFailure> {
+    fn start(&mut self, mesh: Mesh) -> Result<(), MakeError> {
         if self.mesh.is_some() {
-            return Err(StepFailure::SecondMesh);
+            return Err(MakeError::SecondMesh);
         }
         self.mesh = Some(mesh);
         Ok(())
@@ -180,7 +180,7 @@ impl Job {
         params: &DformParams,
         sheet: &SheetParams,
         progress: &dyn Progress,
-    ) -> Result<(), StepFailure> {
+    ) -> Result<(), MakeError> {
         let carved = carve_dform(self.mesh()?, params, progress)?;
         self.notes.extend(carved.notes);
         self.mesh = Some(carved.mesh);
@@ -199,7 +199,7 @@ impl Job {
         files: &PanelFiles,
         sheet: &SheetParams,
         progress: &dyn Progress,
-    ) -> Result<(), StepFailure> {
+    ) -> Result<(), MakeError> {
         let source = Source { scale: 1.0, split_vertices: &[] };
         let panelled = panel_model(self.mesh()?, (params, files, sheet), &source, progress)?;
         self.notes.extend(panelled.notes());
@@ -214,7 +214,7 @@ impl Job {
         sheet: &SheetParams,
         folder: &Path,
         progress: &dyn Progress,
-    ) -> Result<(), StepFailure> {
+    ) -> Result<(), MakeError> {
         let splits: &[SplitVertex] = &[];
         let source = Source { scale: 1.0, split_vertices: splits };
         let choice = choice.in_folder(folder);

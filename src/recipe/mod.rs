@@ -4,24 +4,11 @@
 //! of a recipe share one
 //! [`Job`]: the mesh as it is by then, what the last step made, and the results that are written at the end.
 
-mod carve;
-mod dform;
-mod divide;
-mod dull_folds;
 mod error;
-mod fabricate;
 mod job;
 mod keys;
-mod materials;
-mod nest;
-mod operate;
 mod outputs;
-mod panels;
 mod parse;
-mod planes;
-mod report_pictures;
-mod seam_choice;
-mod show;
 
 #[cfg(test)]
 mod tests;
@@ -31,24 +18,14 @@ use std::sync::Arc;
 
 use serde::Deserialize;
 
-pub use carve::{CarvedDform, carve_dform};
-pub use dform::{DformParams, MatchingChoice, MatchingChoiceError};
-pub use error::{Position, RecipeError, StepError, StepFailure};
-pub use fabricate::{FabricateParams, Fabrication, fabricate};
-pub use job::{Job, UncleanStep};
+pub use error::{Position, RecipeError, StepError};
+pub use job::{Job, StepWithFindings};
 pub use keys::{StepKind, steps};
-pub use materials::{MaterialError, material, with_material};
-pub use nest::{NestError, NestStep, nest_files};
-pub use operate::operate;
-pub use outputs::{Output, fabrication_outputs, job_outputs, sheet_picture};
-pub use panels::{PanelFiles, PanelOptionError, Panelled, SolidFile, panel_model, panel_outputs};
-pub use planes::{PlanesStep, solid_of_planes};
-pub use report_pictures::report_pictures;
-pub use seam_choice::SeamChoice;
-pub use show::{AnimationFile, AnimationFileError, AssemblyForm, ShowParams, show_outputs};
+pub use outputs::job_outputs;
 
 use crate::check::CheckParams;
 use crate::io::ReadOptions;
+use crate::make::{DformParams, FabricateParams, NestStep, PanelFiles, PlanesStep, ShowParams};
 use crate::op::{HullParams, Operate};
 use crate::panel::PanelParams;
 use crate::picture::RenderParams;

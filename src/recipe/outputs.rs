@@ -1,28 +1,23 @@
 //! What a job leaves in its folder, as names and bytes; nothing is written here.
 
-use super::fabricate::piece_list;
-use super::{Fabrication, Job, StepFailure, panel_outputs, report_pictures, show_outputs};
+use super::Job;
 use crate::check::details;
-use crate::io::layout_json::write_order_layout_json;
-use crate::io::pieces_json::write_pieces_json;
-use crate::io::report_html::check_html;
-use crate::io::report_json::check_json;
-use crate::io::report_page::{ReportPage, ReportRows};
-use crate::io::sheet_files::sheet_files;
+use crate::io::report::html::check_html;
+use crate::io::report::json::check_json;
+use crate::io::report::page::{ReportPage, ReportRows};
 use crate::io::{MeshFormat, WriteOptions, mesh_bytes};
-use crate::net::EdgeLabel;
-use crate::picture::{PictureError, Polyline, StrokeLayer, Strokes, render_model, render_sheet};
-use crate::sheet::{Drawing, Fallback, JointReport, LayerKind, SheetParams};
-
-/// A file to be written: its name in the folder, and its bytes.
-pub type Output = (String, Vec<u8>);
+use crate::make::{
+    MakeError, Output, fabrication_outputs, panel_outputs, report_pictures, sheet_picture,
+    show_outputs,
+};
+use crate::picture::render_model;
 
 /// The files of a whole recipe: model, picture, report, the steps of a hull where asked for, and if
 /// it was unfolded pieces, layout, sheets and their pictures.
 ///
 /// # Errors
-/// [`StepFailure`] when the model cannot be written, checked or drawn.
-pub fn job_outputs(job: &Job, command: &str) -> Result<Vec<Output>, StepFailure> {
+/// [`MakeError`] when the model cannot be written, checked or drawn.
+pub fn job_outputs(job: &Job, command: &str) -> Result<Vec<Output>, MakeError> {
     let mut outputs = Vec::new();
     // A recipe that only nests pieces has no model.
     if job.has_mesh() || job.fabrication.is_none() {
@@ -62,7 +57,7 @@ pub fn job_outputs(job: &Job, command: &str) -> Result<Vec<Output>, StepFailure>
 }
 
 /// The page of the report, with the pictures seen as the recipe says.
-fn report_page(job: &Job, command: &str) -> Result<String, StepFailure> {
+fn report_page(job: &Job, command: &str) -> Result<String, MakeError> {
     let (mesh, report) = (job.mesh()?, job.report()?);
     let pictures = report_pictures(mesh, &report, &job.render)?;
     let (title, rows, details) = ("model", ReportRows::Worst, details(mesh));
@@ -74,223 +69,4 @@ fn report_page(job: &Job, command: &str) -> Result<String, StepFailure> {
         rows,
         command,
     }))
-}
-
-/// Pieces, layout and sheets; the pieces only when no sheets were asked for.
-///
-/// # Errors
-/// [`StepFailure`] when a sheet cannot be tiled.
-pub fn fabrication_outputs(
-    fabrication: &Fabrication,
-    sheet: &SheetParams,
-    command: &str,
-) -> Result<Vec<Output>, StepFailure> {
-    let mut outputs =
-        vec![("pieces.json".to_owned(), write_pieces_json(&fabrication.net, command).into_bytes())];
-    if !fabrication.sheets.drawings.is_empty() {
-        let layout =
-            write_order_layout_json(&fabrication.sheets.layout, &fabrication.sources, command);
-        outputs.push(("layout.json".to_owned(), layout.into_bytes()));
-        outputs.push(("assembly.txt".to_owned(), assembly_text(fabrication, command).into_bytes()));
-    }
-    outputs.extend(sheet_files(&fabrication.sheets.drawings, sheet, command)?);
-    Ok(outputs)
-}
-
-/// A PNG of a sheet, in the colours of the default preset.
-///
-/// # Errors
-/// [`PictureError`] for a size that cannot be drawn.
-pub fn sheet_picture(drawing: &Drawing, width: u32) -> Result<Vec<u8>, PictureError> {
-    let layers = drawing.layers.iter().map(|layer| StrokeLayer {
-        name: layer.kind.name().to_owned(),
-        colour: screen_colour(layer.kind),
-        width_mm: 0.1,
-        polylines: layer
-            .marks
-            .iter()
-            .flat_map(|mark| &mark.strokes)
-            .map(|stroke| Polyline { points: stroke.points.clone(), is_closed: stroke.closed })
-            .collect(),
-        bounds_parts: matches!(layer.kind, LayerKind::CutInner | LayerKind::CutOuter),
-    });
-    let strokes =
-        Strokes { width_mm: drawing.width, height_mm: drawing.height, layers: layers.collect() };
-    Ok(render_sheet(&strokes, width)?.to_png())
-}
-
-fn screen_colour(kind: LayerKind) -> [u8; 3] {
-    match kind {
-        LayerKind::Engrave => [40, 40, 40],
-        LayerKind::Score => [40, 80, 220],
-        LayerKind::CutInner => [230, 90, 0],
-        LayerKind::CutOuter => [220, 0, 0],
-        LayerKind::Info => [150, 150, 150],
-    }
-}
-
-impl Fabrication {
-    /// What the user should know about pieces and sheets.
-    pub fn notes(&self) -> Vec<String> {
-        let report = &self.sheets.report;
-        let mut notes: Vec<String> =
-            Some(self.seams.to_owned()).into_iter().filter(|s| !s.is_empty()).collect();
-        let mut note = |count: usize, text: String| {
-            if count > 0 {
-                notes.push(text);
-            }
-        };
-        note(
-            self.divided,
-            format!("{} folds were opened so that the pieces fit on the sheet", self.divided),
-        );
-        let unnamed = &report.unnamed_pieces;
-        note(unnamed.len(), format!("no room for the names of pieces {}", piece_list(unnamed)));
-        note(
-            report.unnumbered_sides,
-            format!("no room for {} seam numbers", report.unnumbered_sides),
-        );
-        note(
-            report.flat_folds,
-            format!("{} folds are flat and were not scored", report.flat_folds),
-        );
-        let unscored = report.unscored_folds;
-        note(
-            unscored,
-            format!(
-                "{unscored} folds are shorter than what is left out at their ends and were not \
-                scored"
-            ),
-        );
-        note(
-            report.lost_holes,
-            format!("{} holes are narrower than the kerf and were left out", report.lost_holes),
-        );
-        let closed = report.closed_notches;
-        note(
-            closed,
-            format!("{closed} notches are narrower than the kerf: flaps hang together there"),
-        );
-        note(
-            usize::from(report.is_stopped),
-            "the search was stopped; this is the best layout so far".to_owned(),
-        );
-        if let Some([left, web]) = report.narrow_spacing {
-            let left = (left * 1000.0).round() / 1000.0;
-            note(
-                1,
-                format!(
-                    "only {left} mm are left between parts, less than the {web} mm that the \
-                    material wants: raise the spacing"
-                ),
-            );
-        }
-        let shared = (report.shared_length * 10.0).round() / 10.0;
-        note(
-            usize::from(shared > 0.0),
-            format!("{shared} mm of cuts are shared by two parts and cut once"),
-        );
-        note(
-            report.unmarked_angles,
-            format!("no room for the angles of {} folds", report.unmarked_angles),
-        );
-        notes.extend(joint_notes(&report.joints));
-        notes
-    }
-}
-
-/// What became of the joints, in words for the user.
-fn joint_notes(joints: &JointReport) -> Vec<String> {
-    let mut notes = Vec::new();
-    if joints.flaps > 0 {
-        let (narrowed, moved) = (joints.narrowed_flaps, joints.moved_flaps);
-        notes.push(format!(
-            "{} flaps; for want of room {narrowed} are narrower and {moved} on the other side",
-            joints.flaps
-        ));
-    }
-    if !joints.bare_seams.is_empty() {
-        notes.push(format!(
-            "no room for flaps at {} seams: {}",
-            joints.bare_seams.len(),
-            edge_list(&joints.bare_seams)
-        ));
-    }
-    if joints.fingered > 0 {
-        notes.push(format!("{} seams have fingers", joints.fingered));
-    }
-    if joints.tabbed > 0 {
-        notes.push(format!("{} seams have tabs and slots", joints.tabbed));
-    }
-    let substitute =
-        if joints.mitred.is_empty() { "they are stitched" } else { "they are left to be mitred" };
-    for (why, words) in [
-        (Fallback::Shallow, "too shallow for fingers or tabs (dihedral angle above 140°)"),
-        (Fallback::Sharp, "too sharp for fingers or tabs (dihedral angle below 30°)"),
-        (Fallback::Concave, "concave, where fingers and tabs cannot meet"),
-        (Fallback::Short, "too short for fingers or a tab"),
-        (Fallback::Narrow, "beside faces too narrow for notches, tabs or slots"),
-    ] {
-        let seams: Vec<EdgeLabel> =
-            joints.fallbacks.iter().filter(|f| f.1 == why).map(|f| f.0).collect();
-        if !seams.is_empty() {
-            let count = seams.len();
-            notes.push(format!("{count} seams are {words}; {substitute}: {}", edge_list(&seams)));
-        }
-    }
-    notes.extend(mitre_note(&joints.mitred));
-    if joints.hole_pairs + joints.lost_hole_pairs > 0 {
-        let (made, lost) = (joints.hole_pairs, joints.lost_hole_pairs);
-        notes.push(format!("{made} pairs of holes; {lost} more had no room on both sides"));
-    }
-    notes
-}
-
-/// What to take off the square edges of mitred seams, one angle after the other.
-fn mitre_note(mitred: &[(EdgeLabel, f64)]) -> Option<String> {
-    let mut by_angle: std::collections::BTreeMap<i64, Vec<EdgeLabel>> =
-        std::collections::BTreeMap::new();
-    for &(edge, degrees) in mitred {
-        by_angle.entry((10.0 * degrees).round() as i64).or_default().push(edge);
-    }
-    let angle = |(tenths, edges): (&i64, &Vec<EdgeLabel>)| {
-        format!("{}° at {}", *tenths as f64 / 10.0, edge_list(edges))
-    };
-    let angles: Vec<String> = by_angle.iter().map(angle).collect();
-    (!angles.is_empty())
-        .then(|| format!("mitre, off the square edge of either side: {}", angles.join("; ")))
-}
-
-/// The first names of a list of edges.
-fn edge_list(edges: &[EdgeLabel]) -> String {
-    const LISTED: usize = 12;
-    let mut text =
-        edges.iter().take(LISTED).map(ToString::to_string).collect::<Vec<_>>().join(", ");
-    if edges.len() > LISTED {
-        text += ", …";
-    }
-    text
-}
-
-/// The order in which seams are closed, for people: one line a step, then the edges behind every
-/// number.
-fn assembly_text(fabrication: &Fabrication, command: &str) -> String {
-    let assembly = &fabrication.sheets.assembly;
-    let mut text = format!("{command}\n\n");
-    for (i, step) in assembly.steps.iter().enumerate() {
-        let [a, b] = assembly.stretches[step.number - 1].pieces;
-        let what = match step.attaches {
-            Some(piece) => format!("attach {piece} to {}", if piece == a { b } else { a }),
-            None if a == b => format!("close {a}"),
-            None => format!("close {a} to {b}"),
-        };
-        text += &format!("step {}: {what} along seam {}\n", i + 1, step.number);
-    }
-    text += "\n";
-    for stretch in &assembly.stretches {
-        let edges: Vec<String> =
-            stretch.seams.iter().map(|&(s, _)| fabrication.net.seams[s].id.to_string()).collect();
-        text += &format!("seam {}: {}\n", stretch.number, edges.join(" "));
-    }
-    text
 }

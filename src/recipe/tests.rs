@@ -216,8 +216,8 @@ fn a_piece_whose_flaps_do_not_fit_on_the_sheet_is_divided() {
 fn what_an_operator_did_not_reach_counts_until_it_is_mended() {
     let rough = "[[step]]\nsolid = \"cube\"\n[[step]]\nsubdivide = \"honeycomb\"\nrounds = \
     2\n[[step]]\nplanarize = \"exact\"\nrounds = 1\n";
-    let unclean = |more: &str| run(&(rough.to_owned() + more)).expect("a job").unclean;
-    assert_eq!(unclean(""), [UncleanStep { step: 3, verb: "planarize" }]);
+    let unclean = |more: &str| run(&(rough.to_owned() + more)).expect("a job").with_findings;
+    assert_eq!(unclean(""), [StepWithFindings { step: 3, verb: "planarize" }]);
     assert_eq!(unclean("")[0].to_string(), "step 3 (planarize) has findings, see its notes");
     assert_eq!(unclean("[[step]]\nplanarize = \"exact\"\n"), []);
     assert_eq!(unclean("[[step]]\nhull = \"convex\"\n"), []);

@@ -14,7 +14,8 @@ pub fn nearest_word<'a>(typed: &str, known: impl IntoIterator<Item = &'a str>) -
         let is_far = length.abs_diff(letters) > letters;
         if is_far { usize::MAX } else { strsim::osa_distance(&typed, word) }
     };
-    let nearest = known.into_iter().map(|word| (slips(word), word)).min_by_key(|scored| scored.0)?;
+    let nearest =
+        known.into_iter().map(|word| (slips(word), word)).min_by_key(|scored| scored.0)?;
     let (slips, word) = nearest;
     (slips <= (word.chars().count() / 3).max(1)).then_some(word)
 }

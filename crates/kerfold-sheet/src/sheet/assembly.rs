@@ -10,7 +10,7 @@ use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 
 use super::joint::Boundaries;
-use super::stretch::{Stretch, stretches};
+use super::letter::{Stretch, stretches};
 use crate::geom::polygon::signed_area;
 use crate::net::{Net, PieceId};
 
@@ -209,9 +209,6 @@ mod tests {
         let assembly = assembly_of(&both);
         assert_eq!(assembly.stretches.len(), 8);
         assert_eq!(assembly.steps.iter().filter(|s| s.attaches.is_some()).count(), 2);
-        assert_eq!(
-            assembly_of(&net_of(vec![square(3.0)])),
-            Assembly::default()
-        );
+        assert_eq!(assembly_of(&net_of(vec![square(3.0)])), Assembly::default());
     }
 }

@@ -6,14 +6,14 @@ use glam::DVec2;
 
 use super::drawing::{Drawing, MarkKind, Stroke};
 use super::error::SheetError;
-use super::glyph::lettering;
 use super::joint::{FlapFold, Jointed, on_material};
 use super::kerf::CutShape;
-use super::label::{Label, Taken, is_clear, name_label, number_across, number_label};
 use super::layout::{Layout, Placed, SheetReport};
+use super::letter::Stretch;
+use super::letter::lettering;
+use super::letter::{Label, Taken, is_clear, name_label, number_across, number_label};
 use super::params::{Angles, Labels, SheetParams, Stock};
 use super::score::{Hinges, ScorePlan, hold};
-use super::stretch::Stretch;
 use crate::geom::polygon::{Location, bounds, locate};
 use crate::net::{FlatFace, Fold, FoldKind, Net, Piece, PieceId, Seam};
 
@@ -465,8 +465,8 @@ fn free_corner(drawing: &Drawing, stock: &Stock, side: f64) -> Option<DVec2> {
 mod tests {
     use super::super::drawing::LayerKind;
     use super::super::drawing::Mark;
-    use super::super::label::segments_meet;
     use super::super::lay_out;
+    use super::super::letter::segments_meet;
     use super::super::params::ScoreStyle;
     use super::super::testing::{net_of, random_convex, ring, square, strips, two_pieces};
     use super::super::verify::edges;

@@ -9,8 +9,8 @@ use glam::DVec2;
 
 use super::drawing::{Drawing, MarkKind, Stroke};
 use super::error::SheetError;
-use super::glyph::lettering;
 use super::layout::{Sheet, SheetId};
+use super::letter::lettering;
 
 /// Free border of the coupon, in mm.
 const BORDER: f64 = 5.0;

@@ -17,12 +17,11 @@ mod draw;
 mod drawing;
 mod error;
 mod files;
-mod glyph;
 mod joint;
 mod kerf;
 mod kerf_test;
-mod label;
 mod layout;
+mod letter;
 mod material;
 mod nest;
 mod order;
@@ -31,7 +30,6 @@ mod part;
 mod place;
 mod score;
 mod slit;
-mod stretch;
 mod verify;
 
 pub use assembly::{Assembly, Step, assembly_of};
@@ -39,20 +37,19 @@ pub use bounding_box::{MinBox, smallest_box};
 pub use drawing::{Drawing, Layer, LayerKind, Mark, MarkKind, Stroke};
 pub use error::{SheetError, TooLarge};
 pub use files::{Colours, Formats, FormatsError, Paper, PartFiles, Pen, Rgb, SheetFormat, Style};
-pub use glyph::{Lettering, lettering};
 pub use joint::{Fallback, FlapSide, Joint, JointReport, Substitute};
 pub use kerf::CutShape;
 pub use kerf_test::kerf_coupon;
 pub use layout::{
     Layout, Placed, Sheet, SheetId, SheetReport, SheetSet, fits, lay_out, lay_out_watched,
 };
+pub use letter::{Lettering, Stretch, lettering};
 pub use material::{Hex, Material, MaterialColours, Speeds};
 pub use nest::{
     CommonLine, Corners, DefectList, GroupList, Guillotine, NestParams, Rotation, RotationList,
     StockList,
 };
 pub use params::{Angles, Labels, Preset, ScoreStyle, SheetParams, SheetSize};
-pub use stretch::Stretch;
 pub use verify::{clearance, verify};
 
 #[cfg(test)]

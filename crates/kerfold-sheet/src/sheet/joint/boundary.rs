@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec2;
 
-use super::super::label::segments_meet;
+use super::super::letter::segments_meet;
 use super::super::verify::distance_to_segment;
 use crate::net::{FlatFace, Net, Segment};
 

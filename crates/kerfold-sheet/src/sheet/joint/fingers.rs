@@ -11,7 +11,7 @@
 
 use glam::DVec2;
 
-use super::super::label::segments_meet;
+use super::super::letter::segments_meet;
 use super::boundary::{Boundaries, Contour};
 use super::params::Fingers;
 use super::{Fallback, JointReport};

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::super::stretch::Stretch;
+use super::super::letter::Stretch;
 use super::super::verify::{distance_to_contour, distance_to_segment};
 use super::boundary::{Boundaries, Place};
 use super::flaps::Made;

@@ -21,8 +21,8 @@ use slots::FARTHEST_LIP;
 pub(crate) use trim::on_material;
 
 use super::error::SheetError;
+use super::letter::stretches;
 use super::params::SheetParams;
-use super::stretch::stretches;
 use crate::net::{EdgeLabel, Net, PieceId, Segment};
 
 /// What became of the joints, in numbers.
@@ -186,7 +186,7 @@ impl Hole {
 
 #[cfg(test)]
 mod tests {
-    use super::super::label::segments_meet;
+    use super::super::letter::segments_meet;
     use super::super::testing::{random_convex, twins, two_pieces};
     use super::super::{SheetParams, lay_out};
     use super::*;
@@ -351,7 +351,7 @@ mod tests {
                     use crate::geom::polygon::{Location, locate};
                     prop_assert!(hole.iter().all(|&p| locate(&piece.outline, p) == Location::Inside));
                     for other in piece.holes[..i].iter().chain([&piece.outline]) {
-                        prop_assert!(!super::super::label::borders_meet(hole, other));
+                        prop_assert!(!super::super::letter::borders_meet(hole, other));
                     }
                 }
             }

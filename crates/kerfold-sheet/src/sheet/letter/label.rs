@@ -1,0 +1,411 @@
+//! Where lettering goes: names in the widest face of a piece, seam numbers along the edges, always
+//! inside one face.
+//!
+//! A text that lies inside one face crosses neither a cut nor a fold. What does not fit at the
+//! least height is left out and counted: lettering that nobody can read only costs time on the
+//! machine.
+
+use std::collections::BTreeMap;
+
+use glam::DVec2;
+
+use super::glyph::lettering;
+use crate::geom::polygon::{
+    Location, bounds, centroid, locate, on_segment, segments_cross, signed_area,
+};
+use crate::net::{FlatFace, Piece, Segment};
+use crate::sheet::error::SheetError;
+use crate::sheet::verify::{distance_to_contour, edges};
+
+/// Height of a piece's name, in mm.
+const NAME_HEIGHT: f64 = 6.0;
+
+/// Height of a seam's number, in mm; never more than [`NUMBER_SHARE`] of its edge.
+const NUMBER_HEIGHT: f64 = 4.0;
+
+/// Largest height of a number relative to its edge.
+const NUMBER_SHARE: f64 = 0.35;
+
+/// Least height that can be read off card, in mm.
+const LEAST_HEIGHT: f64 = 1.5;
+
+/// From one height that is tried to the next.
+const SMALLER: f64 = 0.8;
+
+/// Free space around a text, relative to its height.
+const CLEAR: f64 = 0.25;
+
+/// Faces of a piece that are tried for its name, largest first.
+const FACES_TRIED: usize = 8;
+
+/// A text in the piece's frame.
+#[derive(Debug, Clone)]
+pub(crate) struct Label {
+    pub strokes: Vec<Vec<DVec2>>,
+    /// The box of the strokes with free space around, counter-clockwise.
+    pub frame: [DVec2; 4],
+    pub height: f64,
+}
+
+/// What is already lettered on the faces of a piece, by their index.
+pub(crate) type Taken = BTreeMap<usize, Vec<[DVec2; 4]>>;
+
+/// Contours of joints that lettering must keep clear of: the cut of a piece where it differs from
+/// its faces, and slits.
+pub(crate) type Obstacles<'a> = &'a [Vec<DVec2>];
+
+/// The name of a piece, as large as fits beside what is taken, reading along `upright` where
+/// possible and else along a face's longest edge; with the index of the face that holds it.
+pub(crate) fn name_label(
+    piece: &Piece,
+    upright: DVec2,
+    taken: &Taken,
+    obstacles: Obstacles<'_>,
+) -> Result<Option<(usize, Label)>, SheetError> {
+    let text = piece.id.to_string();
+    let mut order: Vec<(f64, usize)> =
+        piece.faces.iter().enumerate().map(|(i, f)| (signed_area(&f.polygon), i)).collect();
+    order.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    let mut best: Option<(usize, Label)> = None;
+    for &(_, i) in order.iter().take(FACES_TRIED) {
+        let polygon = &piece.faces[i].polygon;
+        let mut centres = vec![centroid(polygon), inner_point(polygon, &[])];
+        if !obstacles.is_empty() {
+            centres.push(inner_point(polygon, obstacles));
+        }
+        for direction in [upright, along_longest_edge(polygon, upright)] {
+            let beaten = best.as_ref().map_or(0.0, |(_, b)| b.height);
+            let free = |l: &Label| {
+                is_free(polygon, l, taken.get(&i).map_or(&[], Vec::as_slice))
+                    && is_clear(l, obstacles)
+            };
+            if let Some(label) = largest_name(&text, &centres, direction, beaten, free)? {
+                best = Some((i, label));
+            }
+        }
+        if best.as_ref().is_some_and(|(_, b)| b.height >= NAME_HEIGHT) {
+            break;
+        }
+    }
+    Ok(best)
+}
+
+/// The largest text higher than `beaten` that is free at one of the places.
+fn largest_name(
+    text: &str,
+    centres: &[DVec2],
+    direction: DVec2,
+    beaten: f64,
+    is_free: impl Fn(&Label) -> bool,
+) -> Result<Option<Label>, SheetError> {
+    for height in heights(NAME_HEIGHT).take_while(|&h| h > beaten) {
+        for &centre in centres {
+            let label = set(text, centre, direction, height)?;
+            if is_free(&label) {
+                return Ok(Some(label));
+            }
+        }
+    }
+    Ok(None)
+}
+
+/// The number of a seam inside `face`, parallel to its edge, to be read from the middle of the
+/// face: its head is at the edge. `edge` are the mesh's vertices at the two ends of `segment`.
+/// Keeps clear of the frames in `taken`.
+pub(crate) fn number_label(
+    text: &str,
+    face: &FlatFace,
+    edge: [usize; 2],
+    segment: Segment,
+    taken: &[[DVec2; 4]],
+    obstacles: Obstacles<'_>,
+) -> Result<Option<Label>, SheetError> {
+    let Some([a, b]) = face.side(edge, segment) else { return Ok(None) };
+    let (length, along) = (a.distance(b), (b - a).normalize_or_zero());
+    beside(text, face, [a, b], -along, NUMBER_HEIGHT.min(NUMBER_SHARE * length), taken, obstacles)
+}
+
+/// As [`number_label`] across the edge, for narrow faces: it reads away from the edge.
+pub(crate) fn number_across(
+    text: &str,
+    face: &FlatFace,
+    edge: [usize; 2],
+    segment: Segment,
+    taken: &[[DVec2; 4]],
+    obstacles: Obstacles<'_>,
+) -> Result<Option<Label>, SheetError> {
+    let Some([a, b]) = face.side(edge, segment) else { return Ok(None) };
+    beside(text, face, [a, b], (b - a).normalize_or_zero().perp(), NUMBER_HEIGHT, taken, obstacles)
+}
+
+/// A text that reads along `reading` as near as possible to an edge that has the face on its left.
+fn beside(
+    text: &str,
+    face: &FlatFace,
+    [a, b]: Segment,
+    reading: DVec2,
+    largest: f64,
+    taken: &[[DVec2; 4]],
+    obstacles: Obstacles<'_>,
+) -> Result<Option<Label>, SheetError> {
+    let inwards = (b - a).normalize_or_zero().perp();
+    for height in heights(largest) {
+        for t in [0.5, 0.38, 0.62, 0.26, 0.74] {
+            let at = set(text, a.lerp(b, t), reading, height)?;
+            // The face lies on the left of its edges; the frame goes there until it is clear of the
+            // edge.
+            let reach =
+                at.frame.iter().map(|&p| (p - a).dot(inwards)).fold(f64::INFINITY, f64::min);
+            let mut label = at.moved(inwards * (CLEAR * height - reach));
+            // Notches and holes of a joint lie along the edge: further in it may be free.
+            let tries = if obstacles.is_empty() { 1 } else { 8 };
+            for _ in 0..tries {
+                if is_free(&face.polygon, &label, taken) && is_clear(&label, obstacles) {
+                    return Ok(Some(label));
+                }
+                label = label.moved(inwards * (0.5 * height));
+            }
+        }
+    }
+    Ok(None)
+}
+
+fn heights(largest: f64) -> impl Iterator<Item = f64> {
+    std::iter::successors(Some(largest), |h| Some(h * SMALLER)).take_while(|&h| h >= LEAST_HEIGHT)
+}
+
+/// A text with the middle of its box at `centre`, reading along the unit vector `direction`.
+fn set(text: &str, centre: DVec2, direction: DVec2, height: f64) -> Result<Label, SheetError> {
+    let letters = lettering(text, height)?;
+    let middle = letters.low.midpoint(letters.high);
+    let put = |p: DVec2| centre + direction.rotate(p - middle);
+    let strokes = letters.strokes.iter().map(|s| s.iter().map(|&p| put(p)).collect()).collect();
+    let (low, high) =
+        (letters.low - DVec2::splat(CLEAR * height), letters.high + DVec2::splat(CLEAR * height));
+    let frame = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)].map(put);
+    Ok(Label { strokes, frame, height })
+}
+
+impl Label {
+    fn moved(self, by: DVec2) -> Self {
+        let strokes =
+            self.strokes.into_iter().map(|s| s.into_iter().map(|p| p + by).collect()).collect();
+        Self { strokes, frame: self.frame.map(|p| p + by), height: self.height }
+    }
+}
+
+/// Along the longest edge of a polygon, not upside down with respect to `upright`.
+fn along_longest_edge(polygon: &[DVec2], upright: DVec2) -> DVec2 {
+    let longest = edges(polygon)
+        .map(|(a, b)| b - a)
+        .reduce(|l, e| if e.length() > l.length() { e } else { l });
+    let direction = longest.unwrap_or(upright).normalize_or(upright);
+    if direction.dot(upright) < 0.0 { -direction } else { direction }
+}
+
+/// A point far inside a polygon and from obstacles: the best of a grid, the centroid and the ears,
+/// then improved step by step.
+fn inner_point(polygon: &[DVec2], obstacles: Obstacles<'_>) -> DVec2 {
+    const GRID: usize = 12;
+    let Some((low, high)) = bounds(polygon) else { return DVec2::ZERO };
+    let n = polygon.len();
+    let depth = |p: DVec2| {
+        if locate(polygon, p) != Location::Inside || !obstacles.iter().all(|o| is_on_material(o, p))
+        {
+            return -1.0;
+        }
+        let all = obstacles.iter().map(|o| distance_to_contour(p, o));
+        all.fold(distance_to_contour(p, polygon), f64::min)
+    };
+    let cell = (high - low) / GRID as f64;
+    let on_grid = |i: usize| low + cell * (DVec2::new((i % GRID) as f64, (i / GRID) as f64) + 0.5);
+    let ears = (0..n).map(|i| (polygon[i] + polygon[(i + 1) % n] + polygon[(i + 2) % n]) / 3.0);
+    let candidates = (0..GRID * GRID).map(on_grid).chain(ears).chain([centroid(polygon)]);
+    let deeper =
+        |best: (f64, DVec2), p: DVec2| if depth(p) > best.0 { (depth(p), p) } else { best };
+    let mut best = candidates.fold((-1.0, low), deeper);
+    let mut step = cell;
+    for _ in 0..16 {
+        let around = (0..8)
+            .map(|k| best.1 + step * DVec2::from_angle(f64::from(k) * std::f64::consts::FRAC_PI_4));
+        let found = around.fold(best, deeper);
+        step = if found.0 > best.0 { step } else { step / 2.0 };
+        best = found;
+    }
+    best.1
+}
+
+/// Whether a label lies inside a face and on nothing else.
+fn is_free(polygon: &[DVec2], label: &Label, taken: &[[DVec2; 4]]) -> bool {
+    taken.iter().all(|frame| !overlap(frame, &label.frame)) && frame_inside(polygon, &label.frame)
+}
+
+/// Whether a label neither crosses an obstacle nor has one inside, nor lies in a notch or hole that
+/// is cut away.
+pub(crate) fn is_clear(label: &Label, obstacles: Obstacles<'_>) -> bool {
+    obstacles.iter().all(|o| is_on_material(o, label.frame[0]))
+        && obstacles.iter().all(|o| {
+            !borders_meet(o, &label.frame)
+                && o.first().is_none_or(|&p| locate(&label.frame, p) == Location::Outside)
+        })
+}
+
+/// Whether a point lies on the material side of an obstacle: outlines run counter-clockwise, holes
+/// clockwise, slits have no inside.
+fn is_on_material(obstacle: &[DVec2], p: DVec2) -> bool {
+    (locate(obstacle, p) == Location::Inside) == (obstacle.len() > 2 && signed_area(obstacle) > 0.0)
+}
+
+/// Whether a convex frame lies in the interior of a polygon, exactly.
+fn frame_inside(polygon: &[DVec2], frame: &[DVec2; 4]) -> bool {
+    frame.iter().all(|&p| locate(polygon, p) == Location::Inside) && !borders_meet(polygon, frame)
+}
+
+fn overlap(a: &[DVec2; 4], b: &[DVec2; 4]) -> bool {
+    borders_meet(a, b)
+        || locate(a, b[0]) != Location::Outside
+        || locate(b, a[0]) != Location::Outside
+}
+
+/// Whether two closed contours touch or cross, exactly.
+pub(crate) fn borders_meet(a: &[DVec2], b: &[DVec2]) -> bool {
+    edges(a).any(|(p, q)| edges(b).any(|(r, s)| segments_meet(p, q, r, s)))
+}
+
+/// Whether two closed segments share a point, exactly.
+pub(crate) fn segments_meet(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
+    segments_cross(a, b, c, d)
+        || on_segment(a, b, c)
+        || on_segment(a, b, d)
+        || on_segment(c, d, a)
+        || on_segment(c, d, b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::net::PieceId;
+    use crate::sheet::testing::{ell, piece, points, ring, square};
+
+    fn assert_clear(piece: &Piece, label: &Label) {
+        for stroke in &label.strokes {
+            for w in stroke.windows(2) {
+                assert_eq!(locate(&piece.outline, w[0]), Location::Inside);
+                for contour in std::iter::once(&piece.outline).chain(&piece.holes) {
+                    assert!(edges(contour).all(|(a, b)| !segments_meet(a, b, w[0], w[1])));
+                }
+                assert!(piece.holes.iter().all(|h| locate(h, w[0]) == Location::Outside));
+            }
+        }
+    }
+
+    #[test]
+    fn names_lie_inside_squares_ells_rings_and_slivers() {
+        let sliver = points([(0.0, 0.0), (90.0, 60.0), (86.0, 62.0)]);
+        let ring = ring(PieceId(7));
+        for piece in [
+            piece(PieceId(0), square(30.0)),
+            piece(PieceId(1), ell()),
+            piece(PieceId(2), sliver),
+            ring,
+        ] {
+            let (_, label) = name_label(&piece, DVec2::X, &Taken::new(), &[])
+                .expect("known letters")
+                .expect("room for a name");
+            assert!(label.height >= LEAST_HEIGHT);
+            assert_clear(&piece, &label);
+        }
+        let tiny = piece(PieceId(0), square(4.0));
+        assert!(name_label(&tiny, DVec2::X, &Taken::new(), &[]).expect("known letters").is_none());
+    }
+
+    #[test]
+    fn the_name_of_a_frame_lies_beside_its_hole() {
+        let hole: Vec<DVec2> =
+            square(80.0).into_iter().rev().map(|p| p + DVec2::splat(20.0)).collect();
+        let mut frame = piece(PieceId(0), square(120.0));
+        frame.holes = vec![hole.clone()];
+        let contours = [square(120.0), hole];
+        let (_, label) =
+            name_label(&frame, DVec2::X, &Taken::new(), &contours).expect("letters").expect("room");
+        assert_clear(&frame, &label);
+        assert_eq!(label.height, NAME_HEIGHT);
+    }
+
+    #[test]
+    fn a_large_square_gets_the_full_height_upright() {
+        let (_, label) = name_label(&piece(PieceId(0), square(50.0)), DVec2::Y, &Taken::new(), &[])
+            .expect("letters")
+            .expect("room");
+        assert_eq!(label.height, NAME_HEIGHT);
+        let reading = (label.frame[1] - label.frame[0]).normalize();
+        assert!(reading.distance(DVec2::Y) < 1e-12);
+    }
+
+    #[test]
+    fn numbers_stand_inside_their_edge_with_the_head_to_it() {
+        let piece = piece(PieceId(0), square(30.0));
+        let face = &piece.faces[0];
+        for (edge, segment) in [
+            ([0, 1], [piece.outline[0], piece.outline[1]]),
+            ([1, 0], [piece.outline[1], piece.outline[0]]),
+        ] {
+            let label =
+                number_label("12", face, edge, segment, &[], &[]).expect("letters").expect("room");
+            assert_clear(&piece, &label);
+            // The lower edge: reading from the middle, right is left.
+            assert!((label.frame[1] - label.frame[0]).normalize().distance(-DVec2::X) < 1e-12);
+            assert!(label.frame[2].y < label.frame[1].y && label.frame[2].y > 0.0);
+            assert!(label.frame[1].y < 10.0);
+        }
+        let segment = [piece.outline[0], piece.outline[1]];
+        assert!(number_label("12", face, [0, 2], segment, &[], &[]).expect("letters").is_none());
+    }
+
+    #[test]
+    fn nothing_is_lettered_into_what_is_cut_away() {
+        let piece = piece(PieceId(0), square(60.0));
+        let segment = [piece.outline[0], piece.outline[1]];
+        // A notch from the lower edge, wide and deep enough for a number.
+        let notch = [(20.0, 0.0), (20.0, 12.0), (40.0, 12.0), (40.0, 0.0)];
+        let cut =
+            [vec![DVec2::ZERO], points(notch), points([(60.0, 0.0), (60.0, 60.0), (0.0, 60.0)])]
+                .concat();
+        let label =
+            number_label("12", &piece.faces[0], [0, 1], segment, &[], std::slice::from_ref(&cut));
+        let label = label.expect("letters").expect("room beside or behind the notch");
+        let in_notch = label.frame.iter().all(|p| locate(&points(notch), *p) == Location::Inside);
+        assert!(
+            !in_notch && label.frame.iter().all(|p| locate(&cut, *p) == Location::Inside),
+            "{:?}",
+            label.frame
+        );
+        let hole = points([(10.0, 10.0), (10.0, 50.0), (50.0, 50.0), (50.0, 10.0)]);
+        assert!(!is_clear(
+            &set("1", DVec2::splat(30.0), DVec2::X, 3.0).expect("a letter"),
+            &[square(60.0), hole]
+        ));
+        let slit = points([(0.0, 50.0), (60.0, 50.0)]);
+        assert!(is_clear(&set("1", DVec2::splat(30.0), DVec2::X, 3.0).expect("a letter"), &[slit]));
+    }
+
+    #[test]
+    fn a_taken_place_is_avoided_and_a_short_edge_gets_no_number() {
+        let piece = piece(PieceId(0), square(60.0));
+        let segment = [piece.outline[0], piece.outline[1]];
+        let first = number_label("12", &piece.faces[0], [0, 1], segment, &[], &[])
+            .expect("letters")
+            .expect("room");
+        let second = number_label("13", &piece.faces[0], [0, 1], segment, &[first.frame], &[])
+            .expect("letters")
+            .expect("room");
+        assert!(!overlap(&first.frame, &second.frame));
+        let small = self::piece(PieceId(0), square(3.0));
+        let segment = [small.outline[0], small.outline[1]];
+        assert!(
+            number_label("12", &small.faces[0], [0, 1], segment, &[], &[])
+                .expect("letters")
+                .is_none()
+        );
+    }
+}

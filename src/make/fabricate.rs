@@ -1,0 +1,223 @@
+//! From a mesh to pieces on sheets: chooses the seams, unfolds, and divides what no sheet can hold.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use serde::Deserialize;
+
+use super::MakeError;
+use super::divide::{Room, folds_to_open};
+use super::dull_folds;
+use super::seam_choice::SeamChoice;
+use crate::io::order_json;
+use crate::mesh::{EdgeId, FaceMap, Mesh};
+use crate::net::{Net, PieceId};
+use crate::progress::Progress;
+use crate::select::{Context, Made, Selection};
+use crate::sheet::{SheetError, SheetParams, SheetSet, lay_out_watched};
+use crate::unfold::{
+    PiecesMode, Seams, Source, UnfoldParams, check_folded, check_seams, seams_by_angle, unfold,
+};
+use crate::units::Angle;
+
+/// Which edges open. Without either, marked seams of the file are used; without marks the unfolder
+/// chooses.
+#[derive(Debug, Clone, Default, clap::Args, Deserialize)]
+pub struct FabricateParams {
+    /// Edges to open: a selection, or a file (OBJ with `l` lines, or `v0 v1` per line); others open
+    /// only where faces overlap.
+    #[arg(long, value_name = "SELECTION|FILE", conflicts_with = "folds")]
+    #[serde(default)]
+    pub seams: Option<SeamChoice>,
+    /// Edges to keep as folds (`matching`, `hamiltonian`, `strip`, …); all others open.
+    #[arg(long, value_name = "SELECTION")]
+    #[serde(default)]
+    pub folds: Option<Selection>,
+    /// Edges that fold by more than this angle open, e.g. 40deg, and the shortest ways from them to
+    /// every vertex around which the faces cannot lie flat; above 0. For meshes with more than
+    /// three edges at a vertex.
+    #[arg(long, value_name = "ANGLE", conflicts_with_all = ["seams", "folds"])]
+    #[serde(default)]
+    pub sharp: Option<Angle>,
+    /// Edges that must stay together as folds, whatever else opens; an error where they cannot.
+    #[arg(long, value_name = "SELECTION")]
+    #[serde(default)]
+    pub keep: Option<Selection>,
+    /// Edges that must open, whatever else does.
+    #[arg(long, value_name = "SELECTION")]
+    #[serde(default)]
+    pub cut: Option<Selection>,
+}
+
+impl FabricateParams {
+    /// The same with a seam file looked for from a folder.
+    pub(crate) fn in_folder(&self, folder: &Path) -> Self {
+        Self { seams: self.seams.as_ref().map(|seams| seams.in_folder(folder)), ..self.clone() }
+    }
+}
+
+/// Pieces, and the sheets that hold them.
+#[derive(Debug, Clone)]
+pub struct Fabrication {
+    /// The pieces with their proof.
+    pub net: Net,
+    /// Layout and drawings; empty without sheets.
+    pub sheets: SheetSet,
+    /// How the seams were chosen, in words for the user; empty where there was nothing to choose.
+    pub seams: &'static str,
+    /// How many folds were opened because a piece was too large for the sheet.
+    pub divided: usize,
+    /// For each piece the file that it comes from; empty when the pieces were unfolded here.
+    pub sources: Vec<order_json::Source>,
+}
+
+/// Unfolds a mesh, in millimetres, and lays the pieces out. Pieces too large for the sheet are
+/// opened at the fold that divides their area best until they fit.
+///
+/// # Errors
+/// What selecting, unfolding and laying out can refuse; a single face too large for the sheet is
+/// [`SheetError::PiecesTooLarge`] with the size that it needs.
+pub fn fabricate(
+    mesh: &Mesh,
+    made: Option<&Made>,
+    (params, choice, sheet): (&UnfoldParams, &FabricateParams, &SheetParams),
+    source: &Source<'_>,
+    progress: &dyn Progress,
+) -> Result<Fabrication, MakeError> {
+    let context = Context { mesh, made, progress };
+    let keep = selected(&context, choice.keep.as_ref())?;
+    let (mut seams, words) = choose_seams(&context, source, params, choice)?;
+    let mut params = params.clone();
+    let mut divided = 0;
+    loop {
+        let net = unfold(mesh, &seams, &params, source, progress)?;
+        match lay_out_watched(&net, sheet, progress) {
+            Ok(sheets) => {
+                check_folded(&net, &keep)?;
+                return Ok(Fabrication { net, sheets, seams: words, divided, sources: Vec::new() });
+            }
+            Err(SheetError::PiecesTooLarge { pieces, width, height, margin })
+                if pieces.iter().all(|p| p.faces > 1) =>
+            {
+                let mut open: BTreeSet<usize> = net.seams.iter().map(|s| s.id.0).collect();
+                let before = open.len();
+                for too_large in &pieces {
+                    open.extend(
+                        room(sheet)
+                            .into_iter()
+                            .flat_map(|room| folds_to_open(&net, too_large.piece, room)),
+                    );
+                }
+                if open.len() == before {
+                    return Err(SheetError::PiecesTooLarge { pieces, width, height, margin }.into());
+                }
+                divided += open.len() - before;
+                seams = Seams::Open(open.into_iter().map(EdgeId::new).collect());
+                // The number of pieces now follows from the sheet.
+                params.pieces = PiecesMode::Auto;
+            }
+            Err(error) => return Err(error.into()),
+        }
+    }
+}
+
+fn choose_seams(
+    context: &Context<'_>,
+    source: &Source<'_>,
+    params: &UnfoldParams,
+    choice: &FabricateParams,
+) -> Result<(Seams, &'static str), MakeError> {
+    let (mesh, made) = (context.mesh, context.made);
+    let [keep, cut] = [&choice.keep, &choice.cut].map(|list| selected(context, list.as_ref()));
+    let (keep, cut) = (keep?, cut?);
+    if let Some((seams, words)) = given_seams(context, source, choice, [&keep, &cut])? {
+        check_seams(mesh, &seams)?;
+        return Ok((seams, words));
+    }
+    if !keep.is_empty() || !cut.is_empty() {
+        return Ok((
+            Seams::Within { keep, cut },
+            "the unfolder chose the seams within what was to be kept and cut",
+        ));
+    }
+    // Cutting a matching over and over leaves strips; where they reach every face, they are the
+    // pieces.
+    if params.pieces == PiecesMode::Auto
+        && let Some(made) = made
+        && strips_reach_every_face(mesh, &made.strip)
+    {
+        return Ok((
+            Seams::Folds(made.strip.clone()),
+            "the strips that the last cut made fold, all other edges open",
+        ));
+    }
+    if params.pieces == PiecesMode::Auto
+        && let Some(folds) = dull_folds::folds(mesh, context.progress)
+    {
+        return Ok((
+            Seams::Folds(folds),
+            "the model is a D-form: its dull edges fold, all others open",
+        ));
+    }
+    Ok((Seams::Free, "the unfolder chose the seams"))
+}
+
+/// The seams that the user gave, in one way or the other.
+fn given_seams(
+    context: &Context<'_>,
+    source: &Source<'_>,
+    choice: &FabricateParams,
+    [keep, cut]: [&[EdgeId]; 2],
+) -> Result<Option<(Seams, &'static str)>, MakeError> {
+    let open = |mut edges: Vec<EdgeId>| {
+        edges.extend(cut);
+        Seams::Open(edges)
+    };
+    if let Some(seams) = &choice.seams {
+        let edges = seams.edges(context, source.split_vertices)?;
+        return Ok(Some((open(edges), "the edges that were selected open")));
+    }
+    if let Some(angle) = choice.sharp {
+        let edges = seams_by_angle(context.mesh, angle.radians());
+        return Ok(Some((
+            open(edges),
+            "sharp edges open, and ways from them to all points that cannot lie flat",
+        )));
+    }
+    if let Some(folds) = &choice.folds {
+        let mut edges = folds.edges(context)?;
+        edges.extend(keep);
+        edges.retain(|e| !cut.contains(e));
+        return Ok(Some((Seams::Folds(edges), "all edges but the selected folds open")));
+    }
+    Ok(match Seams::marked(context.mesh) {
+        Seams::Open(marked) => Some((open(marked), "the seams that the file marks open")),
+        _ => None,
+    })
+}
+
+/// The edges of a list that may be missing.
+fn selected(context: &Context<'_>, list: Option<&Selection>) -> Result<Vec<EdgeId>, MakeError> {
+    Ok(list.map_or(Ok(Vec::new()), |list| list.edges(context))?)
+}
+
+fn strips_reach_every_face(mesh: &Mesh, strip: &[EdgeId]) -> bool {
+    let mut is_reached = FaceMap::filled(mesh.face_slots(), false);
+    for f in strip.iter().flat_map(|&e| mesh.edge_faces(e)) {
+        is_reached[f] = true;
+    }
+    mesh.is_closed() && mesh.faces().all(|f| is_reached[f])
+}
+
+/// The room inside the margin of a sheet for a piece with its joints, kerf included; `None` without
+/// sheets.
+fn room(sheet: &SheetParams) -> Option<Room> {
+    let inside =
+        sheet.sheet.mm()? - 2.0 * (sheet.margin.mm() + sheet.joint_reach()) - sheet.kerf.mm();
+    Some(Room { longer: inside.max_element(), shorter: inside.min_element() })
+}
+
+/// The name under which a piece is shown.
+pub(super) fn piece_list(ids: &[PieceId]) -> String {
+    ids.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+}

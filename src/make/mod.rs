@@ -1,0 +1,36 @@
+//! Making things: from a mesh and parameters to pieces, plates, sheets and the files of each.
+//!
+//! What a verb and a step of a recipe have in common stands here and nowhere else: D-forms are
+//! carved, meshes are unfolded, panelled and nested, materials are looked up, files are made as
+//! names and bytes. Nothing is printed or written. Verbs, recipes and the gallery call it, and so
+//! can any program.
+
+mod carve;
+mod dform;
+mod divide;
+mod dull_folds;
+mod error;
+mod fabricate;
+mod materials;
+mod nest;
+mod operate;
+mod outputs;
+mod panels;
+mod planes;
+mod report_pictures;
+mod seam_choice;
+mod show;
+
+pub use carve::{CarvedDform, carve_dform};
+pub use dform::{DformParams, MatchingChoice, MatchingChoiceError};
+pub use error::MakeError;
+pub use fabricate::{FabricateParams, Fabrication, fabricate};
+pub use materials::{MaterialError, material, with_material};
+pub use nest::{NestError, NestStep, nest_files};
+pub use operate::operate;
+pub use outputs::{Output, fabrication_outputs, sheet_picture};
+pub use panels::{PanelFiles, PanelOptionError, Panelled, SolidFile, panel_model, panel_outputs};
+pub use planes::{PlanesStep, solid_of_planes};
+pub use report_pictures::report_pictures;
+pub use seam_choice::SeamChoice;
+pub use show::{AnimationFile, AnimationFileError, AssemblyForm, ShowParams, show_outputs};

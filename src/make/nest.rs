@@ -1,0 +1,114 @@
+//! Anybody's pieces onto sheets: reads the files, lays everything out, gives back what an unfolding
+//! gives.
+
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+
+use super::{Fabrication, MakeError};
+use crate::code::codes;
+use crate::io::order_json::{Order, OrderError};
+use crate::progress::Progress;
+use crate::sheet::{SheetParams, lay_out_watched};
+
+/// Which pieces are nested.
+#[derive(Debug, Clone, PartialEq, Eq, clap::Args, Deserialize)]
+pub struct NestStep {
+    /// Files of pieces, like the pieces.json that unfold writes; of a piece only its outline is
+    /// needed
+    #[arg(value_name = "PIECES", required = true)]
+    #[serde(deserialize_with = "one_or_many")]
+    pub pieces: Vec<PathBuf>,
+    /// How often everything is made, 1 to 10000; a file may give a quantity for each of its pieces,
+    /// too
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    #[serde(default = "once")]
+    pub quantity: u32,
+}
+
+fn once() -> u32 {
+    1
+}
+
+/// Recipes may name one file without brackets.
+fn one_or_many<'de, D: serde::Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Vec<PathBuf>, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(untagged)]
+    enum Files {
+        One(PathBuf),
+        Many(Vec<PathBuf>),
+    }
+    Ok(match Files::deserialize(deserializer)? {
+        Files::One(file) => vec![file],
+        Files::Many(files) => files,
+    })
+}
+
+/// A file of pieces that could not be taken.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum NestError {
+    /// The file could not be read.
+    #[error("{}: cannot be read: {error}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        error: std::io::Error,
+    },
+    /// What it says is not right.
+    #[error("{}: {error}", path.display())]
+    Order {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        error: OrderError,
+    },
+    /// A number of copies out of range.
+    #[error("quantity is {quantity}, but must be 1 to 10000")]
+    Quantity {
+        /// What it was.
+        quantity: u32,
+    },
+}
+
+codes!(error NestError {
+    Unreadable = 721,
+    Quantity = 722,
+} through {
+    Order.error,
+});
+
+/// Nests the pieces of files, which are looked for from `folder`.
+///
+/// # Errors
+/// [`NestError`] for the files, and what laying out can refuse.
+pub fn nest_files(
+    step: &NestStep,
+    sheet: &SheetParams,
+    folder: &Path,
+    progress: &dyn Progress,
+) -> Result<Fabrication, MakeError> {
+    if !(1..=10_000).contains(&step.quantity) {
+        return Err(NestError::Quantity { quantity: step.quantity }.into());
+    }
+    let mut order = Order::default();
+    for name in &step.pieces {
+        let path = folder.join(name);
+        let text = match std::fs::read_to_string(&path) {
+            Ok(text) => text,
+            Err(error) => return Err(NestError::Unreadable { path, error }.into()),
+        };
+        order
+            .add(&text, step.quantity as usize)
+            .map_err(|error| NestError::Order { path, error })?;
+    }
+    let path = step.pieces.first().cloned().unwrap_or_default();
+    let nest = order.params(&sheet.nest).map_err(|error| NestError::Order { path, error })?;
+    let params = SheetParams { nest, ..sheet.clone() };
+    let sheets = lay_out_watched(&order.net, &params, progress)?;
+    let Order { net, sources, .. } = order;
+    Ok(Fabrication { net, sheets, seams: "the pieces were given", divided: 0, sources })
+}

@@ -114,7 +114,7 @@ fn cut_by_pattern(mesh: Mesh, pattern: &[u8], capping: Capping, seed: Option<usi
     };
     cutter.cut(&plane, Reach::Global);
     assert_sound(cutter.mesh());
-    cutter.mesh().compact();
+    cutter.mesh_mut().compact();
     assert_sound(cutter.mesh());
 }
 

@@ -23,7 +23,7 @@ use glam::DVec3;
 use kerfold::geom::Plane;
 use kerfold::mesh::{Mesh, VertexId};
 use kerfold::op::{
-    CutChain, OpContext, Reach, SliceParams, TruncateVertex, slice, truncate_vertices,
+    CutChain, OpContext, Reach, SliceParams, TruncateVertexParams, slice, truncate_vertices,
 };
 use kerfold::select::Selection;
 use kerfold::shape;
@@ -232,10 +232,11 @@ fn chain() {
         verdict(large / small <= FLAT_BAR)
     );
     let rounds = best_of(3, || {
-        let params = TruncateVertex { repeat: 7, ..TruncateVertex::new(Selection::all(), 0.25) };
+        let params =
+            TruncateVertexParams { repeat: 7, ..TruncateVertexParams::new(Selection::all(), 0.25) };
         truncate_vertices(
             &shape::cube(2.0),
-            &TruncateVertex { scope: kerfold::op::Scope::Local, ..params },
+            &TruncateVertexParams { scope: kerfold::op::Scope::Local, ..params },
             &OpContext::default(),
         )
         .expect("something is left");

@@ -16,7 +16,7 @@ use kerfold::panel::{Hardware, PanelParams, ReferenceSide, panel_net, plates, sc
 use kerfold::progress::Silent;
 use kerfold::shape::{hexagonal_facade, random_tangent_polytope};
 use kerfold::sheet::{Labels, NestParams, SheetParams, lay_out};
-use kerfold::unfold::Source;
+use kerfold::unfold::MeshSource;
 use kerfold::units::Length;
 
 /// What the façade may take.
@@ -75,7 +75,7 @@ fn facade() {
     );
     drop((made, listed, net, sheets));
     let mut clock = Clock::start();
-    let source = Source { scale: 1.0, split_vertices: &[] };
+    let source = MeshSource { scale: 1.0, split_vertices: &[] };
     for solids in [
         vec![SolidFile::None],
         vec![SolidFile::Step, SolidFile::Obj, SolidFile::Glb, SolidFile::Stl],

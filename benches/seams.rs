@@ -22,7 +22,7 @@ use kerfold::seam::{
     TwoPieceSearch, fold_sum, fold_weight, is_perfect_matching, least_matching, piece_count, table,
 };
 use kerfold::shape::{SolidParams, random_tangent_polytope, solid};
-use kerfold::unfold::{PiecesMode, Seams, Source, UnfoldParams, unfold};
+use kerfold::unfold::{MeshSource, PiecesMode, Seams, UnfoldParams, unfold};
 
 /// Matchings by the number of pieces that they leave, counted by exhaustive search.
 const COUNTS: [(&str, &[(usize, usize)]); 7] = [
@@ -105,7 +105,7 @@ fn proof() {
     );
     let params = UnfoldParams { pieces: PiecesMode::Count(2), ..UnfoldParams::default() };
     let (refused, seconds) =
-        timed(|| unfold(&mesh, &Seams::Free, &params, &Source::default(), &Silent).is_err());
+        timed(|| unfold(&mesh, &Seams::Free, &params, &MeshSource::default(), &Silent).is_err());
     println!(
         "proof        tutte: `unfold --pieces 2` refuses: {seconds:.4} s, bar {TUTTE} s{}",
         verdict(refused && seconds < TUTTE)
@@ -118,7 +118,7 @@ fn two_pieces(faces: usize, seeds: u64, bar: f64) {
     for seed in 0..seeds {
         let mesh = random_tangent_polytope(faces, seed);
         let (net, seconds) =
-            timed(|| unfold(&mesh, &Seams::Free, &params, &Source::default(), &Silent));
+            timed(|| unfold(&mesh, &Seams::Free, &params, &MeshSource::default(), &Silent));
         (slowest, all) = (slowest.max(seconds), all + seconds);
         let Ok(net) = net else { continue };
         let folds: Vec<_> = net.folds.iter().map(|f| kerfold::mesh::EdgeId::new(f.id.0)).collect();

@@ -24,7 +24,7 @@ use kerfold::io::{ReadOptions, read_mesh};
 use kerfold::mesh::{Mesh, SplitVertex};
 use kerfold::progress::Silent;
 use kerfold::shape::{Archimedean, Platonic, SolidParams, random_tangent_polytope, solid};
-use kerfold::unfold::{PiecesMode, Seams, Source, UnfoldParams, prove, unfold};
+use kerfold::unfold::{MeshSource, PiecesMode, Seams, UnfoldParams, prove, unfold};
 
 /// Random convex meshes: faces, CPU seconds that one may take at most.
 const CONVEX: [(usize, f64); 5] = [(100, 0.1), (200, 0.1), (500, 0.1), (1000, 0.3), (5000, 5.0)];
@@ -200,7 +200,7 @@ fn run(
     effort: u32,
 ) -> Result<Row, String> {
     let params = UnfoldParams { pieces, effort, ..UnfoldParams::default() };
-    let source = Source { scale: 1.0, split_vertices };
+    let source = MeshSource { scale: 1.0, split_vertices };
     let start = thread_seconds();
     let net =
         unfold(mesh, &Seams::Free, &params, &source, &Silent).map_err(|fault| fault.to_string())?;

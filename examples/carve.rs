@@ -7,7 +7,7 @@ use std::error::Error;
 
 use kerfold::check::{CheckParams, check};
 use kerfold::io::{MeshFormat, WriteOptions, mesh_bytes};
-use kerfold::op::{OpContext, TruncateVertex, truncate_vertices};
+use kerfold::op::{OpContext, TruncateVertexParams, truncate_vertices};
 use kerfold::shape::{SolidParams, solid};
 use kerfold::units::Length;
 
@@ -18,8 +18,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         size: Some(Length::from_mm(300.0)),
     };
     let ball = solid(&ball)?;
-    let (carved, report) =
-        truncate_vertices(&ball, &TruncateVertex::new("all".parse()?, 0.3), &OpContext::default())?;
+    let (carved, report) = truncate_vertices(
+        &ball,
+        &TruncateVertexParams::new("all".parse()?, 0.3),
+        &OpContext::default(),
+    )?;
     for note in report.notes("vertex") {
         eprintln!("note: {note}");
     }

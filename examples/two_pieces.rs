@@ -9,7 +9,7 @@ use kerfold::io::sheet::svg::write_svg;
 use kerfold::progress::Silent;
 use kerfold::shape::{SolidParams, solid};
 use kerfold::sheet::{Joint, SheetParams, lay_out};
-use kerfold::unfold::{Seams, Source, UnfoldParams, prove, unfold};
+use kerfold::unfold::{MeshSource, Seams, UnfoldParams, prove, unfold};
 use kerfold::units::Length;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -23,7 +23,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         &model,
         &Seams::Free,
         &params,
-        &Source { scale: 1.0, split_vertices: &[] },
+        &MeshSource { scale: 1.0, split_vertices: &[] },
         &Silent,
     )?;
     let proof = prove(&model, &net)?;

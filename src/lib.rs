@@ -7,18 +7,18 @@
 //! parameter struct, which is also the command line's and the recipe's.
 //!
 //! ```
-//! use kerfold::op::{OpContext, TruncateEdge, truncate_edges};
+//! use kerfold::op::{OpContext, TruncateEdgeParams, truncate_edges};
 //! use kerfold::progress::Silent;
 //! use kerfold::shape::{SolidParams, solid};
-//! use kerfold::unfold::{Seams, Source, UnfoldParams, prove, unfold};
+//! use kerfold::unfold::{Seams, MeshSource, UnfoldParams, prove, unfold};
 //! use kerfold::units::Length;
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let cube = solid(&SolidParams { name: "cube".parse()?, edge: Some(Length::from_mm(80.0)), size: None })?;
 //! // Every edge along z is cut off: planar faces, three edges at every vertex.
-//! let cut = TruncateEdge::new("along=z".parse()?, 0.25);
+//! let cut = TruncateEdgeParams::new("along=z".parse()?, 0.25);
 //! let (column, _) = truncate_edges(&cube, &cut, &OpContext::default())?;
-//! let source = Source { scale: 1.0, split_vertices: &[] };
+//! let source = MeshSource { scale: 1.0, split_vertices: &[] };
 //! let net = unfold(&column, &Seams::Free, &UnfoldParams::default(), &source, &Silent)?;
 //! let proof = prove(&column, &net)?;
 //! assert_eq!((column.face_count(), net.pieces.len(), proof.overlaps), (10, 1, 0));
@@ -28,7 +28,7 @@
 //!
 //! The modules are layers; each uses only those below it (`docs/architecture.md`).
 
-pub use kerfold_kernel::{code, geom, measure, mesh, progress, units};
+pub use kerfold_kernel::{code, geom, measure, mesh, progress, random, units};
 pub use kerfold_sheet::{lint, net, sheet};
 
 pub mod explain;

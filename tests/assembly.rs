@@ -8,14 +8,14 @@ use kerfold::net::{Net, PieceId};
 use kerfold::progress::Silent;
 use kerfold::shape::{SolidParams, solid};
 use kerfold::sheet::assembly_of;
-use kerfold::unfold::{Seams, Source, UnfoldParams, unfold};
+use kerfold::unfold::{MeshSource, Seams, UnfoldParams, unfold};
 
 fn net_of(name: &str, pieces: &str) -> Net {
     let name = name.parse().expect("a known solid");
     let mesh = solid(&SolidParams { name, edge: None, size: None }).expect("a solid");
     let params =
         UnfoldParams { pieces: pieces.parse().expect("a mode"), ..UnfoldParams::default() };
-    unfold(&mesh, &Seams::Free, &params, &Source { scale: 1.0, split_vertices: &[] }, &Silent)
+    unfold(&mesh, &Seams::Free, &params, &MeshSource { scale: 1.0, split_vertices: &[] }, &Silent)
         .expect("a net")
 }
 

@@ -8,7 +8,8 @@ use kerfold::measure::genus;
 use kerfold::mesh::{FaceId, Mesh, VertexId, assert_sound};
 use kerfold::op::{
     HandleParams, MengerParams, OpContext, Operate, RindParams, Scheme, ShellSource,
-    SierpinskiParams, SubdivideParams, Thickness, TruncateEdge, TruncateFace, TruncateVertex, rind,
+    SierpinskiParams, SubdivideParams, Thickness, TruncateEdgeParams, TruncateFaceParams,
+    TruncateVertexParams, rind,
 };
 use kerfold::select::Selection;
 use kerfold::shape;
@@ -86,9 +87,9 @@ fn step(dice: &mut Dice, mesh: &Mesh) -> Box<dyn Operate> {
             let vertices: Vec<u32> = mesh.vertices().map(|v| v.index() as u32).collect();
             let edges: Vec<u32> = mesh.edges().map(|e| e.index() as u32).collect();
             match dice.roll(3) {
-                0 => Box::new(TruncateVertex::new(chosen(dice, &vertices, 3), 0.2)),
-                1 => Box::new(TruncateEdge::new(chosen(dice, &edges, 2), 0.2)),
-                _ => Box::new(TruncateFace::new(chosen(dice, &all, 2), 0.2)),
+                0 => Box::new(TruncateVertexParams::new(chosen(dice, &vertices, 3), 0.2)),
+                1 => Box::new(TruncateEdgeParams::new(chosen(dice, &edges, 2), 0.2)),
+                _ => Box::new(TruncateFaceParams::new(chosen(dice, &all, 2), 0.2)),
             }
         }
     }

@@ -10,7 +10,7 @@ use kerfold::sheet::{
     Angles, Drawing, Joint, LayerKind, MarkKind, SheetParams, SheetSet, SheetSize, lay_out,
     smallest_box,
 };
-use kerfold::unfold::{Seams, Source, UnfoldParams, unfold};
+use kerfold::unfold::{MeshSource, Seams, UnfoldParams, unfold};
 use kerfold::units::Length;
 
 const JOINTS: [Joint; 6] =
@@ -25,8 +25,14 @@ fn net(name: &str, size: f64, pieces: &str) -> Net {
     let mesh = solid(&params).expect("a solid");
     let unfolding =
         UnfoldParams { pieces: pieces.parse().expect("a mode"), ..UnfoldParams::default() };
-    unfold(&mesh, &Seams::Free, &unfolding, &Source { scale: 1.0, split_vertices: &[] }, &Silent)
-        .expect("a net")
+    unfold(
+        &mesh,
+        &Seams::Free,
+        &unfolding,
+        &MeshSource { scale: 1.0, split_vertices: &[] },
+        &Silent,
+    )
+    .expect("a net")
 }
 
 fn sheets(net: &Net, joint: Joint, kerf: f64) -> SheetSet {
@@ -222,7 +228,7 @@ fn flaps_count_when_a_piece_is_divided_for_the_sheet() {
         size: Some(Length::from_mm(180.0)),
     };
     let mesh = solid(&params).expect("a solid");
-    let source = Source { scale: 1.0, split_vertices: &[] };
+    let source = MeshSource { scale: 1.0, split_vertices: &[] };
     let made = |sheet: &SheetParams| {
         let choice = FabricateParams::default();
         fabricate(&mesh, None, (&UnfoldParams::default(), &choice, sheet), &source, &Silent)

@@ -7,7 +7,7 @@ use glam::DVec2;
 use kerfold::io::artwork::read_artwork;
 use kerfold::io::sheet::files::sheet_bytes;
 use kerfold::io::sheet::pdf::tiles::write_tiles;
-use kerfold::lint::{Check, Finding, LintParams, lint};
+use kerfold::lint::{Check, LintFinding, LintParams, lint};
 use kerfold::make::{material, with_material};
 use kerfold::net::{MeshCounts, Net, Piece, PieceId, Proof};
 use kerfold::progress::Silent;
@@ -18,7 +18,7 @@ use kerfold::sheet::{
 };
 use kerfold::units::Length;
 
-fn found(name: &str, params: &LintParams) -> Vec<Finding> {
+fn found(name: &str, params: &LintParams) -> Vec<LintFinding> {
     let path = Path::new("fixtures/lint").join(name);
     let bytes = std::fs::read(&path).unwrap_or_else(|e| panic!("{name}: {e}"));
     let (_, pages) = read_artwork(&path, &bytes).unwrap_or_else(|e| panic!("{name}: {e}"));

@@ -12,8 +12,8 @@ use kerfold::geom::{Plane, fit_plane};
 use kerfold::measure::{face_diameter, volume};
 use kerfold::mesh::{FaceId, Mesh, assert_sound};
 use kerfold::op::{
-    CutReport, OpContext, OpError, Scope, TruncateEdge, TruncateFace, TruncateVertex,
-    truncate_edges, truncate_faces, truncate_vertices,
+    CutReport, OpContext, OpError, Scope, TruncateEdgeParams, TruncateFaceParams,
+    TruncateVertexParams, truncate_edges, truncate_faces, truncate_vertices,
 };
 use kerfold::select::Selection;
 use kerfold::shape;
@@ -192,10 +192,10 @@ fn truncate(mesh: &Mesh, kind: Kind, t: f64) -> Result<(Mesh, CutReport), OpErro
     let context = OpContext::default();
     match kind {
         Kind::Vertex => {
-            truncate_vertices(mesh, &TruncateVertex::new(Selection::all(), t), &context)
+            truncate_vertices(mesh, &TruncateVertexParams::new(Selection::all(), t), &context)
         }
-        Kind::Edge => truncate_edges(mesh, &TruncateEdge::new(Selection::all(), t), &context),
-        Kind::Face => truncate_faces(mesh, &TruncateFace::new(Selection::all(), t), &context),
+        Kind::Edge => truncate_edges(mesh, &TruncateEdgeParams::new(Selection::all(), t), &context),
+        Kind::Face => truncate_faces(mesh, &TruncateFaceParams::new(Selection::all(), t), &context),
     }
 }
 
@@ -344,7 +344,11 @@ fn the_papers_plane_at_a_third_overcuts_from_the_third_round_on() {
                 mesh.set_position(v, mesh.position(v) + shift, true);
             }
             let select: Selection = select.parse().expect("a selection");
-            let params = TruncateVertex { repeat, scope, ..TruncateVertex::new(select, 1.0 / 3.0) };
+            let params = TruncateVertexParams {
+                repeat,
+                scope,
+                ..TruncateVertexParams::new(select, 1.0 / 3.0)
+            };
             let (cut, report) = truncate_vertices(&mesh, &params, &OpContext::default())
                 .expect("something is left");
             assert_sound(&cut);

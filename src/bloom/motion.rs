@@ -55,12 +55,12 @@ impl<'a> Bloom<'a> {
         let by_seams = closed_by_seams(net, &flat);
         let end = |root: &Leaf| {
             let face = tree.flat(root);
-            let known = corners(face.face).and_then(|points| Pose::laying(&face.polygon, &points));
+            let known = corners(face.face).and_then(|points| Pose::fit(&face.polygon, &points));
             known.or_else(|| by_seams.get(&face.face).copied()).unwrap_or(flat[root.piece])
         };
         let closed = tree.poses(end, |_, _| 1.0);
         let shift = under(net, &tree, &closed, &flat);
-        let flat = tree.leaves().iter().map(|l| shift.after(&flat[l.piece])).collect();
+        let flat = tree.leaves().iter().map(|l| shift.compose(&flat[l.piece])).collect();
         Self { tree, flat, closed }
     }
 
@@ -85,7 +85,7 @@ impl<'a> Bloom<'a> {
         let (folded, moved) = (share(FOLDING), share(MOVING));
         let root = |leaf: &Leaf| {
             let middle = centroid(&self.tree.flat(leaf).polygon).extend(0.0);
-            Pose::between(&self.flat[leaf.root], &self.closed[leaf.root], middle, moved)
+            Pose::interpolate(&self.flat[leaf.root], &self.closed[leaf.root], middle, moved)
         };
         self.tree.poses(root, |_, _| folded)
     }
@@ -105,7 +105,7 @@ fn flat_poses(net: &Net, places: &[FlatPlace]) -> Vec<Pose> {
         })
         .collect();
     let laid = |i: usize, pose: &Pose| {
-        net.pieces[i].outline.iter().map(|&p| pose.place(p)).collect::<Vec<_>>()
+        net.pieces[i].outline.iter().map(|&p| pose.lift(p)).collect::<Vec<_>>()
     };
     let known = given.iter().enumerate().filter_map(|(i, pose)| Some(laid(i, pose.as_ref()?)));
     let mut right = known.flatten().map(|p| p.x).fold(0.0, f64::max);
@@ -146,7 +146,7 @@ fn under(net: &Net, tree: &FoldTree<'_>, closed: &[Pose], flat: &[Pose]) -> Pose
     };
     let corners = |(leaf, pose): (&Leaf, &Pose)| {
         let (pose, face) = (*pose, tree.flat(leaf));
-        face.polygon.iter().map(move |&p| pose.place(p))
+        face.polygon.iter().map(move |&p| pose.lift(p))
     };
     let (low, high) = bounds(&mut tree.leaves().iter().zip(closed).flat_map(corners));
     let (flat_low, flat_high) = bounds(
@@ -154,7 +154,7 @@ fn under(net: &Net, tree: &FoldTree<'_>, closed: &[Pose], flat: &[Pose]) -> Pose
             .pieces
             .iter()
             .zip(flat)
-            .flat_map(|(p, pose)| p.outline.iter().map(|&q| pose.place(q))),
+            .flat_map(|(p, pose)| p.outline.iter().map(|&q| pose.lift(q))),
     );
     let shift = low.midpoint(high).truncate() - flat_low.midpoint(flat_high).truncate();
     let shift = shift.extend(high.z);

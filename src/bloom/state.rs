@@ -111,7 +111,7 @@ impl Corners {
             for (k, corner) in (self.starts[i]..self.starts[i + 1]).enumerate() {
                 let root = self.root(corner);
                 roots.push(root);
-                sums[root].0 += poses[i].place(tree.flat(leaf).polygon[k]);
+                sums[root].0 += poses[i].lift(tree.flat(leaf).polygon[k]);
                 sums[root].1 += 1.0;
             }
         }

@@ -5,7 +5,7 @@ use crate::mesh::{FaceId, Mesh, assert_sound};
 use crate::net::Net;
 use crate::progress::Silent;
 use crate::shape::{SolidParams, solid};
-use crate::unfold::{PiecesMode, Seams, Source, UnfoldParams, unfold};
+use crate::unfold::{MeshSource, PiecesMode, Seams, UnfoldParams, unfold};
 
 fn model(name: &str) -> Mesh {
     let name = name.parse().expect("a known solid");
@@ -13,7 +13,7 @@ fn model(name: &str) -> Mesh {
 }
 
 fn net_of(mesh: &Mesh, pieces: PiecesMode) -> Net {
-    let source = Source { scale: 1.0, split_vertices: &[] };
+    let source = MeshSource { scale: 1.0, split_vertices: &[] };
     let params = UnfoldParams { pieces, ..UnfoldParams::default() };
     unfold(mesh, &Seams::Free, &params, &source, &Silent).expect("a solid unfolds")
 }
@@ -28,7 +28,7 @@ fn off(tree: &FoldTree<'_>, poses: &[Pose], mesh: &Mesh) -> f64 {
     for (leaf, pose) in tree.leaves().iter().zip(poses) {
         let face = tree.flat(leaf);
         for (&p, q) in face.polygon.iter().zip(mesh.face_positions(FaceId::new(face.face))) {
-            worst = worst.max(pose.place(p).distance(q));
+            worst = worst.max(pose.lift(p).distance(q));
         }
     }
     worst
@@ -67,7 +67,7 @@ fn at_the_beginning_every_piece_lies_where_it_was_put_with_its_outside_up() {
         .zip(&poses)
         .map(|(leaf, pose)| {
             assert!((pose.rotation * DVec3::Z).distance(DVec3::Z) < 1e-12);
-            bloom.tree().flat(leaf).polygon.iter().map(|&p| pose.place(p).truncate()).collect()
+            bloom.tree().flat(leaf).polygon.iter().map(|&p| pose.lift(p).truncate()).collect()
         })
         .collect();
     // The piece that nothing was said about lies beside the other.
@@ -134,7 +134,7 @@ fn the_way_between_two_faces_is_all_the_hinges_between_them() {
         let poses = tree.poses(|_| Pose::IDENTITY, |i, _| if way.contains(&i) { 1.0 } else { 0.2 });
         for end in [0, 1] {
             let [p, q] =
-                [(a, 0), (b, 1)].map(|(leaf, k)| poses[leaf].place(seam.sides[k].segment[end]));
+                [(a, 0), (b, 1)].map(|(leaf, k)| poses[leaf].lift(seam.sides[k].segment[end]));
             assert!(p.distance(q) < 1e-9, "{p} {q}");
         }
     }

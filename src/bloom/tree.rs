@@ -165,7 +165,7 @@ impl<'a> FoldTree<'a> {
         for (i, leaf) in self.leaves.iter().enumerate() {
             let pose = match &leaf.hinge {
                 None => root(leaf),
-                Some(hinge) => poses[hinge.parent].after(&hinge.turned(share(i, hinge))),
+                Some(hinge) => poses[hinge.parent].compose(&hinge.turned(share(i, hinge))),
             };
             poses.push(pose);
         }
@@ -180,7 +180,7 @@ impl Hinge {
         let [a, b] = self.line.map(|p| p.extend(0.0));
         let axis = (b - a).normalize_or(glam::DVec3::X);
         let turn = DQuat::from_axis_angle(axis, self.angle * share);
-        Pose { rotation: turn, translation: a - turn * a }.after(&self.lay)
+        Pose { rotation: turn, translation: a - turn * a }.compose(&self.lay)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use super::{CheckKind, Element, Finding, Report, Requirement, Unit, short};
+use super::{CheckFinding, CheckKind, Element, Report, Requirement, Unit, short};
 use crate::geom::RoundingBound;
 use crate::measure::{self, edge_length, face_area, face_diameter, self_contact};
 use crate::mesh::{EdgeId, FaceId, Mesh, VertexId};
@@ -11,7 +11,7 @@ use crate::mesh::{EdgeId, FaceId, Mesh, VertexId};
 const NAMED: usize = 8;
 
 /// All findings, in the order of [`CheckKind`].
-pub(super) fn all(mesh: &Mesh, report: &Report) -> Vec<Finding> {
+pub(super) fn all(mesh: &Mesh, report: &Report) -> Vec<CheckFinding> {
     let mut findings = Vec::new();
     if let Some((low, high)) = mesh.bounds() {
         let bound = RoundingBound::of_box(low, high).length();
@@ -20,7 +20,7 @@ pub(super) fn all(mesh: &Mesh, report: &Report) -> Vec<Finding> {
     }
     findings.extend(mesh.faces().filter_map(|f| self_intersection(mesh, f)));
     findings.extend(planarity(report));
-    type Check = fn(&Mesh, &Report) -> Vec<Finding>;
+    type Check = fn(&Mesh, &Report) -> Vec<CheckFinding>;
     let on_request: [(Requirement, Check); 5] = [
         (Requirement::Valence3, valence),
         (Requirement::Closed, closed),
@@ -36,9 +36,9 @@ pub(super) fn all(mesh: &Mesh, report: &Report) -> Vec<Finding> {
     findings
 }
 
-fn degenerate_face(mesh: &Mesh, f: FaceId, bound: f64) -> Option<Finding> {
+fn degenerate_face(mesh: &Mesh, f: FaceId, bound: f64) -> Option<CheckFinding> {
     let sides = mesh.sides(f);
-    let finding = |measured, limit, unit, message| Finding {
+    let finding = |measured, limit, unit, message| CheckFinding {
         check: CheckKind::DegenerateFace,
         element: Element::Face,
         id: f.index(),
@@ -69,10 +69,10 @@ fn degenerate_face(mesh: &Mesh, f: FaceId, bound: f64) -> Option<Finding> {
 }
 
 /// A self-loop is a link without length by its nature; files leave it out.
-fn zero_length_edge(mesh: &Mesh, e: EdgeId, bound: f64) -> Option<Finding> {
+fn zero_length_edge(mesh: &Mesh, e: EdgeId, bound: f64) -> Option<CheckFinding> {
     let length = edge_length(mesh, e);
     let [a, b] = mesh.edge_vertices(e);
-    (a != b && length <= bound).then(|| Finding {
+    (a != b && length <= bound).then(|| CheckFinding {
         check: CheckKind::ZeroLengthEdge,
         element: Element::Edge,
         id: e.index(),
@@ -86,10 +86,10 @@ fn zero_length_edge(mesh: &Mesh, e: EdgeId, bound: f64) -> Option<Finding> {
     })
 }
 
-fn self_intersection(mesh: &Mesh, f: FaceId) -> Option<Finding> {
+fn self_intersection(mesh: &Mesh, f: FaceId) -> Option<CheckFinding> {
     let sides = self_contact(mesh, f)?;
     let [[a, b], [c, d]] = sides.map(|e| mesh.edge_vertices(e));
-    Some(Finding {
+    Some(CheckFinding {
         check: CheckKind::SelfIntersection,
         element: Element::Face,
         id: f.index(),
@@ -103,10 +103,10 @@ fn self_intersection(mesh: &Mesh, f: FaceId) -> Option<Finding> {
     })
 }
 
-fn planarity(report: &Report) -> impl Iterator<Item = Finding> + '_ {
+fn planarity(report: &Report) -> impl Iterator<Item = CheckFinding> + '_ {
     report.faces.iter().filter_map(|f| {
         let breach = f.breach?;
-        Some(Finding {
+        Some(CheckFinding {
             check: CheckKind::Planarity,
             element: Element::Face,
             id: f.face.index(),
@@ -128,13 +128,13 @@ fn planarity(report: &Report) -> impl Iterator<Item = Finding> + '_ {
     })
 }
 
-fn valence(mesh: &Mesh, report: &Report) -> Vec<Finding> {
+fn valence(mesh: &Mesh, report: &Report) -> Vec<CheckFinding> {
     // At a rim two edges are an outer corner of one face: nothing meets there that could miss.
     let is_allowed = |&v: &VertexId| mesh.valence(v) == 2 && mesh.is_rim_vertex(v);
     let wrong = report.valence.other.iter().copied().filter(|v| !is_allowed(v));
     let finding = |v: VertexId| {
         let valence = mesh.valence(v);
-        Finding {
+        CheckFinding {
             check: CheckKind::Valence,
             element: Element::Vertex,
             id: v.index(),
@@ -147,9 +147,9 @@ fn valence(mesh: &Mesh, report: &Report) -> Vec<Finding> {
     wrong.map(finding).collect()
 }
 
-fn closed(mesh: &Mesh, _: &Report) -> Vec<Finding> {
+fn closed(mesh: &Mesh, _: &Report) -> Vec<CheckFinding> {
     let rims = measure::rims(mesh).into_iter().enumerate();
-    let finding = |(i, rim): (usize, measure::Rim)| Finding {
+    let finding = |(i, rim): (usize, measure::Rim)| CheckFinding {
         check: CheckKind::Closed,
         element: Element::Rim,
         id: i,
@@ -166,8 +166,8 @@ fn closed(mesh: &Mesh, _: &Report) -> Vec<Finding> {
     rims.map(finding).collect()
 }
 
-fn convex(mesh: &Mesh, report: &Report) -> Vec<Finding> {
-    let mut findings: Vec<Finding> = not_a_ball(report).into_iter().collect();
+fn convex(mesh: &Mesh, report: &Report) -> Vec<CheckFinding> {
+    let mut findings: Vec<CheckFinding> = not_a_ball(report).into_iter().collect();
     findings.extend(report.convexity.concave_faces.iter().map(|&f| concave_face(mesh, f)));
     findings.extend(report.convexity.concave_edges.iter().map(|&e| concave_edge(mesh, e)));
     if findings.is_empty() && !report.is_convex() {
@@ -181,8 +181,8 @@ fn convex(mesh: &Mesh, report: &Report) -> Vec<Finding> {
     findings
 }
 
-fn not_convex(measured: f64, limit: f64, unit: Unit, message: String) -> Finding {
-    Finding {
+fn not_convex(measured: f64, limit: f64, unit: Unit, message: String) -> CheckFinding {
+    CheckFinding {
         check: CheckKind::Convex,
         element: Element::Model,
         id: 0,
@@ -193,7 +193,7 @@ fn not_convex(measured: f64, limit: f64, unit: Unit, message: String) -> Finding
     }
 }
 
-fn not_a_ball(report: &Report) -> Option<Finding> {
+fn not_a_ball(report: &Report) -> Option<CheckFinding> {
     let model = &report.model;
     let cases = [
         (model.rims, 0, Unit::Rims, "it is open"),
@@ -206,11 +206,11 @@ fn not_a_ball(report: &Report) -> Option<Finding> {
     Some(not_convex(measured as f64, limit as f64, unit, message))
 }
 
-fn concave_face(mesh: &Mesh, f: FaceId) -> Finding {
+fn concave_face(mesh: &Mesh, f: FaceId) -> CheckFinding {
     let angles =
         mesh.face_half_edges(f).filter_map(|h| measure::corner_angle(mesh, h).map(f64::to_degrees));
     let widest = angles.fold(180.0, f64::max);
-    Finding {
+    CheckFinding {
         check: CheckKind::Convex,
         element: Element::Face,
         id: f.index(),
@@ -221,10 +221,10 @@ fn concave_face(mesh: &Mesh, f: FaceId) -> Finding {
     }
 }
 
-fn concave_edge(mesh: &Mesh, e: EdgeId) -> Finding {
+fn concave_edge(mesh: &Mesh, e: EdgeId) -> CheckFinding {
     let [a, b] = mesh.edge_vertices(e);
     let inwards = -measure::fold_angle(mesh, e).unwrap_or(0.0).to_degrees();
-    Finding {
+    CheckFinding {
         check: CheckKind::Convex,
         element: Element::Edge,
         id: e.index(),
@@ -239,7 +239,7 @@ fn concave_edge(mesh: &Mesh, e: EdgeId) -> Finding {
 }
 
 /// Vertices at exactly one place: where a surface touches itself, the reader has pulled it apart.
-fn manifold(mesh: &Mesh, _: &Report) -> Vec<Finding> {
+fn manifold(mesh: &Mesh, _: &Report) -> Vec<CheckFinding> {
     // Adding zero makes one of the two zeros.
     let key = |v: VertexId| (mesh.position(v) + 0.0).to_array();
     let by_place = |&v: &VertexId, &u: &VertexId| {
@@ -249,15 +249,15 @@ fn manifold(mesh: &Mesh, _: &Report) -> Vec<Finding> {
     let mut vertices: Vec<VertexId> = mesh.vertices().collect();
     vertices.sort_unstable_by(by_place);
     let shared = vertices.chunk_by(|&v, &u| key(v) == key(u)).filter(|group| group.len() > 1);
-    let mut findings: Vec<Finding> = shared
+    let mut findings: Vec<CheckFinding> = shared
         .flat_map(|group| group[1..].iter().map(|&v| doubled(v, group[0], group.len())))
         .collect();
     findings.sort_by_key(|finding| finding.id);
     findings
 }
 
-fn doubled(v: VertexId, first: VertexId, count: usize) -> Finding {
-    Finding {
+fn doubled(v: VertexId, first: VertexId, count: usize) -> CheckFinding {
+    CheckFinding {
         check: CheckKind::Manifold,
         element: Element::Vertex,
         id: v.index(),
@@ -271,13 +271,13 @@ fn doubled(v: VertexId, first: VertexId, count: usize) -> Finding {
     }
 }
 
-fn one_component(mesh: &Mesh, report: &Report) -> Vec<Finding> {
+fn one_component(mesh: &Mesh, report: &Report) -> Vec<CheckFinding> {
     let count = report.model.components;
     if count == 1 {
         return Vec::new();
     }
     let seeds = mesh.components().into_iter().filter_map(|c| c.vertices.first().copied());
-    vec![Finding {
+    vec![CheckFinding {
         check: CheckKind::OneComponent,
         element: Element::Model,
         id: 0,

@@ -15,7 +15,7 @@ pub use details::{Details, EdgeDetail, VertexDetail, details};
 pub use params::{CheckError, CheckParams, Requirement};
 pub use profile::{Breach, Limits, Profile, Unit};
 pub use report::{
-    CheckKind, ConicalNode, Element, FaceReport, Finding, ModelCounts, Report, ValenceReport,
+    CheckFinding, CheckKind, ConicalNode, Element, FaceReport, ModelCounts, Report, ValenceReport,
     Verdict, check,
 };
 pub(crate) use short::short;

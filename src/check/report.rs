@@ -39,7 +39,7 @@ pub struct Report {
     /// The vertices with more than three edges, ascending, and whether plates meet there.
     pub conical: Vec<ConicalNode>,
     /// What breaks a limit or a requirement, in the order of [`CheckKind`] and ascending by id.
-    pub findings: Vec<Finding>,
+    pub findings: Vec<CheckFinding>,
 }
 
 /// Counts and size of the model.
@@ -149,7 +149,7 @@ pub enum Element {
 
 /// Something that breaks a limit or a requirement.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Finding {
+pub struct CheckFinding {
     /// What was checked.
     pub check: CheckKind,
     /// What kind of element it is about.

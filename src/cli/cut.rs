@@ -11,8 +11,9 @@ use super::terminal::Terminal;
 use super::{Console, Outcome};
 use crate::mesh::Mesh;
 use crate::op::{
-    CutReport, Keep, OpContext, OpError, ResolveParams, SliceParams, TruncateEdge, TruncateFace,
-    TruncateVertex, resolve, slice, slice_both, truncate_edges, truncate_faces, truncate_vertices,
+    CutReport, Keep, OpContext, OpError, ResolveParams, SliceParams, TruncateEdgeParams,
+    TruncateFaceParams, TruncateVertexParams, resolve, slice, slice_both, truncate_edges,
+    truncate_faces, truncate_vertices,
 };
 use crate::units::Length;
 
@@ -30,16 +31,16 @@ enum What {
     /// Cut vertices off
     #[command(after_help = "Example: kerfold cut vertex cube.obj --select all --offset 0.25 -o \
         truncated.obj")]
-    Vertex(CutOf<TruncateVertex>),
+    Vertex(CutOf<TruncateVertexParams>),
     /// Cut edges off; repeated, each becomes a developable strip
     #[command(
         after_help = "Example: kerfold cut edge dodecahedron.obj --select hamiltonian --offset 0.3 \
         --repeat 4 -o d-form.obj"
     )]
-    Edge(CutOf<TruncateEdge>),
+    Edge(CutOf<TruncateEdgeParams>),
     /// Push faces inwards
     #[command(after_help = "Example: kerfold cut face ball.obj --select 'sides=5' -o pushed.obj")]
-    Face(CutOf<TruncateFace>),
+    Face(CutOf<TruncateFaceParams>),
     /// Cut by a plane
     #[command(
         after_help = "Example: kerfold cut plane spot.obj --normal z --point 0,0,0 -o half.obj"

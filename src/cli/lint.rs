@@ -9,7 +9,7 @@ use super::output::{command_line, short};
 use super::{Console, Outcome};
 use crate::code::Coded;
 use crate::io::artwork::read_artwork;
-use crate::lint::{Artwork, Finding, LintParams, LintReport, lint};
+use crate::lint::{Artwork, LintFinding, LintParams, LintReport, lint};
 use crate::make::{MakeError, material};
 
 /// Find what a shop would send back in drawings to be cut, anybody's: SVG, DXF or PDF
@@ -130,7 +130,7 @@ fn as_json(judged: &[Judged], is_clean: bool) -> String {
     format!("{:#}\n", json!({ "command": command_line(), "files": files, "verdict": verdict }))
 }
 
-fn finding(finding: &Finding) -> Value {
+fn finding(finding: &LintFinding) -> Value {
     json!({
         "check": finding.check.name(), "code": finding.check.code().to_string(), "element": finding.element, "at": finding.at.map(|p| [p.x, p.y]),
         "measured": finding.measured, "limit": finding.limit, "unit": finding.measured.map(|_| "mm"),

@@ -15,7 +15,7 @@ use crate::io::panels_json::finding;
 use crate::make::{MakeError, PanelFiles, Panelled, panel_model, panel_outputs, with_material};
 use crate::panel::{PanelFinding, PanelParams, PanelRequirement};
 use crate::sheet::SheetParams;
-use crate::unfold::Source;
+use crate::unfold::MeshSource;
 
 /// Make every face a plate of constant thickness: mitres, gaps, joints, schedule, sheets, assembly
 /// map and 3D files
@@ -43,7 +43,7 @@ pub(super) fn run(args: &PanelsArgs, console: &Console) -> Result<Outcome, CliEr
     let read = args.input.read()?;
     let sheet = with_material(&args.sheet, Path::new("")).map_err(MakeError::from)?;
     let progress = Terminal::new(console.quiet);
-    let source = Source { scale: read.scale, split_vertices: &read.splits };
+    let source = MeshSource { scale: read.scale, split_vertices: &read.splits };
     let panelled =
         panel_model(&read.mesh, (&args.panels, &args.files, &sheet), &source, &progress)?;
     let command = command_line();

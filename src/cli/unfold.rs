@@ -16,7 +16,7 @@ use crate::make::{
 use crate::picture::RenderParams;
 use crate::progress::Progress;
 use crate::sheet::SheetParams;
-use crate::unfold::{Source, UnfoldParams};
+use crate::unfold::{MeshSource, UnfoldParams};
 
 /// Unfold a mesh into flat pieces that never overlap, and lay them out on sheets
 #[derive(Debug, clap::Args)]
@@ -41,7 +41,7 @@ pub(super) fn run(args: &UnfoldArgs, console: &Console) -> Result<Outcome, CliEr
     let read = args.input.read()?;
     let sheet = with_material(&args.sheet, Path::new("")).map_err(MakeError::from)?;
     let progress = Terminal::new(console.quiet);
-    let source = Source { scale: read.scale, split_vertices: &read.splits };
+    let source = MeshSource { scale: read.scale, split_vertices: &read.splits };
     let fabrication =
         fabricate(&read.mesh, None, (&args.unfold, &args.choice, &sheet), &source, &progress)?;
     let command = command_line();

@@ -34,7 +34,7 @@ pub fn bloom_scene(bloom: &Bloom<'_>, name: &str) -> GlbScene {
         .zip(1..)
         .map(|(&colour, i)| scene.add_material(format!("piece {i}"), colour, 1.0));
     let colours: Vec<GlbMaterialId> = colours.collect();
-    let mut made: Vec<Made> = Vec::new();
+    let mut made: Vec<NewElements> = Vec::new();
     for (i, leaf) in bloom.tree().leaves().iter().enumerate() {
         let material = colours[leaf.piece % colours.len()];
         let origin = origin(bloom, leaf);
@@ -50,7 +50,7 @@ pub fn bloom_scene(bloom: &Bloom<'_>, name: &str) -> GlbScene {
 
 /// A node as single precision has made it.
 #[derive(Clone, Copy)]
-struct Made {
+struct NewElements {
     node: GlbNodeId,
     /// Where its origin lies in the flat frame of its piece.
     flat: DVec2,
@@ -67,11 +67,11 @@ fn origin(bloom: &Bloom<'_>, leaf: &Leaf) -> DVec2 {
 }
 
 /// The node that moves a whole piece, its origin at that of its root face.
-fn piece_node(scene: &mut GlbScene, bloom: &Bloom<'_>, place: usize, origin: DVec2) -> Made {
+fn piece_node(scene: &mut GlbScene, bloom: &Bloom<'_>, place: usize, origin: DVec2) -> NewElements {
     let leaf = &bloom.tree().leaves()[place];
     let [flat, closed] = [bloom.flat()[place], bloom.closed()[place]].map(|pose| Pose {
         rotation: single_turn(pose.rotation),
-        translation: single(pose.place(origin)),
+        translation: single(pose.lift(origin)),
     });
     let node = scene.add_node(GlbNode {
         name: bloom.tree().net().pieces[leaf.piece].id.to_string(),
@@ -86,17 +86,21 @@ fn piece_node(scene: &mut GlbScene, bloom: &Bloom<'_>, place: usize, origin: DVe
     scene.add_track(GlbTrack { node, times: times.clone(), values: turns });
     let shifts = GlbValues::Translations(places.iter().map(|p| p.translation).collect());
     scene.add_track(GlbTrack { node, times, values: shifts });
-    Made { node, flat: origin, closed: Pose { rotation: closed.rotation.normalize(), ..closed } }
+    NewElements {
+        node,
+        flat: origin,
+        closed: Pose { rotation: closed.rotation.normalize(), ..closed },
+    }
 }
 
 fn face_node(
     scene: &mut GlbScene,
     bloom: &Bloom<'_>,
     place: usize,
-    carrier: &Made,
+    carrier: &NewElements,
     origin: DVec2,
     [material, line]: [GlbMaterialId; 2],
-) -> Made {
+) -> NewElements {
     let leaf = &bloom.tree().leaves()[place];
     let face = bloom.tree().flat(leaf);
     let translation = single((origin - carrier.flat).extend(0.0));
@@ -132,9 +136,9 @@ fn face_node(
     }
     let closed = Pose {
         rotation: (carrier.closed.rotation * turn.normalize()).normalize(),
-        translation: carrier.closed.lift(translation),
+        translation: carrier.closed.transform(translation),
     };
-    Made { node, flat: carrier.flat + translation.truncate(), closed }
+    NewElements { node, flat: carrier.flat + translation.truncate(), closed }
 }
 
 fn single(p: DVec3) -> DVec3 {
@@ -153,7 +157,7 @@ mod tests {
     use crate::mesh::{FaceId, Mesh};
     use crate::progress::Silent;
     use crate::shape::{SolidName, SolidParams, solid};
-    use crate::unfold::{Seams, Source, UnfoldParams, unfold};
+    use crate::unfold::{MeshSource, Seams, UnfoldParams, unfold};
 
     /// Where every face's corners are after so many seconds, as a reader of the file would have it,
     /// in single precision as stored.
@@ -184,12 +188,12 @@ mod tests {
         let mut world: Vec<Pose> = Vec::new();
         let mut faces = Vec::new();
         for (node, local) in scene.nodes().iter().zip(&local) {
-            let pose = node.parent.map_or(*local, |p| world[p.index()].after(local));
+            let pose = node.parent.map_or(*local, |p| world[p.index()].compose(local));
             world.push(pose);
             if let Some(surface) = &node.surface {
                 faces.push((
                     node.name.clone(),
-                    surface.points.iter().map(|&p| pose.lift(single(p))).collect(),
+                    surface.points.iter().map(|&p| pose.transform(single(p))).collect(),
                 ));
             }
         }
@@ -197,7 +201,7 @@ mod tests {
     }
 
     fn blooming(mesh: &Mesh) -> (GlbScene, f64) {
-        let source = Source { scale: 1.0, split_vertices: &[] };
+        let source = MeshSource { scale: 1.0, split_vertices: &[] };
         let net = unfold(mesh, &Seams::Free, &UnfoldParams::default(), &source, &Silent)
             .expect("a solid unfolds");
         let bloom = Bloom::new(&net, &[], |f| Some(mesh.face_positions(FaceId::new(f))));

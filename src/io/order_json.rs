@@ -12,7 +12,7 @@ use serde::Deserialize;
 use super::pieces_json::{PiecesJsonError, read_pieces_json};
 use crate::code::codes;
 use crate::geom::polygon::{Location, locate, segments_cross, signed_area};
-use crate::net::{EdgeLabel, FlatFace, MeshCounts, Net, Piece, PieceId, Proof, Rim, Seam};
+use crate::net::{EdgeLabel, FlatFace, MeshCounts, Net, NetRim, Piece, PieceId, Proof, Seam};
 use crate::sheet::{NestParams, Rotation};
 
 /// Why pieces could not be taken.
@@ -102,7 +102,7 @@ struct Entry {
 
 /// Where a piece of an order comes from.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Source {
+pub struct OrderSource {
     /// The number of the file, from 0.
     pub file: usize,
     /// Its name there, or its place when it has none.
@@ -117,7 +117,7 @@ pub struct Order {
     /// All pieces, with the folds and seams of those files that have them.
     pub net: Net,
     /// For each piece where it comes from.
-    pub sources: Vec<Source>,
+    pub sources: Vec<OrderSource>,
     rotations: BTreeMap<PieceId, Rotation>,
     groups: BTreeMap<(usize, usize, String), BTreeSet<PieceId>>,
     files: usize,
@@ -181,7 +181,7 @@ impl Order {
                 for (i, &new) in &names {
                     let entry = &file.pieces[*i];
                     let id = entry.id.clone().unwrap_or_else(|| format!("pieces[{i}]"));
-                    self.sources.push(Source {
+                    self.sources.push(OrderSource {
                         file: self.files,
                         id,
                         copy: whole * entry.quantity.unwrap_or(1) + single,
@@ -269,7 +269,7 @@ impl Order {
                 (side.piece, side.face) = (piece, side.face + base.faces);
                 if !is_whole {
                     // The partner is not made this time.
-                    self.net.rims.push(Rim {
+                    self.net.rims.push(NetRim {
                         edge: ends(seam.edge),
                         piece,
                         face: side.face,
@@ -288,7 +288,7 @@ impl Order {
         }
         for rim in &net.rims {
             if let Some(&piece) = renamed.get(&rim.piece) {
-                self.net.rims.push(Rim {
+                self.net.rims.push(NetRim {
                     edge: ends(rim.edge),
                     piece,
                     face: rim.face + base.faces,

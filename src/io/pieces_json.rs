@@ -12,7 +12,7 @@ use serde_json::Value;
 
 use crate::code::codes;
 use crate::net::{
-    EdgeLabel, FlatFace, Fold, FoldKind, MeshCounts, Net, Piece, PieceId, Proof, Rim, Seam,
+    EdgeLabel, FlatFace, Fold, FoldKind, MeshCounts, Net, NetRim, Piece, PieceId, Proof, Seam,
     SeamSide, Segment,
 };
 
@@ -187,8 +187,8 @@ fn write_seam(out: &mut String, seam: &Seam) -> fmt::Result {
     Ok(())
 }
 
-fn write_rim(out: &mut String, rim: &Rim) -> fmt::Result {
-    let Rim { edge, piece, face, segment } = rim;
+fn write_rim(out: &mut String, rim: &NetRim) -> fmt::Result {
+    let NetRim { edge, piece, face, segment } = rim;
     write!(
         out,
         "{{\"edge\": {}, \"piece\": \"{piece}\", \"face\": {face}, \"segment\": {}}}",
@@ -405,8 +405,8 @@ fn read_seam(field: &Field) -> Read<Seam> {
     })
 }
 
-fn read_rim(field: &Field) -> Read<Rim> {
-    Ok(Rim {
+fn read_rim(field: &Field) -> Read<NetRim> {
+    Ok(NetRim {
         edge: field.member("edge")?.pair()?,
         piece: field.member("piece")?.piece_id()?,
         face: field.member("face")?.index()?,
@@ -419,7 +419,7 @@ mod tests {
     use super::*;
     use crate::mesh::Mesh;
     use crate::progress::Silent;
-    use crate::unfold::{Seams, Source, UnfoldParams, unfold};
+    use crate::unfold::{MeshSource, Seams, UnfoldParams, unfold};
     use glam::DVec3;
 
     /// Two thirds of a tent: an open strip of a square, a slanted square and a triangle.
@@ -439,7 +439,7 @@ mod tests {
         );
         let mesh = mesh.expect("an open strip");
         let mut net =
-            unfold(&mesh, &Seams::Free, &UnfoldParams::default(), &Source::default(), &Silent)
+            unfold(&mesh, &Seams::Free, &UnfoldParams::default(), &MeshSource::default(), &Silent)
                 .expect("a net");
         net.proof.refold_mm = 4e-13;
         net

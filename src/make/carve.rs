@@ -7,14 +7,14 @@ use super::MakeError;
 use super::dform::{DformParams, MatchingChoice};
 use crate::measure::{concave_edges, fold_angle};
 use crate::mesh::{EdgeId, EdgeMap, Mesh, VertexId};
-use crate::op::{OpContext, Scope, TruncateEdge, truncate_edges};
+use crate::op::{OpContext, Scope, TruncateEdgeParams, truncate_edges};
 use crate::progress::Progress;
 use crate::seam::{
-    MATCHING_LIMIT, SeamError, dullest_matching, fold_sum, hamiltonian_folds, least_matching,
+    MATCHING_LIMIT, SeamError, flattest_matching, fold_sum, hamiltonian_folds, least_matching,
     matching, one_piece_folds, piece_count, seam_cycles, table,
 };
-use crate::select::{Made, Selection};
-use crate::unfold::{Seams, Source, UnfoldParams, unfold};
+use crate::select::{NewElements, Selection};
+use crate::unfold::{MeshSource, Seams, UnfoldParams, unfold};
 
 /// Choices of folds that are carved and laid out, at most, until one lies flat in as many pieces as
 /// it should.
@@ -29,7 +29,7 @@ pub struct CarvedDform {
     /// The mesh.
     pub mesh: Mesh,
     /// What carving made; `strip` are the folds that it made.
-    pub made: Made,
+    pub made: NewElements,
     /// All folds, one at every vertex: the strips, and those that stay sharp.
     pub folds: Vec<EdgeId>,
     /// What the user should know.
@@ -115,7 +115,7 @@ fn candidates(
     let one = |folds| Candidates { folds: vec![folds], pieces: None, notes: Vec::new() };
     match choice {
         MatchingChoice::Least => least_matching(mesh, progress).map(one),
-        MatchingChoice::Dullest => dullest_matching(mesh, progress).map(one),
+        MatchingChoice::Flattest => flattest_matching(mesh, progress).map(one),
         MatchingChoice::Row(row) => matching(mesh, row, progress).map(one),
         MatchingChoice::OnePiece => Ok(Candidates {
             folds: one_piece_folds(mesh, progress)?,
@@ -161,7 +161,7 @@ fn lies_flat_in(pieces: usize, carved: &CarvedDform, progress: &dyn Progress) ->
         &carved.mesh,
         &Seams::Folds(carved.folds.clone()),
         &params,
-        &Source::default(),
+        &MeshSource::default(),
         progress,
     );
     net.is_ok_and(|net| net.pieces.len() == pieces)
@@ -183,7 +183,7 @@ fn carve(
     let (round, sharp) = rollable(mesh, folds);
     let uncarved = |notes| CarvedDform {
         mesh: mesh.clone(),
-        made: Made { strip: folds.to_vec(), ..Made::default() },
+        made: NewElements { strip: folds.to_vec(), ..NewElements::default() },
         folds: folds.to_vec(),
         notes,
     };
@@ -197,11 +197,11 @@ fn carve(
         return Ok(uncarved(notes));
     };
     let scope = if sharp.is_empty() { Scope::Global } else { Scope::Local };
-    let cut = TruncateEdge {
+    let cut = TruncateEdgeParams {
         bend: params.bend,
         repeat: params.rounds,
         scope,
-        ..TruncateEdge::new(select, params.offset)
+        ..TruncateEdgeParams::new(select, params.offset)
     };
     let (carved, report) = truncate_edges(mesh, &cut, &OpContext { made: None, progress })?;
     notes.extend(report.notes("edge"));

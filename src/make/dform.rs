@@ -23,7 +23,7 @@ pub enum MatchingChoice {
     /// The matching with the least fold sum, however many pieces it leaves.
     Least,
     /// The matching with the least sum of fold angles, whatever the lengths.
-    Dullest,
+    Flattest,
     /// A row of the table that `seams` prints.
     Row(usize),
 }
@@ -32,7 +32,7 @@ pub enum MatchingChoice {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
     "`{text}` is no choice of folds; write hamiltonian (two pieces), one (one piece, on a mesh \
-    with handles), least, dullest, or \
+    with handles), least, flattest, or \
      a row of the table of `kerfold seams`"
 )]
 pub struct MatchingChoiceError {
@@ -50,7 +50,8 @@ impl FromStr for MatchingChoice {
             "hamiltonian" => Ok(Self::TwoPieces),
             "one" => Ok(Self::OnePiece),
             "least" => Ok(Self::Least),
-            "dullest" => Ok(Self::Dullest),
+            // `dullest` is what recipes before 0.2 say.
+            "flattest" | "dullest" => Ok(Self::Flattest),
             _ => text
                 .parse()
                 .map(Self::Row)
@@ -65,7 +66,7 @@ impl fmt::Display for MatchingChoice {
             Self::TwoPieces => f.write_str("hamiltonian"),
             Self::OnePiece => f.write_str("one"),
             Self::Least => f.write_str("least"),
-            Self::Dullest => f.write_str("dullest"),
+            Self::Flattest => f.write_str("flattest"),
             Self::Row(row) => row.fmt(f),
         }
     }
@@ -76,7 +77,7 @@ impl<'de> Deserialize<'de> for MatchingChoice {
         #[derive(Deserialize)]
         #[serde(
             untagged,
-            expecting = "hamiltonian, one, least, dullest, or a row of the table of `kerfold seams`"
+            expecting = "hamiltonian, one, least, flattest, or a row of the table of `kerfold seams`"
         )]
         enum Written {
             Row(usize),
@@ -93,7 +94,7 @@ impl<'de> Deserialize<'de> for MatchingChoice {
 #[derive(Debug, Clone, PartialEq, clap::Args, Deserialize)]
 pub struct DformParams {
     /// Folds: hamiltonian (two pieces), one (one piece; needs a handle), least (angle × length),
-    /// dullest (angle), or a row of the table of `kerfold seams`, from 0
+    /// flattest (angle), or a row of the table of `kerfold seams`, from 0
     #[arg(long, default_value = "hamiltonian", value_name = "CHOICE")]
     #[serde(default)]
     pub matching: MatchingChoice,
@@ -161,7 +162,7 @@ mod tests {
 
     #[test]
     fn choices_are_words_and_rows() {
-        for text in ["hamiltonian", "one", "least", "dullest", "3"] {
+        for text in ["hamiltonian", "one", "least", "flattest", "3"] {
             assert_eq!(text.parse::<MatchingChoice>().expect(text).to_string(), text);
         }
         assert!("-1".parse::<MatchingChoice>().is_err());

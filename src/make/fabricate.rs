@@ -7,16 +7,16 @@ use serde::Deserialize;
 
 use super::MakeError;
 use super::divide::{Room, folds_to_open};
-use super::dull_folds;
+use super::flat_folds;
 use super::seam_choice::SeamChoice;
 use crate::io::order_json;
 use crate::mesh::{EdgeId, FaceMap, Mesh};
 use crate::net::{Net, PieceId};
 use crate::progress::Progress;
-use crate::select::{Context, Made, Selection};
+use crate::select::{Context, NewElements, Selection};
 use crate::sheet::{SheetError, SheetParams, SheetSet, lay_out_watched};
 use crate::unfold::{
-    PiecesMode, Seams, Source, UnfoldParams, check_folded, check_seams, seams_by_angle, unfold,
+    MeshSource, PiecesMode, Seams, UnfoldParams, check_folded, check_seams, seams_by_angle, unfold,
 };
 use crate::units::Angle;
 
@@ -68,7 +68,7 @@ pub struct Fabrication {
     /// How many folds were opened because a piece was too large for the sheet.
     pub divided: usize,
     /// For each piece the file that it comes from; empty when the pieces were unfolded here.
-    pub sources: Vec<order_json::Source>,
+    pub sources: Vec<order_json::OrderSource>,
 }
 
 /// Unfolds a mesh, in millimetres, and lays the pieces out. Pieces too large for the sheet are
@@ -79,9 +79,9 @@ pub struct Fabrication {
 /// [`SheetError::PiecesTooLarge`] with the size that it needs.
 pub fn fabricate(
     mesh: &Mesh,
-    made: Option<&Made>,
+    made: Option<&NewElements>,
     (params, choice, sheet): (&UnfoldParams, &FabricateParams, &SheetParams),
-    source: &Source<'_>,
+    source: &MeshSource<'_>,
     progress: &dyn Progress,
 ) -> Result<Fabrication, MakeError> {
     let context = Context { mesh, made, progress };
@@ -123,7 +123,7 @@ pub fn fabricate(
 
 fn choose_seams(
     context: &Context<'_>,
-    source: &Source<'_>,
+    source: &MeshSource<'_>,
     params: &UnfoldParams,
     choice: &FabricateParams,
 ) -> Result<(Seams, &'static str), MakeError> {
@@ -152,11 +152,11 @@ fn choose_seams(
         ));
     }
     if params.pieces == PiecesMode::Auto
-        && let Some(folds) = dull_folds::folds(mesh, context.progress)
+        && let Some(folds) = flat_folds::folds(mesh, context.progress)
     {
         return Ok((
             Seams::Folds(folds),
-            "the model is a D-form: its dull edges fold, all others open",
+            "the model is a D-form: its flat edges fold, all others open",
         ));
     }
     Ok((Seams::Free, "the unfolder chose the seams"))
@@ -165,7 +165,7 @@ fn choose_seams(
 /// The seams that the user gave, in one way or the other.
 fn given_seams(
     context: &Context<'_>,
-    source: &Source<'_>,
+    source: &MeshSource<'_>,
     choice: &FabricateParams,
     [keep, cut]: [&[EdgeId]; 2],
 ) -> Result<Option<(Seams, &'static str)>, MakeError> {

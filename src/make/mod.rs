@@ -8,9 +8,9 @@
 mod carve;
 mod dform;
 mod divide;
-mod dull_folds;
 mod error;
 mod fabricate;
+mod flat_folds;
 mod materials;
 mod nest;
 mod operate;

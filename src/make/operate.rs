@@ -5,7 +5,7 @@ use std::path::Path;
 use super::MakeError;
 use crate::io::read_points;
 use crate::mesh::Mesh;
-use crate::op::{OpContext, Operate, Operated};
+use crate::op::{OpContext, Operate, OperatorOutput};
 
 /// Reads the file of points that the parameters name, if any, relative to `folder`, and carries the
 /// operator out.
@@ -17,7 +17,7 @@ pub fn operate(
     folder: &Path,
     mesh: &Mesh,
     context: &OpContext<'_>,
-) -> Result<Operated, MakeError> {
+) -> Result<OperatorOutput, MakeError> {
     let with_points = match params.points_file() {
         Some(file) => params.with_points(read_points(&folder.join(file))?),
         None => None,

@@ -7,7 +7,7 @@ use crate::io::sheet::files::sheet_files;
 use crate::io::sheet::layout::write_order_layout_json;
 use crate::net::EdgeLabel;
 use crate::picture::{PictureError, Polyline, StrokeLayer, Strokes, render_sheet};
-use crate::sheet::{Drawing, Fallback, JointReport, LayerKind, SheetParams};
+use crate::sheet::{Drawing, JointFallback, JointReport, LayerKind, SheetParams};
 
 /// A file to be written: its name in the folder, and its bytes.
 pub type Output = (String, Vec<u8>);
@@ -161,11 +161,11 @@ fn joint_notes(joints: &JointReport) -> Vec<String> {
     let substitute =
         if joints.mitred.is_empty() { "they are stitched" } else { "they are left to be mitred" };
     for (why, words) in [
-        (Fallback::Shallow, "too shallow for fingers or tabs (dihedral angle above 140°)"),
-        (Fallback::Sharp, "too sharp for fingers or tabs (dihedral angle below 30°)"),
-        (Fallback::Concave, "concave, where fingers and tabs cannot meet"),
-        (Fallback::Short, "too short for fingers or a tab"),
-        (Fallback::Narrow, "beside faces too narrow for notches, tabs or slots"),
+        (JointFallback::Shallow, "too shallow for fingers or tabs (dihedral angle above 140°)"),
+        (JointFallback::Sharp, "too sharp for fingers or tabs (dihedral angle below 30°)"),
+        (JointFallback::Concave, "concave, where fingers and tabs cannot meet"),
+        (JointFallback::Short, "too short for fingers or a tab"),
+        (JointFallback::Narrow, "beside faces too narrow for notches, tabs or slots"),
     ] {
         let seams: Vec<EdgeLabel> =
             joints.fallbacks.iter().filter(|f| f.1 == why).map(|f| f.0).collect();

@@ -18,7 +18,7 @@ use crate::panel::{
 };
 use crate::progress::Progress;
 use crate::sheet::{Joint, Labels, SheetParams, lay_out_watched};
-use crate::unfold::Source;
+use crate::unfold::MeshSource;
 use crate::units::Length;
 
 /// What is written of a panelled model besides its schedule and sheets.
@@ -116,7 +116,7 @@ codes!(error PanelOptionError {
 pub fn panel_model(
     mesh: &Mesh,
     (params, files, sheet): (&PanelParams, &PanelFiles, &SheetParams),
-    source: &Source<'_>,
+    source: &MeshSource<'_>,
     progress: &dyn Progress,
 ) -> Result<Panelled, MakeError> {
     let (thickness, hardware) = hardware(params, sheet)?;

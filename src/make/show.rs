@@ -20,7 +20,7 @@ use crate::measure::face_area;
 use crate::mesh::{FaceId, Mesh};
 use crate::net::{EdgeLabel, Net};
 use crate::picture::{Cell, Colour, RenderParams, UpAxis, render_strip};
-use crate::sheet::{Assembly, Layout, Step, assembly_of};
+use crate::sheet::{Assembly, AssemblyStep, Layout, assembly_of};
 
 /// Moments of a strip of the animation, in seconds: flat, five of folding, two of moving.
 const MOMENTS: [f64; 8] = [0.0, 1.2, 1.9, 2.6, 3.3, 4.0, 5.0, 6.0];
@@ -302,7 +302,7 @@ impl<'a> Bench<'a> {
     }
 
     /// Closes a stretch and looks at the body that it belongs to.
-    fn close(&mut self, step: &Step) -> Result<Mesh, MakeError> {
+    fn close(&mut self, step: &AssemblyStep) -> Result<Mesh, MakeError> {
         let net = self.tree.net();
         let stretch = &self.assembly.stretches[step.number - 1];
         let places: HashMap<_, usize> =
@@ -329,7 +329,7 @@ impl<'a> Bench<'a> {
         let root = |leaf: &Leaf| {
             let face = self.tree.flat(leaf);
             corners(face.face)
-                .and_then(|points| Pose::laying(&face.polygon, &points))
+                .and_then(|points| Pose::fit(&face.polygon, &points))
                 .unwrap_or(Pose::IDENTITY)
         };
         let poses = self.tree.poses(root, |leaf, _| if self.is_held[leaf] { 1.0 } else { LOOSE });
@@ -375,7 +375,7 @@ mod tests {
             size: None,
         };
         let mesh = crate::shape::solid(&params).expect("a solid");
-        let source = crate::unfold::Source { scale: 1.0, split_vertices: &[] };
+        let source = crate::unfold::MeshSource { scale: 1.0, split_vertices: &[] };
         for pieces in ["1", "3"] {
             let unfold = crate::unfold::UnfoldParams {
                 pieces: pieces.parse().expect("a number"),

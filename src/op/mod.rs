@@ -26,21 +26,24 @@ pub use cut::{Capping, CutChain, Reach};
 pub use error::OpError;
 pub use finding::OpFinding;
 pub use handle::{FaceCorner, HandleParams, HandleReport, Weights, handle};
-pub use hull::{Axis, HullParams, HullPart, HullReport, HullStep, Step, Steps, halfspaces, hull};
+pub use hull::{
+    Axis, HullParams, HullPart, HullReport, HullStep, HullStepChoice, HullStepList, halfspaces,
+    hull,
+};
 pub use menger::{MengerParams, MengerReport, Thickness, menger};
-pub use operate::{Operate, Operated};
+pub use operate::{Operate, OperatorOutput};
 pub use planarize::{PlanarizeParams, PlanarizeReport, RimRule, planarize};
 pub use report::CutReport;
 pub use resolve::{ResolveParams, ResolveReport, resolve};
 pub use rind::{GroupThickness, RindParams, RindReport, ShellSource, rind};
 pub use sierpinski::{
-    SierpinskiParams, SierpinskiReport, VertexKind, sierpinski, sierpinski_forecast, vertex_kind,
+    SierpinskiParams, SierpinskiReport, VertexKind, sierpinski, sierpinski_preview, vertex_kind,
 };
-pub use slice::{Direction, Keep, Point, SliceParams, slice, slice_both};
+pub use slice::{Keep, SliceParams, slice, slice_both};
 pub use subdivide::{Scheme, SubdivideParams, subdivide};
 pub use truncate::{Disjoint, OpContext, Scope};
-pub use truncate_edge::{TruncateEdge, truncate_edges};
-pub use truncate_face::{TruncateFace, truncate_faces};
-pub use truncate_vertex::{TruncateVertex, truncate_vertices};
+pub use truncate_edge::{TruncateEdgeParams, truncate_edges};
+pub use truncate_face::{TruncateFaceParams, truncate_faces};
+pub use truncate_vertex::{TruncateVertexParams, truncate_vertices};
 
 pub use handle::HandleAxis;

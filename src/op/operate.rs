@@ -8,21 +8,22 @@ use glam::DVec3;
 
 use super::{
     HandleAxis, HandleParams, HullParams, MengerParams, OpContext, OpError, PlanarizeParams,
-    ResolveParams, RindParams, SierpinskiParams, SliceParams, SubdivideParams, TruncateEdge,
-    TruncateFace, TruncateVertex, handle, hull, menger, planarize, resolve, rind, sierpinski,
-    sierpinski_forecast, slice, subdivide, truncate_edges, truncate_faces, truncate_vertices,
+    ResolveParams, RindParams, SierpinskiParams, SliceParams, SubdivideParams, TruncateEdgeParams,
+    TruncateFaceParams, TruncateVertexParams, handle, hull, menger, planarize, resolve, rind,
+    sierpinski, sierpinski_preview, slice, subdivide, truncate_edges, truncate_faces,
+    truncate_vertices,
 };
 use crate::mesh::Mesh;
-use crate::select::Made;
+use crate::select::NewElements;
 
 /// What an operator made of a mesh.
 #[derive(Debug, Clone)]
-pub struct Operated {
+pub struct OperatorOutput {
     /// The new mesh.
     pub mesh: Mesh,
     /// What the selections `made` and `strip` of the next step mean; `None` when the operator does
     /// not say.
-    pub made: Option<Made>,
+    pub made: Option<NewElements>,
     /// What the user should know, in words.
     pub notes: Vec<String>,
     /// Whether the operator reached what was asked for; if not, the notes say what is missing, and
@@ -39,11 +40,11 @@ pub trait Operate: fmt::Debug + Send + Sync {
     ///
     /// # Errors
     /// Those of the operator itself.
-    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError>;
+    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError>;
 
     /// What can be said of the mesh before the work begins, in words; the notes of the result say
     /// it again.
-    fn forecast(&self, _mesh: &Mesh) -> Vec<String> {
+    fn preview(&self, _mesh: &Mesh) -> Vec<String> {
         Vec::new()
     }
 
@@ -61,65 +62,65 @@ pub trait Operate: fmt::Debug + Send + Sync {
 macro_rules! cuts {
     ($($params:ty, $operator:ident, $element:literal;)*) => {$(
         impl Operate for $params {
-            fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError> {
+            fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
                 let (mesh, report) = $operator(mesh, self, context)?;
                 let notes = report.notes($element);
-                Ok(Operated { mesh, made: Some(report.made), notes, is_clean: true })
+                Ok(OperatorOutput { mesh, made: Some(report.made), notes, is_clean: true })
             }
         }
     )*};
 }
 
 cuts! {
-    TruncateVertex, truncate_vertices, "vertex";
-    TruncateEdge, truncate_edges, "edge";
-    TruncateFace, truncate_faces, "face";
+    TruncateVertexParams, truncate_vertices, "vertex";
+    TruncateEdgeParams, truncate_edges, "edge";
+    TruncateFaceParams, truncate_faces, "face";
     SliceParams, slice, "plane";
 }
 
 impl Operate for HullParams {
-    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError> {
+    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
         let (mesh, report) = hull(mesh, self, context)?;
-        Ok(Operated { mesh, made: None, notes: report.notes(), is_clean: true })
+        Ok(OperatorOutput { mesh, made: None, notes: report.notes(), is_clean: true })
     }
 }
 
 impl Operate for ResolveParams {
-    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError> {
+    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
         let (mesh, report) = resolve(mesh, self, context)?;
-        Ok(Operated { mesh, made: None, notes: report.notes(), is_clean: true })
+        Ok(OperatorOutput { mesh, made: None, notes: report.notes(), is_clean: true })
     }
 }
 
 impl Operate for PlanarizeParams {
-    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError> {
+    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
         let (mesh, report) = planarize(mesh, self, context)?;
-        Ok(Operated { mesh, made: None, notes: report.notes(), is_clean: report.is_clean() })
+        Ok(OperatorOutput { mesh, made: None, notes: report.notes(), is_clean: report.is_clean() })
     }
 }
 
 impl Operate for SubdivideParams {
-    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError> {
+    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
         let mesh = subdivide(mesh, self, context)?;
-        Ok(Operated { mesh, made: None, notes: Vec::new(), is_clean: true })
+        Ok(OperatorOutput { mesh, made: None, notes: Vec::new(), is_clean: true })
     }
 }
 
 impl Operate for SierpinskiParams {
-    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError> {
+    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
         let (mesh, report) = sierpinski(mesh, self, context)?;
-        Ok(Operated { mesh, made: None, notes: report.notes(), is_clean: true })
+        Ok(OperatorOutput { mesh, made: None, notes: report.notes(), is_clean: true })
     }
 
-    fn forecast(&self, mesh: &Mesh) -> Vec<String> {
-        sierpinski_forecast(mesh)
+    fn preview(&self, mesh: &Mesh) -> Vec<String> {
+        sierpinski_preview(mesh)
     }
 }
 
 impl Operate for RindParams {
-    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError> {
+    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
         let (mesh, made, report) = rind(mesh, self, context)?;
-        Ok(Operated {
+        Ok(OperatorOutput {
             mesh,
             made: Some(made),
             notes: report.notes(),
@@ -129,9 +130,9 @@ impl Operate for RindParams {
 }
 
 impl Operate for MengerParams {
-    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError> {
+    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
         let (mesh, report) = menger(mesh, self, context)?;
-        Ok(Operated {
+        Ok(OperatorOutput {
             mesh,
             made: None,
             notes: report.notes(),
@@ -141,9 +142,9 @@ impl Operate for MengerParams {
 }
 
 impl Operate for HandleParams {
-    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<Operated, OpError> {
+    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
         let (mesh, made, report) = handle(mesh, self, context)?;
-        Ok(Operated {
+        Ok(OperatorOutput {
             mesh,
             made: Some(made),
             notes: report.notes(),

@@ -2,7 +2,7 @@
 
 use super::cut::{Cutter, Lineage};
 use crate::mesh::{FaceId, Mesh, VertexId};
-use crate::select::Made;
+use crate::select::NewElements;
 
 /// The first of a list as a note names them; dots stand for the rest.
 pub(super) fn first_few<T: ToString>(list: &[T], most: usize) -> String {
@@ -29,7 +29,7 @@ pub struct CutReport {
     /// the mesh of their round, and the offset that was used.
     pub shrunk: Vec<(usize, f64)>,
     /// What was made, for the selections `made` and `strip` of the next step.
-    pub made: Made,
+    pub made: NewElements,
     /// Vertices of the result where other than three edges meet.
     pub not_three_valent: Vec<VertexId>,
     /// How many connected parts the result has.
@@ -95,7 +95,7 @@ pub(super) struct RoundMarks {
 
 impl RoundMarks {
     /// What the round made, in the ids that the cutter's mesh has now.
-    pub(super) fn collect(&self, cutter: &Cutter) -> Made {
+    pub(super) fn collect(&self, cutter: &Cutter) -> NewElements {
         let mesh = cutter.mesh();
         let is_cap = |f: FaceId| self.caps.binary_search(&cutter.lineage_of(f)).is_ok();
         let faces: Vec<FaceId> = mesh.faces().filter(|&f| is_cap(f)).collect();
@@ -112,7 +112,7 @@ impl RoundMarks {
             .copied()
             .filter(|&e| self.runs_along_strip(cutter, mesh.edge_faces(e)))
             .collect();
-        Made { vertices, edges, strip, faces }
+        NewElements { vertices, edges, strip, faces }
     }
 
     fn runs_along_strip(&self, cutter: &Cutter, faces: [FaceId; 2]) -> bool {

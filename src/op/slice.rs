@@ -6,16 +6,14 @@
 //! Degenerate: a plane that misses changes nothing; faces in the plane stay when the material lies
 //! behind them; a plane that would remove everything is an error.
 
-use std::str::FromStr;
-
 use glam::DVec3;
-use serde::{Deserialize, Deserializer};
+use serde::Deserialize;
 
 use super::cut::{Cutter, Reach, SlicingPlane};
 use super::report::{CutReport, RoundMarks, finish};
 use super::{Capping, OpContext, OpError};
 use crate::mesh::Mesh;
-use crate::units::{Length, UnitError, parse_number};
+use crate::units::{Direction, Point};
 
 /// Which part of the mesh a slice keeps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash, clap::ValueEnum, Deserialize)]
@@ -29,14 +27,6 @@ pub enum Keep {
     /// Both parts, each as a mesh of its own
     Both,
 }
-
-/// A direction, typed as `x`, `-z` or three numbers `1,0,1`; its length does not matter.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Direction(pub DVec3);
-
-/// A point, typed as three lengths `0,0,10mm`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Point(pub DVec3);
 
 /// How to slice a mesh. One definition for the library, the command line and the recipe.
 #[derive(Debug, Clone, clap::Args, Deserialize)]
@@ -124,64 +114,4 @@ pub fn slice_both(
         Err(error) => Err(error),
     };
     Ok([part(Keep::Reverse)?, part(Keep::Normal)?])
-}
-
-impl FromStr for Direction {
-    type Err = UnitError;
-    fn from_str(text: &str) -> Result<Self, UnitError> {
-        let error = || UnitError {
-            text: text.to_owned(),
-            wanted: "a direction",
-            example: "z, -x or 1,0,1",
-        };
-        let (sign, name) =
-            text.trim().strip_prefix('-').map_or((1.0, text.trim()), |rest| (-1.0, rest));
-        let axis = match name {
-            "x" => DVec3::X,
-            "y" => DVec3::Y,
-            "z" => DVec3::Z,
-            _ => return three(text, parse_number).map(Self).ok_or_else(error),
-        };
-        Ok(Self(axis * sign))
-    }
-}
-
-impl FromStr for Point {
-    type Err = UnitError;
-    fn from_str(text: &str) -> Result<Self, UnitError> {
-        let error =
-            || UnitError { text: text.to_owned(), wanted: "a point", example: "0,0,10 or 1cm,0,0" };
-        three(text, |part| part.parse().map(Length::mm)).map(Self).ok_or_else(error)
-    }
-}
-
-fn three(text: &str, number: impl Fn(&str) -> Result<f64, UnitError>) -> Option<DVec3> {
-    let parts: Vec<f64> = text.split(',').map(|part| number(part).ok()).collect::<Option<_>>()?;
-    <[f64; 3]>::try_from(parts).ok().map(DVec3::from_array)
-}
-
-/// A recipe gives directions and points as text or as an array of three numbers.
-#[derive(Deserialize)]
-#[serde(untagged)]
-enum Typed {
-    Numbers([f64; 3]),
-    Text(String),
-}
-
-impl<'de> Deserialize<'de> for Direction {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        match Typed::deserialize(deserializer)? {
-            Typed::Numbers(n) => Ok(Self(DVec3::from_array(n))),
-            Typed::Text(text) => text.parse().map_err(serde::de::Error::custom),
-        }
-    }
-}
-
-impl<'de> Deserialize<'de> for Point {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        match Typed::deserialize(deserializer)? {
-            Typed::Numbers(n) => Ok(Self(DVec3::from_array(n))),
-            Typed::Text(text) => text.parse().map_err(serde::de::Error::custom),
-        }
-    }
 }

@@ -91,7 +91,8 @@ fn halves(mesh: &Mesh, normal: DVec3, point: DVec3) -> [Option<Mesh>; 2] {
 fn truncating_all_of_a_cube_gives_the_counts_of_the_thesis() {
     let context = OpContext::default();
     let (vertices, report) =
-        truncate_vertices(&cube(), &TruncateVertex::new(all(), 0.25), &context).expect("a cut");
+        truncate_vertices(&cube(), &TruncateVertexParams::new(all(), 0.25), &context)
+            .expect("a cut");
     assert_sound(&vertices);
     assert_eq!(counts(&vertices), (24, 36, 14));
     assert_eq!(
@@ -99,13 +100,13 @@ fn truncating_all_of_a_cube_gives_the_counts_of_the_thesis() {
         (8, 0, 0)
     );
     let (edges, report) =
-        truncate_edges(&cube(), &TruncateEdge::new(all(), 0.25), &context).expect("a cut");
+        truncate_edges(&cube(), &TruncateEdgeParams::new(all(), 0.25), &context).expect("a cut");
     assert_sound(&edges);
     // Three edge planes meet at each corner's diagonal: the rhombic cuboid with 32 vertices.
     assert_eq!(counts(&edges), (32, 48, 18));
     assert_eq!(report.not_three_valent.len(), 0);
     let (faces, _) =
-        truncate_faces(&cube(), &TruncateFace::new(all(), 0.25), &context).expect("a cut");
+        truncate_faces(&cube(), &TruncateFaceParams::new(all(), 0.25), &context).expect("a cut");
     assert_sound(&faces);
     assert_eq!(counts(&faces), (8, 12, 6));
     assert!((volume(&faces) - 1.0).abs() < 1e-12);
@@ -113,7 +114,10 @@ fn truncating_all_of_a_cube_gives_the_counts_of_the_thesis() {
 
 #[test]
 fn three_rounds_on_one_edge_of_a_cube_are_figure_10() {
-    let params = TruncateEdge { repeat: 3, ..TruncateEdge::new("0".parse().expect("ids"), 0.25) };
+    let params = TruncateEdgeParams {
+        repeat: 3,
+        ..TruncateEdgeParams::new("0".parse().expect("ids"), 0.25)
+    };
     let (mesh, report) = truncate_edges(&cube(), &params, &OpContext::default()).expect("a cut");
     assert_sound(&mesh);
     // 1 + 2 + 4 strips, each with V + 2, E + 3, F + 1; but the last two planes beside the middle
@@ -121,7 +125,7 @@ fn three_rounds_on_one_edge_of_a_cube_are_figure_10() {
     // so.
     assert_eq!(counts(&mesh), (8 + 14 - 2, 12 + 21 - 3, 6 + 7 - 1));
     assert_eq!((report.cuts, report.overcut.len(), report.made.faces.len()), (7, 2, 4));
-    let params = TruncateEdge { offset: 0.2, ..params };
+    let params = TruncateEdgeParams { offset: 0.2, ..params };
     let (mesh, report) = truncate_edges(&cube(), &params, &OpContext::default()).expect("a cut");
     assert_eq!(counts(&mesh), (8 + 14, 12 + 21, 6 + 7));
     assert_eq!(
@@ -214,15 +218,15 @@ fn a_local_cut_leaves_the_rest_alone() {
         mesh.plane(f).expect("a plane").normal().y > 0.9 && mesh.face_positions(f)[0].x > 3.0
     });
     let select = tower.expect("a top").index().to_string();
-    let params = TruncateFace {
+    let params = TruncateFaceParams {
         scope: Scope::Local,
-        ..TruncateFace::new(select.parse().expect("ids"), 0.5)
+        ..TruncateFaceParams::new(select.parse().expect("ids"), 0.5)
     };
     let (local, report) = truncate_faces(&mesh, &params, &OpContext::default()).expect("a cut");
     assert_sound(&local);
     assert_eq!((counts(&local), report.overcut.len()), (counts(&mesh), 0));
     assert!((volume(&mesh) - volume(&local) - 1.25).abs() < 1e-12);
-    let params = TruncateFace { scope: Scope::Global, ..params };
+    let params = TruncateFaceParams { scope: Scope::Global, ..params };
     let (global, report) = truncate_faces(&mesh, &params, &OpContext::default()).expect("a cut");
     assert_sound(&global);
     assert_eq!(report.overcut.len(), 1);
@@ -238,8 +242,11 @@ fn ten_rounds_keep_every_face_planar() {
         let (points, faces) = cuboid(shift - 50.0, shift + 50.0);
         let mesh = Mesh::from_faces(points, faces).expect("a cube");
         let corner = "0".parse().expect("an id");
-        let params =
-            TruncateVertex { scope: Scope::Local, repeat: 10, ..TruncateVertex::new(corner, 0.25) };
+        let params = TruncateVertexParams {
+            scope: Scope::Local,
+            repeat: 10,
+            ..TruncateVertexParams::new(corner, 0.25)
+        };
         let (mesh, report) =
             truncate_vertices(&mesh, &params, &OpContext::default()).expect("a cut");
         assert_sound(&mesh);
@@ -306,8 +313,10 @@ fn disjoint_cuts_shrink_only_what_meets() {
             (crate::shape::dodecahedron(10.0), 20),
             (crate::shape::octahedron(10.0), 6),
         ] {
-            let params =
-                TruncateVertex { disjoint: Disjoint::Yes, ..TruncateVertex::new(all(), offset) };
+            let params = TruncateVertexParams {
+                disjoint: Disjoint::Yes,
+                ..TruncateVertexParams::new(all(), offset)
+            };
             let (cut, report) = truncate_vertices(&mesh, &params, &context).expect("a cut");
             assert_sound(&cut);
             assert_eq!(
@@ -321,7 +330,8 @@ fn disjoint_cuts_shrink_only_what_meets() {
     }
     // One short edge above and below: only the vertices at its ends give way.
     let mesh = prism(&[(0., 0.), (10., 0.), (10., 10.), (0.5, 10.), (0., 9.5)], 10.0);
-    let params = TruncateVertex { disjoint: Disjoint::Yes, ..TruncateVertex::new(all(), 0.3) };
+    let params =
+        TruncateVertexParams { disjoint: Disjoint::Yes, ..TruncateVertexParams::new(all(), 0.3) };
     let (cut, report) = truncate_vertices(&mesh, &params, &context).expect("a cut");
     assert_eq!(counts(&cut), (30, 45, 17));
     let shrunk: Vec<usize> = report.shrunk.iter().map(|s| s.0).collect();
@@ -331,12 +341,12 @@ fn disjoint_cuts_shrink_only_what_meets() {
 #[test]
 fn the_plane_of_the_paper_is_kept_disjoint_on_the_cube() {
     // At t = 1/3 neighbouring planes meet from the third round on.
-    let free = TruncateVertex { repeat: 3, ..TruncateVertex::new(all(), 1.0 / 3.0) };
+    let free = TruncateVertexParams { repeat: 3, ..TruncateVertexParams::new(all(), 1.0 / 3.0) };
     let (_, report) = truncate_vertices(&cube(), &free, &OpContext::default()).expect("a cut");
     assert!(!report.overcut.is_empty());
     let (mesh, report) = truncate_vertices(
         &cube(),
-        &TruncateVertex { disjoint: Disjoint::Yes, ..free },
+        &TruncateVertexParams { disjoint: Disjoint::Yes, ..free },
         &OpContext::default(),
     )
     .expect("a cut");
@@ -351,12 +361,14 @@ fn the_plane_of_the_paper_is_kept_disjoint_on_the_cube() {
 
 #[test]
 fn cuts_that_share_vertices_cannot_be_disjoint() {
-    let params = TruncateEdge { disjoint: Disjoint::Yes, ..TruncateEdge::new(all(), 0.25) };
+    let params =
+        TruncateEdgeParams { disjoint: Disjoint::Yes, ..TruncateEdgeParams::new(all(), 0.25) };
     let error = truncate_edges(&cube(), &params, &OpContext::default()).expect_err("edges meet");
     assert!(matches!(&error, OpError::NotDisjoint { elements } if elements.len() == 12), "{error}");
     // A matching of the cube: four parallel edges.
     let select = "along=z".parse().expect("a selection");
-    let params = TruncateEdge { disjoint: Disjoint::Yes, ..TruncateEdge::new(select, 0.75) };
+    let params =
+        TruncateEdgeParams { disjoint: Disjoint::Yes, ..TruncateEdgeParams::new(select, 0.75) };
     let (mesh, report) = truncate_edges(&cube(), &params, &OpContext::default()).expect("a cut");
     assert_eq!((counts(&mesh), report.shrunk.len()), ((16, 24, 10), 4));
 }

@@ -11,7 +11,7 @@ use super::report::{CutReport, RoundMarks, finish};
 use crate::geom::Plane;
 use crate::mesh::{Mesh, VertexId};
 use crate::progress::{Progress, Silent};
-use crate::select::{Context, Made};
+use crate::select::{Context, NewElements};
 
 /// How far a truncation cuts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash, clap::ValueEnum, Deserialize)]
@@ -42,7 +42,7 @@ pub enum Disjoint {
 #[derive(Clone, Copy)]
 pub struct OpContext<'a> {
     /// For the selections `made` and `strip`.
-    pub made: Option<&'a Made>,
+    pub made: Option<&'a NewElements>,
     /// Progress and Ctrl-C.
     pub progress: &'a dyn Progress,
 }
@@ -146,7 +146,7 @@ pub(super) fn truncate(
     mesh: &Mesh,
     settings: &Settings,
     context: &OpContext<'_>,
-    choose: impl Fn(&Cutter, Option<&Made>, &Offsets) -> Result<Vec<Element>, OpError>,
+    choose: impl Fn(&Cutter, Option<&NewElements>, &Offsets) -> Result<Vec<Element>, OpError>,
 ) -> Result<(Mesh, CutReport), OpError> {
     check_ranges(settings.offset, settings.repeat)?;
     let mut cutter = Cutter::new(mesh.clone());
@@ -282,13 +282,13 @@ fn cut_round(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::op::TruncateVertex;
+    use crate::op::TruncateVertexParams;
     use clap::Parser;
 
     #[derive(Parser)]
     struct Line {
         #[command(flatten)]
-        cut: TruncateVertex,
+        cut: TruncateVertexParams,
     }
 
     #[test]
@@ -301,7 +301,7 @@ mod tests {
         assert_eq!(read(&["--disjoint"]), Some(Disjoint::Yes));
         assert_eq!(read(&["--disjoint=no", "--offset", "0.5"]), Some(Disjoint::No));
         assert_eq!(read(&["--disjoint", "--offset", "0.5"]), Some(Disjoint::Yes));
-        let recipe: TruncateVertex =
+        let recipe: TruncateVertexParams =
             toml::from_str("select = \"all\"\ndisjoint = \"yes\"").expect("a recipe");
         assert_eq!(recipe.disjoint, Disjoint::Yes);
     }

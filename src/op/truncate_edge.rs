@@ -14,11 +14,11 @@ use super::truncate_vertex::{default_offset, default_repeat};
 use super::{CutReport, Disjoint, OpContext, OpError, Scope};
 use crate::geom::Plane;
 use crate::mesh::{EdgeId, HalfEdgeId, Mesh};
-use crate::select::{Made, Selection};
+use crate::select::{NewElements, Selection};
 
 /// How to cut edges off. One definition for the library, the command line and the recipe.
 #[derive(Debug, Clone, clap::Args, Deserialize)]
-pub struct TruncateEdge {
+pub struct TruncateEdgeParams {
     /// Which edges, in the selection language: `all`, `3,7,10-14`, `fold>30deg`, `along=z:5deg`,
     /// `hamiltonian`, ….
     #[arg(long, value_name = "SELECTION")]
@@ -48,7 +48,7 @@ pub struct TruncateEdge {
     pub disjoint: Disjoint,
 }
 
-impl TruncateEdge {
+impl TruncateEdgeParams {
     /// Cuts the selected edges at `offset`, everything else by default.
     pub fn new(select: Selection, offset: f64) -> Self {
         Self {
@@ -72,19 +72,24 @@ impl TruncateEdge {
 /// cuts were asked for and cannot be had.
 pub fn truncate_edges(
     mesh: &Mesh,
-    params: &TruncateEdge,
+    params: &TruncateEdgeParams,
     context: &OpContext<'_>,
 ) -> Result<(Mesh, CutReport), OpError> {
     if !(-1.0..=1.0).contains(&params.bend) {
         return Err(OpError::BendOutOfRange { bend: params.bend });
     }
     let chosen = params.select.edges(&context.select(mesh))?;
-    let TruncateEdge { offset, scope, repeat, disjoint, .. } = *params;
+    let TruncateEdgeParams { offset, scope, repeat, disjoint, .. } = *params;
     let settings = Settings { offset, scope, repeat, disjoint };
-    truncate(mesh, &settings, context, |cutter: &Cutter, made: Option<&Made>, offsets: &Offsets| {
-        let edges = made.map_or(&chosen, |made| &made.strip);
-        edges.iter().map(|&e| element(cutter, e, offsets.of(e.index()), params.bend)).collect()
-    })
+    truncate(
+        mesh,
+        &settings,
+        context,
+        |cutter: &Cutter, made: Option<&NewElements>, offsets: &Offsets| {
+            let edges = made.map_or(&chosen, |made| &made.strip);
+            edges.iter().map(|&e| element(cutter, e, offsets.of(e.index()), params.bend)).collect()
+        },
+    )
 }
 
 fn element(cutter: &Cutter, e: EdgeId, t: f64, bend: f64) -> Result<Element, OpError> {

@@ -13,11 +13,11 @@ use super::truncate_vertex::{default_offset, default_repeat};
 use super::{CutReport, Disjoint, OpContext, OpError, Scope};
 use crate::geom::Plane;
 use crate::mesh::{FaceId, Mesh, VertexId};
-use crate::select::{Made, Selection};
+use crate::select::{NewElements, Selection};
 
 /// How to cut faces off. One definition for the library, the command line and the recipe.
 #[derive(Debug, Clone, clap::Args, Deserialize)]
-pub struct TruncateFace {
+pub struct TruncateFaceParams {
     /// Which faces, in the selection language: `all`, `3,7,10-14`, `sides=5`, `normal=z:20deg`, ….
     #[arg(long, value_name = "SELECTION")]
     pub select: Selection,
@@ -41,7 +41,7 @@ pub struct TruncateFace {
     pub disjoint: Disjoint,
 }
 
-impl TruncateFace {
+impl TruncateFaceParams {
     /// Cuts the selected faces at `offset`, everything else by default.
     pub fn new(select: Selection, offset: f64) -> Self {
         Self {
@@ -64,16 +64,21 @@ impl TruncateFace {
 /// had.
 pub fn truncate_faces(
     mesh: &Mesh,
-    params: &TruncateFace,
+    params: &TruncateFaceParams,
     context: &OpContext<'_>,
 ) -> Result<(Mesh, CutReport), OpError> {
     let chosen = params.select.faces(&context.select(mesh))?;
-    let TruncateFace { offset, scope, repeat, disjoint, .. } = *params;
+    let TruncateFaceParams { offset, scope, repeat, disjoint, .. } = *params;
     let settings = Settings { offset, scope, repeat, disjoint };
-    truncate(mesh, &settings, context, |cutter: &Cutter, made: Option<&Made>, offsets: &Offsets| {
-        let faces = made.map_or(&chosen, |made| &made.faces);
-        faces.iter().map(|&f| element(cutter.mesh(), f, offsets.of(f.index()))).collect()
-    })
+    truncate(
+        mesh,
+        &settings,
+        context,
+        |cutter: &Cutter, made: Option<&NewElements>, offsets: &Offsets| {
+            let faces = made.map_or(&chosen, |made| &made.faces);
+            faces.iter().map(|&f| element(cutter.mesh(), f, offsets.of(f.index()))).collect()
+        },
+    )
 }
 
 fn element(mesh: &Mesh, f: FaceId, t: f64) -> Result<Element, OpError> {

@@ -22,11 +22,11 @@ use super::truncate::{Element, Offsets, Settings, edge_point, truncate};
 use super::{CutReport, Disjoint, OpContext, OpError, Scope};
 use crate::geom::Plane;
 use crate::mesh::{Mesh, VertexId};
-use crate::select::{Made, Selection};
+use crate::select::{NewElements, Selection};
 
 /// How to cut vertices off. One definition for the library, the command line and the recipe.
 #[derive(Debug, Clone, clap::Args, Deserialize)]
-pub struct TruncateVertex {
+pub struct TruncateVertexParams {
     /// Which vertices, in the selection language: `all`, `3,7,10-14`, `valence>3`, ….
     #[arg(long, value_name = "SELECTION")]
     pub select: Selection,
@@ -59,7 +59,7 @@ pub(super) fn default_repeat() -> u32 {
     1
 }
 
-impl TruncateVertex {
+impl TruncateVertexParams {
     /// Cuts the selected vertices at `offset`, everything else by default.
     pub fn new(select: Selection, offset: f64) -> Self {
         Self {
@@ -82,16 +82,21 @@ impl TruncateVertex {
 /// had.
 pub fn truncate_vertices(
     mesh: &Mesh,
-    params: &TruncateVertex,
+    params: &TruncateVertexParams,
     context: &OpContext<'_>,
 ) -> Result<(Mesh, CutReport), OpError> {
     let chosen = params.select.vertices(&context.select(mesh))?;
-    let TruncateVertex { offset, scope, repeat, disjoint, .. } = *params;
+    let TruncateVertexParams { offset, scope, repeat, disjoint, .. } = *params;
     let settings = Settings { offset, scope, repeat, disjoint };
-    truncate(mesh, &settings, context, |cutter: &Cutter, made: Option<&Made>, offsets: &Offsets| {
-        let vertices = made.map_or(&chosen, |made| &made.vertices);
-        vertices.iter().map(|&v| element(cutter.mesh(), v, offsets.of(v.index()))).collect()
-    })
+    truncate(
+        mesh,
+        &settings,
+        context,
+        |cutter: &Cutter, made: Option<&NewElements>, offsets: &Offsets| {
+            let vertices = made.map_or(&chosen, |made| &made.vertices);
+            vertices.iter().map(|&v| element(cutter.mesh(), v, offsets.of(v.index()))).collect()
+        },
+    )
 }
 
 fn element(mesh: &Mesh, v: VertexId, t: f64) -> Result<Element, OpError> {

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use glam::DVec2;
 
 use super::collision::{collisions, crossing};
-use super::cut::{Cutter, Fallback, Inset};
+use super::cut::{Cutter, EdgeFallback, Inset};
 use super::error::PanelError;
 use super::finger::{Comb, combs, zone_points};
 use super::hole::drill;
@@ -111,13 +111,13 @@ fn settle(
                 });
                 return Err(PanelError::Collision { found });
             }
-            fallen.into_iter().for_each(|e| cutter.fall_back(e, Fallback::Narrow));
+            fallen.into_iter().for_each(|e| cutter.fall_back(e, EdgeFallback::Narrow));
             continue;
         }
         let combs = match combs(faces, flat, cutter, hardware) {
             Ok(combs) => combs,
             Err(short) => {
-                short.into_iter().for_each(|e| cutter.fall_back(e, Fallback::Short));
+                short.into_iter().for_each(|e| cutter.fall_back(e, EdgeFallback::Short));
                 continue;
             }
         };
@@ -130,7 +130,7 @@ fn settle(
         if narrow.is_empty() {
             return Ok(shaped);
         }
-        narrow.into_iter().for_each(|e| cutter.fall_back(e, Fallback::Narrow));
+        narrow.into_iter().for_each(|e| cutter.fall_back(e, EdgeFallback::Narrow));
     }
 }
 

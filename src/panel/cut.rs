@@ -32,7 +32,7 @@ const BUTT_ANGLES: [f64; 2] = [30.0, 150.0];
 
 /// Why an edge is not what its rule says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Fallback {
+pub enum EdgeFallback {
     /// The plates lie too flat against each other.
     Shallow,
     /// They meet at too sharp an angle.
@@ -43,7 +43,7 @@ pub enum Fallback {
     Narrow,
 }
 
-impl Fallback {
+impl EdgeFallback {
     /// The word in files.
     pub const fn name(self) -> &'static str {
         match self {
@@ -94,7 +94,7 @@ pub struct EdgeCut {
     /// What it is.
     pub kind: EdgeKind,
     /// What it should have been, and why it is not.
-    pub fallback: Option<(EdgeKind, Fallback)>,
+    pub fallback: Option<(EdgeKind, EdgeFallback)>,
     /// The insets of the plates on the left of its two half-edges; `None` for a hole.
     pub insets: [Option<Inset>; 2],
     /// Distance between the two plates at front and back, in mm: the V of square-cut plates. `None`
@@ -111,7 +111,7 @@ pub(super) struct Cutter<'a> {
     pub params: &'a PanelParams,
     pub thickness: FaceMap<f64>,
     folds: EdgeMap<Option<f64>>,
-    kinds: EdgeMap<(EdgeKind, Option<(EdgeKind, Fallback)>)>,
+    kinds: EdgeMap<(EdgeKind, Option<(EdgeKind, EdgeFallback)>)>,
     rims: FaceMap<Option<DVec3>>,
 }
 
@@ -147,7 +147,7 @@ impl<'a> Cutter<'a> {
     }
 
     /// Takes fingers away.
-    pub fn fall_back(&mut self, e: EdgeId, why: Fallback) {
+    pub fn fall_back(&mut self, e: EdgeId, why: EdgeFallback) {
         self.kinds[e] = (fallen(self.params.shallow), Some((self.kinds[e].0, why)));
     }
 
@@ -247,7 +247,7 @@ fn fallen(shallow: Shallow) -> EdgeKind {
 }
 
 /// The kind of an edge as of the rules, or what it falls back to.
-fn kind_of(dihedral: f64, params: &PanelParams) -> (EdgeKind, Option<(EdgeKind, Fallback)>) {
+fn kind_of(dihedral: f64, params: &PanelParams) -> (EdgeKind, Option<(EdgeKind, EdgeFallback)>) {
     let kind = params.edges.kind(dihedral);
     let [sharpest, flattest] = match kind {
         EdgeKind::Finger => FINGER_ANGLES,
@@ -257,8 +257,8 @@ fn kind_of(dihedral: f64, params: &PanelParams) -> (EdgeKind, Option<(EdgeKind, 
     // A concave edge is a convex one seen from behind.
     let seen = if dihedral > 180.0 { 360.0 - dihedral } else { dihedral };
     match seen {
-        s if s > flattest => (fallen(params.shallow), Some((kind, Fallback::Shallow))),
-        s if s < sharpest => (fallen(params.shallow), Some((kind, Fallback::Sharp))),
+        s if s > flattest => (fallen(params.shallow), Some((kind, EdgeFallback::Shallow))),
+        s if s < sharpest => (fallen(params.shallow), Some((kind, EdgeFallback::Sharp))),
         _ => (kind, None),
     }
 }
@@ -435,15 +435,15 @@ mod tests {
         assert_eq!(kind_of(270.0, &params), (EdgeKind::Finger, None));
         assert_eq!(
             kind_of(150.0, &params),
-            (EdgeKind::Stitch, Some((EdgeKind::Finger, Fallback::Shallow)))
+            (EdgeKind::Stitch, Some((EdgeKind::Finger, EdgeFallback::Shallow)))
         );
         assert_eq!(
             kind_of(20.0, &params),
-            (EdgeKind::Stitch, Some((EdgeKind::Finger, Fallback::Sharp)))
+            (EdgeKind::Stitch, Some((EdgeKind::Finger, EdgeFallback::Sharp)))
         );
         assert_eq!(
             kind_of(200.0, &params),
-            (EdgeKind::Stitch, Some((EdgeKind::Finger, Fallback::Shallow)))
+            (EdgeKind::Stitch, Some((EdgeKind::Finger, EdgeFallback::Shallow)))
         );
     }
 }

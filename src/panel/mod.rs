@@ -41,7 +41,7 @@ mod twins;
 mod tests;
 
 pub use build::plates;
-pub use cut::{EdgeCut, Fallback, Inset};
+pub use cut::{EdgeCut, EdgeFallback, Inset};
 pub use error::{Collision, PanelError};
 pub use finding::{CONICAL, PanelFinding, panel_findings};
 pub(crate) use map::label_room;

@@ -10,7 +10,7 @@ use super::plate::{Plate, Plates};
 use crate::measure::edge_length;
 use crate::mesh::{EdgeId, FaceMap, HalfEdgeId, Mesh, SplitVertex, VertexMap};
 use crate::net::{
-    EdgeLabel, FlatFace, MeshCounts, Net, Piece, PieceId, Proof, Rim, Seam, SeamSide, Segment,
+    EdgeLabel, FlatFace, MeshCounts, Net, NetRim, Piece, PieceId, Proof, Seam, SeamSide, Segment,
 };
 
 /// Sides of the polygon of a round hole on a sheet; they stay within 1 % of the radius.
@@ -47,7 +47,7 @@ pub fn panel_net(mesh: &Mesh, plates: &Plates, scale: f64, splits: &[SplitVertex
             });
         } else if let Some(first) = [h, g].into_iter().find(|&h| !mesh.is_hole(mesh.face(h))) {
             let s = if first == h { side(h) } else { side(g).turned() };
-            rims.push(Rim {
+            rims.push(NetRim {
                 edge: ends(cut.edge),
                 piece: s.piece,
                 face: s.face,

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use super::cut::{EdgeCut, Fallback};
+use super::cut::{EdgeCut, EdgeFallback};
 use super::extent::smallest_box;
 use super::node::Node;
 use super::params::PanelParams;
@@ -130,7 +130,7 @@ pub struct EdgeRow {
     /// The joint.
     pub kind: EdgeKind,
     /// What it should have been, and why it is not.
-    pub fallback: Option<(EdgeKind, Fallback)>,
+    pub fallback: Option<(EdgeKind, EdgeFallback)>,
     /// Distance between the panels at front and back, in mm; the larger one is the V-gap of square
     /// cuts.
     pub opening: Option<[f64; 2]>,

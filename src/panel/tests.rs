@@ -345,7 +345,7 @@ fn what_fingers_cannot_hold_falls_back_and_says_so() {
         made.edges
             .iter()
             .filter_map(|c| c.fallback)
-            .all(|f| f == (EdgeKind::Finger, Fallback::Shallow))
+            .all(|f| f == (EdgeKind::Finger, EdgeFallback::Shallow))
     );
 }
 

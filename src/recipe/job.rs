@@ -15,10 +15,10 @@ use crate::op::{HullParams, HullStep, OpContext, OpError, hull};
 use crate::panel::PanelParams;
 use crate::picture::RenderParams;
 use crate::progress::Progress;
-use crate::select::{Made, Selection};
+use crate::select::{NewElements, Selection};
 use crate::shape::solid;
 use crate::sheet::SheetParams;
-use crate::unfold::{Source, UnfoldParams};
+use crate::unfold::{MeshSource, UnfoldParams};
 
 /// An operator of a recipe that did not reach what was asked for; the notes say what is missing.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -39,7 +39,7 @@ impl fmt::Display for StepWithFindings {
 #[derive(Default)]
 pub struct Job {
     mesh: Option<Mesh>,
-    made: Option<Made>,
+    made: Option<NewElements>,
     /// What the user should know, in order.
     pub notes: Vec<String>,
     /// Operators that did not reach what was asked for, as far as no later step mends it.
@@ -126,14 +126,14 @@ impl Job {
             }
             Step::Operator(OperatorStep { verb, params }) => {
                 let context = OpContext { made: self.made.as_ref(), progress };
-                let operated = operate(params.as_ref(), folder, self.mesh()?, &context)?;
-                self.notes.extend(operated.notes);
+                let output = operate(params.as_ref(), folder, self.mesh()?, &context)?;
+                self.notes.extend(output.notes);
                 // To planarize again is how to mend faces that did not become planar.
                 self.with_findings.retain(|u| u.verb != "planarize" || *verb != "planarize");
-                if !operated.is_clean {
+                if !output.is_clean {
                     self.with_findings.push(StepWithFindings { step: number, verb });
                 }
-                (self.mesh, self.made) = (Some(operated.mesh), operated.made);
+                (self.mesh, self.made) = (Some(output.mesh), output.made);
             }
             Step::Hull(params) => {
                 let (mesh, report) =
@@ -200,7 +200,7 @@ impl Job {
         sheet: &SheetParams,
         progress: &dyn Progress,
     ) -> Result<(), MakeError> {
-        let source = Source { scale: 1.0, split_vertices: &[] };
+        let source = MeshSource { scale: 1.0, split_vertices: &[] };
         let panelled = panel_model(self.mesh()?, (params, files, sheet), &source, progress)?;
         self.notes.extend(panelled.notes());
         (self.panelled, self.fabrication) = (Some((panelled, sheet.clone())), None);
@@ -216,7 +216,7 @@ impl Job {
         progress: &dyn Progress,
     ) -> Result<(), MakeError> {
         let splits: &[SplitVertex] = &[];
-        let source = Source { scale: 1.0, split_vertices: splits };
+        let source = MeshSource { scale: 1.0, split_vertices: splits };
         let choice = choice.in_folder(folder);
         let fabrication = fabricate(
             self.mesh()?,

@@ -16,7 +16,8 @@ use super::{
 use crate::check::CheckParams;
 use crate::op::{
     HandleParams, HullParams, MengerParams, Operate, PlanarizeParams, ResolveParams, RindParams,
-    SierpinskiParams, SliceParams, SubdivideParams, TruncateEdge, TruncateFace, TruncateVertex,
+    SierpinskiParams, SliceParams, SubdivideParams, TruncateEdgeParams, TruncateFaceParams,
+    TruncateVertexParams,
 };
 use crate::panel::PanelParams;
 use crate::picture::RenderParams;
@@ -64,9 +65,15 @@ const STEPS: &[StepKind] = &[
     step("solid", "name", &[SolidParams::augment_args], |s| Ok(Step::Solid(s.read()?))),
     step("read", "path", &[ReadStep::augment_args], |s| Ok(Step::Read(s.read()?))),
     step("planes", "path", &[PlanesStep::augment_args], |s| Ok(Step::Planes(s.read()?))),
-    cut("vertex", &[TruncateVertex::augment_args], |s| operator::<TruncateVertex>(s, "cut vertex")),
-    cut("edge", &[TruncateEdge::augment_args], |s| operator::<TruncateEdge>(s, "cut edge")),
-    cut("face", &[TruncateFace::augment_args], |s| operator::<TruncateFace>(s, "cut face")),
+    cut("vertex", &[TruncateVertexParams::augment_args], |s| {
+        operator::<TruncateVertexParams>(s, "cut vertex")
+    }),
+    cut("edge", &[TruncateEdgeParams::augment_args], |s| {
+        operator::<TruncateEdgeParams>(s, "cut edge")
+    }),
+    cut("face", &[TruncateFaceParams::augment_args], |s| {
+        operator::<TruncateFaceParams>(s, "cut face")
+    }),
     cut("plane", &[SliceParams::augment_args], |s| operator::<SliceParams>(s, "cut plane")),
     StepKind {
         words: &[("\"convex\"", "false"), ("\"dual\"", "true")],

@@ -20,7 +20,7 @@ impl Recipe {
     /// # Errors
     /// [`RecipeError`] with line and column, and the nearest known name for an unknown one.
     pub fn parse(text: &str) -> Result<Self, RecipeError> {
-        let source = Source { text };
+        let source = RecipeText { text };
         let table = DeTable::parse(text).map_err(|e| source.syntax(&e))?;
         let mut recipe = Self { name: None, steps: Vec::new() };
         for (key, value) in table.get_ref().iter() {
@@ -55,7 +55,7 @@ impl Recipe {
     }
 }
 
-struct Source<'a> {
+struct RecipeText<'a> {
     text: &'a str,
 }
 
@@ -66,7 +66,7 @@ struct Entry<'a> {
     value: &'a Spanned<DeValue<'a>>,
 }
 
-impl Source<'_> {
+impl RecipeText<'_> {
     fn position(&self, offset: usize) -> Position {
         let before = &self.text[..offset.min(self.text.len())];
         let line_start = before.rfind('\n').map_or(0, |i| i + 1);
@@ -166,7 +166,7 @@ impl Source<'_> {
 
 /// The keys and values of one step.
 pub(super) struct StepFields<'a> {
-    source: &'a Source<'a>,
+    source: &'a RecipeText<'a>,
     step: &'static StepKind,
     verb: &'a Entry<'a>,
     entries: &'a [Entry<'a>],

@@ -9,7 +9,7 @@ use crate::mesh::{EdgeId, Mesh};
 use crate::progress::Progress;
 
 /// The folds with the least sum of |fold angle| × length among all that meet every vertex of a
-/// closed 3-valent mesh exactly once, ascending: dull edges become folds, sharp ones seams.
+/// closed 3-valent mesh exactly once, ascending: flat edges become folds, sharp ones seams.
 ///
 /// Exact up to the rounding of the weights to integers: the sum is at most vertices × 10⁻¹² × the
 /// largest weight above the true least sum. Of several least choices always the same one is given.
@@ -26,13 +26,13 @@ pub fn least_matching(mesh: &Mesh, progress: &dyn Progress) -> Result<Vec<EdgeId
 /// The folds with the least sum of |fold angle| alone, whatever their lengths, among all that meet
 /// every vertex of a closed 3-valent mesh exactly once, ascending.
 ///
-/// The one to take on a mesh that was carved already. There the long edges are the dull ones: with
+/// The one to take on a mesh that was carved already. There the long edges are the flat ones: with
 /// the length as a factor, a sharp edge of 60° and 1 mm would be lighter than the fold of 4° and 85
 /// mm beside it that a maker folds.
 ///
 /// # Errors
 /// As [`least_matching`].
-pub fn dullest_matching(mesh: &Mesh, progress: &dyn Progress) -> Result<Vec<EdgeId>, SeamError> {
+pub fn flattest_matching(mesh: &Mesh, progress: &dyn Progress) -> Result<Vec<EdgeId>, SeamError> {
     let graph = Graph::cubic(mesh)?;
     least(&graph, |e| fold_angle(mesh, e).map_or(0.0, f64::abs), progress)
 }
@@ -89,7 +89,7 @@ mod tests {
     use crate::progress::Silent;
 
     #[test]
-    fn dull_edges_become_folds() {
+    fn flat_edges_become_folds() {
         // A low prism with many sides: the upright edges bend least and are shortest.
         let prism = fixtures::prism(12, 0.1);
         let folds = least_matching(&prism, &Silent).expect("folds");

@@ -6,7 +6,7 @@
 //! number cycles + 1, and two pieces mean one Hamiltonian cycle of seams.
 //!
 //! - [`least_matching`] finds the folds that bend least, exactly and for large meshes;
-//!   [`dullest_matching`] weighs by angle alone.
+//!   [`flattest_matching`] weighs by angle alone.
 //! - [`Matchings`], [`table`] and [`matching`] list all of them for small meshes, up to symmetry.
 //! - [`TwoPieceSearch`] and [`hamiltonian_folds`] look for the seam of two pieces, or prove that
 //!   there is none.
@@ -36,7 +36,7 @@ pub use enumerate::{MATCHING_LIMIT, MatchingRow, Matchings, matching, table};
 pub use error::SeamError;
 pub use factor::{is_perfect_matching, piece_count, seam_cycles};
 pub use hamiltonian::hamiltonian_folds;
-pub use least::{dullest_matching, least_matching, least_matching_by};
+pub use least::{flattest_matching, least_matching, least_matching_by};
 pub use one_piece::one_piece_folds;
 pub use two_piece::{NoHamiltonian, TwoPieceSearch};
 pub use weight::{fold_sum, fold_weight};

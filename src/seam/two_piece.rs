@@ -30,7 +30,7 @@ const TRIES: usize = 100;
 /// leave its vertices, at least one must be seam. What the caller learns about a candidate
 /// (overlaps) is added with [`Self::forbid_folds_together`]. The search starts at the least
 /// matching, its seams joined as cheaply as exchanges of up to 6 folds can, and stays near what it
-/// tried last, so dull edges tend to be folds. The same calls always give the same answers.
+/// tried last, so flat edges tend to be folds. The same calls always give the same answers.
 ///
 /// ```no_run
 /// # use kerfold::{progress::Silent, seam::TwoPieceSearch};

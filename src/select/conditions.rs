@@ -84,8 +84,8 @@ pub const CONDITIONS: [Condition; 15] = [
         NOTHING,
     ),
     row(
-        "dullest",
-        "dullest",
+        "flattest",
+        "flattest",
         NOTHING,
         "folds of a D-form with the least fold angle in all",
         NOTHING,

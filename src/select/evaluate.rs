@@ -7,15 +7,15 @@ use glam::DVec3;
 
 use super::error::ElementKind::{self, Edge, Face, Vertex};
 use super::error::SelectError;
-use super::expr::{Atom, Compare, Direction, Expr};
+use super::expr::{Atom, Compare, Expr};
 use super::found::found;
-use super::{Context, Made, seams};
+use super::{Context, NewElements, seams};
 use crate::geom::predicate::side_of_plane;
 use crate::geom::{RoundingBound, Side};
 use crate::measure::fold_angle;
 use crate::mesh::{EdgeId, FaceId, Mesh, VertexId};
 use crate::progress::Progress;
-use crate::units::nearest_word;
+use crate::units::{Direction, nearest_word};
 
 /// Measured angles carry rounding: two that differ by less, in degrees, count as equal. A hundred
 /// times what a model a thousand sizes away from the origin shows.
@@ -53,7 +53,7 @@ fn serves(atom: &Atom) -> &'static [ElementKind] {
 
 struct Evaluation<'a> {
     mesh: &'a Mesh,
-    made: Option<&'a Made>,
+    made: Option<&'a NewElements>,
     progress: &'a dyn Progress,
     kind: ElementKind,
 }

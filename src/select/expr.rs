@@ -3,10 +3,8 @@
 use std::cmp::Ordering;
 use std::fmt;
 
-use glam::DVec3;
-
 use super::seams::Folds;
-use crate::units::{Angle, Length};
+use crate::units::{Angle, Direction, Length};
 
 /// An expression. Chains of `&` and `|` are flat, so that only brackets and `!` nest.
 #[derive(Debug, Clone, PartialEq)]
@@ -72,45 +70,10 @@ impl Compare {
     }
 }
 
-/// A direction as it was typed: not zero, of any length.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Direction(pub(super) DVec3);
-
-impl Direction {
-    /// The axes by name.
-    pub(super) const AXES: [(&str, DVec3); 6] = [
-        ("x", DVec3::X),
-        ("y", DVec3::Y),
-        ("z", DVec3::Z),
-        ("-x", DVec3::NEG_X),
-        ("-y", DVec3::NEG_Y),
-        ("-z", DVec3::NEG_Z),
-    ];
-
-    /// The opposite direction.
-    pub(super) fn reversed(self) -> Self {
-        Self(-self.0)
-    }
-
-    /// The unit vector; exact for an axis.
-    pub(super) fn unit(self) -> DVec3 {
-        (self.0 / self.0.abs().max_element()).normalize()
-    }
-}
-
 impl fmt::Display for Compare {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let sign = Self::SIGNS.iter().find(|(_, compare)| compare == self);
         f.write_str(sign.expect("every comparison has a sign").0)
-    }
-}
-
-impl fmt::Display for Direction {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match Self::AXES.iter().find(|(_, axis)| *axis == self.0) {
-            Some((name, _)) => f.write_str(name),
-            None => write!(f, "{},{},{}", self.0.x, self.0.y, self.0.z),
-        }
     }
 }
 
@@ -130,7 +93,7 @@ impl fmt::Display for Atom {
             Self::Made => f.write_str("made"),
             Self::Strip => f.write_str("strip"),
             Self::Folds(Folds::Least) => f.write_str("matching"),
-            Self::Folds(Folds::Dullest) => f.write_str("dullest"),
+            Self::Folds(Folds::Flattest) => f.write_str("flattest"),
             Self::Folds(Folds::Number(k)) => write!(f, "matching:{k}"),
             Self::Folds(Folds::TwoPieces) => f.write_str("hamiltonian"),
         }

@@ -42,14 +42,14 @@ pub struct Context<'a> {
     /// The mesh as it is now.
     pub mesh: &'a Mesh,
     /// What the last step made, for `made` and `strip`.
-    pub made: Option<&'a Made>,
+    pub made: Option<&'a NewElements>,
     /// Progress and Ctrl-C; choosing folds on a large mesh takes a while.
     pub progress: &'a dyn Progress,
 }
 
 /// What an operator made, in ids of the mesh that it returned.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Made {
+pub struct NewElements {
     /// New vertices.
     pub vertices: Vec<VertexId>,
     /// New edges.

@@ -13,10 +13,10 @@
 use glam::DVec3;
 
 use super::conditions::words;
-use super::expr::{Atom, Compare, Direction, Expr};
+use super::expr::{Atom, Compare, Expr};
 use super::seams::Folds;
 use crate::code::codes;
-use crate::units::{Angle, Length, nearest_word, parse_number};
+use crate::units::{Angle, Direction, Length, nearest_word, parse_number};
 
 /// Why a text is no selection. Columns are counted in characters, from 1.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -183,7 +183,8 @@ impl<'a> Parser<'a> {
             "all" => Atom::All,
             "made" => Atom::Made,
             "strip" => Atom::Strip,
-            "dullest" => Atom::Folds(Folds::Dullest),
+            // `dullest` is what recipes before 0.2 say.
+            "flattest" | "dullest" => Atom::Folds(Folds::Flattest),
             "hamiltonian" => Atom::Folds(Folds::TwoPieces),
             "matching" => Atom::Folds(self.matching()?),
             "valence" => {

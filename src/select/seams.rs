@@ -9,8 +9,8 @@ use crate::seam::{self, SeamError};
 pub(super) enum Folds {
     /// `matching`: the perfect matching whose folds weigh least.
     Least,
-    /// `dullest`: the perfect matching whose folds turn least, by angle alone.
-    Dullest,
+    /// `flattest`: the perfect matching whose folds turn least, by angle alone.
+    Flattest,
     /// `matching:K`: number K of all perfect matchings, in the order of [`seam::matching`].
     Number(usize),
     /// `hamiltonian`: the folds that leave one closed seam, so that there are two pieces.
@@ -25,7 +25,7 @@ pub(super) fn folds(
 ) -> Result<Vec<EdgeId>, SeamError> {
     match which {
         Folds::Least => seam::least_matching(mesh, progress),
-        Folds::Dullest => seam::dullest_matching(mesh, progress),
+        Folds::Flattest => seam::flattest_matching(mesh, progress),
         Folds::Number(k) => seam::matching(mesh, k, progress),
         Folds::TwoPieces => seam::hamiltonian_folds(mesh, progress),
     }

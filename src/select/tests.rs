@@ -108,15 +108,15 @@ fn faces_are_told_apart_by_sides_and_groups() {
     assert_eq!(counts(&mesh, "sides=5"), [99, 99, 12]);
     assert_eq!(counts(&mesh, "sides=5 | sides=6"), [99, 99, 32]);
     let black: Vec<FaceId> = select("sides=5").faces(&Context::of(&mesh)).expect("twelve");
-    black.iter().for_each(|&f| mesh.set_group(f, "black & (dull)"));
+    black.iter().for_each(|&f| mesh.set_group(f, "black & (flat)"));
     mesh.set_group(FaceId::new(31), "white");
-    assert_eq!(counts(&mesh, "group=\"black & (dull)\""), [60, 60, 12]);
+    assert_eq!(counts(&mesh, "group=\"black & (flat)\""), [60, 60, 12]);
     let error = |text: &str| select(text).faces(&Context::of(&mesh)).expect_err(text).to_string();
     assert_eq!(
         error("group=whyte"),
         "no face belongs to a group called `whyte`; did you mean `white`?"
     );
-    assert!(error("group=roof").ends_with("the groups are black & (dull), white"));
+    assert!(error("group=roof").ends_with("the groups are black & (flat), white"));
     assert_eq!(
         select("group=a").edges(&Context::of(&boxed())).expect_err("no groups").to_string(),
         "no face belongs to a group called `a`; the mesh has no groups"
@@ -141,7 +141,7 @@ fn rims_have_no_fold_and_holes_are_no_faces() {
 #[test]
 fn made_and_strip_are_what_the_last_step_made() {
     let mesh = boxed();
-    let made = Made {
+    let made = NewElements {
         vertices: vec![VertexId::new(5), VertexId::new(99)],
         edges: vec![EdgeId::new(4), EdgeId::new(2)],
         strip: vec![EdgeId::new(4)],
@@ -162,7 +162,7 @@ fn seam_selections_reach_the_seams() {
     let mesh = shape::cube(1.0);
     for (text, folds) in [
         ("matching", seams::Folds::Least),
-        ("dullest", seams::Folds::Dullest),
+        ("flattest", seams::Folds::Flattest),
         ("matching:2", seams::Folds::Number(2)),
         ("hamiltonian", seams::Folds::TwoPieces),
     ] {
@@ -276,7 +276,7 @@ fn atoms() -> impl Strategy<Value = String> {
         "made",
         "strip",
         "matching",
-        "dullest",
+        "flattest",
         "matching:7",
         "hamiltonian",
         "group=a b",

@@ -1,7 +1,7 @@
 //! Seams as D-forms have them: in a closed 3-valent mesh one edge at every vertex folds, the two
 //! others are seam.
 //!
-//! The folds are a perfect matching of the vertices. For strips it is the dullest; for two pieces
+//! The folds are a perfect matching of the vertices. For strips it is the flattest; for two pieces
 //! it leaves one seam through all vertices (a Hamiltonian cycle). See [`crate::seam`].
 
 use super::dual::Dual;
@@ -96,9 +96,9 @@ fn path(layout: &Layout, (f, g): (u32, u32)) -> Vec<EdgeId> {
     folds.into_iter().map(|c| layout.dual.edge(layout.forest.parent_side[c as usize])).collect()
 }
 
-/// The strips of a closed 3-valent mesh: the folds are the dullest choice of one at every vertex.
+/// The strips of a closed 3-valent mesh: the folds are the flattest choice of one at every vertex.
 /// By angle alone: with the length as a factor, short sharp edges would be lighter than the long
-/// dull folds of a strip (on a carved D-form, 60° × 1 mm is less than 4° × 85 mm, though a maker
+/// flat folds of a strip (on a carved D-form, 60° × 1 mm is less than 4° × 85 mm, though a maker
 /// folds the latter).
 ///
 /// A ring of faces opens at its best fold. Where a piece overlaps itself, the sharpest fold between

@@ -276,18 +276,18 @@ impl Forest {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::Rng;
     use crate::unfold::Seams;
-    use crate::unfold::random::Random;
 
     #[test]
     fn rehanging_keeps_order_sizes_and_roots_as_a_refresh_would() {
         let mesh = crate::shape::random_tangent_polytope(60, 3);
         let dual = Dual::new(&mesh, &Seams::Free).expect("planar faces");
         let mut forest = Forest::scattered(&dual);
-        let mut random = Random::new(5);
+        let mut rng = Rng::new(5);
         let mut part = Vec::new();
         for turn in 0..2000 {
-            let c = random.below(dual.face_count()) as u32;
+            let c = rng.below(dual.face_count()) as u32;
             let cut = if forest.parent_side[c as usize] == NONE { NONE } else { c };
             if cut == NONE {
                 part.clear();
@@ -302,7 +302,7 @@ mod tests {
             if sides.is_empty() {
                 continue;
             }
-            forest.rehang(&dual, cut, sides[random.below(sides.len())]);
+            forest.rehang(&dual, cut, sides[rng.below(sides.len())]);
             let fresh = Forest::new(&dual, forest.parent_side.clone());
             assert_eq!((&forest.size, &forest.root), (&fresh.size, &fresh.root), "{turn}");
             for f in 0..dual.face_count() as u32 {

@@ -3,9 +3,9 @@
 
 use super::dual::NONE;
 use super::layout::Layout;
-use super::random::Random;
 use super::repair::Repair;
 use crate::progress::Progress;
+use crate::random::Rng;
 
 /// Edges by which one try hangs on a piece; the one with the fewest overlaps is taken.
 const HINGES: usize = 24;
@@ -24,14 +24,14 @@ pub(super) struct Joiner<'a> {
     pub joins: usize,
     /// Moves that their repairs looked for.
     pub moves: u64,
-    random: Random,
+    rng: Rng,
     budget: u64,
 }
 
 impl<'a> Joiner<'a> {
     /// A search from a layout without overlaps that lays at most about `budget` faces.
-    pub fn new(layout: Layout<'a>, random: &mut Random, budget: u64) -> Self {
-        Self { layout, joins: 0, moves: 0, random: Random::new(random.bits()), budget }
+    pub fn new(layout: Layout<'a>, rng: &mut Rng, budget: u64) -> Self {
+        Self { layout, joins: 0, moves: 0, rng: Rng::new(rng.bits()), budget }
     }
 
     /// Joins pieces until there are as few as can be, every one was tried `TURNS` times in vain, or
@@ -63,7 +63,7 @@ impl<'a> Joiner<'a> {
         self.budget = self.budget.saturating_sub(1);
         let Some(joined) = self.joined(root) else { return false };
         let limit = self.budget.min(REPAIR * joined.dual.face_count() as u64);
-        let mut repair = Repair::new(joined, self.random.bits());
+        let mut repair = Repair::new(joined, self.rng.bits());
         let repaired = repair.run(limit, progress);
         let (moves, work) = repair.effort();
         self.moves += u64::from(moves);
@@ -85,7 +85,7 @@ impl<'a> Joiner<'a> {
             |&s: &u32| dual.hinge[s as usize] != NONE && !layout.is_marked(dual.neighbour(s));
         let mut hinges: Vec<u32> =
             faces.iter().flat_map(|&f| dual.sides(f)).filter(leads_out).collect();
-        self.random.shuffle_front(&mut hinges, HINGES);
+        self.rng.shuffle_front(&mut hinges, HINGES);
         let (mut best, mut limit, mut found) = (None, OVERLAPS, Vec::new());
         for &s in hinges.iter().take(HINGES) {
             let motion = layout.motion(s);

@@ -17,7 +17,6 @@ mod overlap;
 mod params;
 mod polish;
 mod proof;
-mod random;
 mod repair;
 mod result;
 mod split;
@@ -25,7 +24,7 @@ mod start;
 
 pub use error::UnfoldError;
 pub use given::{check_folded, check_seams, seams_by_angle};
-pub use params::{PiecesMode, PiecesModeError, Seams, Source, UnfoldParams};
+pub use params::{MeshSource, PiecesMode, PiecesModeError, Seams, UnfoldParams};
 pub use proof::{
     EdgeFault, LENGTH as LENGTH_LIMIT, ProofError, REFOLD as REFOLD_LIMIT, prove, renumbered,
 };
@@ -33,10 +32,10 @@ pub use proof::{
 use crate::mesh::Mesh;
 use crate::net::Net;
 use crate::progress::Progress;
+use crate::random::Rng;
 use dual::Dual;
 use forest::Forest;
 use layout::Layout;
-use random::Random;
 use repair::Repair;
 use start::Rule;
 
@@ -82,7 +81,7 @@ pub fn unfold(
     mesh: &Mesh,
     seams: &Seams,
     params: &UnfoldParams,
-    source: &Source,
+    source: &MeshSource,
     progress: &dyn Progress,
 ) -> Result<Net, UnfoldError> {
     let dual = Dual::new(mesh, seams)?;
@@ -131,7 +130,7 @@ fn fewest<'a>(
     params: &UnfoldParams,
     progress: &dyn Progress,
 ) -> (Layout<'a>, Tried) {
-    let mut random = Random::new(params.seed);
+    let mut rng = Rng::new(params.seed);
     let least = dual.least_pieces();
     let size = dual.face_count().max(LEAST_ATTEMPT) as u64;
     let mut budget = u64::from(params.effort) * STEP * dual.face_count().max(LEAST_SIZE) as u64;
@@ -140,13 +139,13 @@ fn fewest<'a>(
     for _ in 0..=params.effort {
         let starts = if best.is_none() { STARTS } else { LATER_STARTS };
         let (start, starts) =
-            best_start(dual, mesh, seams, (starts, tried.starts), &mut random, progress);
+            best_start(dual, mesh, seams, (starts, tried.starts), &mut rng, progress);
         tried.starts += starts;
         let layout = attempt(
             start,
             budget.min(ATTEMPT * size),
             (&mut budget, &mut tried),
-            &mut random,
+            &mut rng,
             progress,
         );
         if best.as_ref().is_none_or(|best| layout.forest.roots().len() < best.forest.roots().len())
@@ -172,10 +171,10 @@ fn attempt<'a>(
     start: Layout<'a>,
     share: u64,
     (budget, tried): (&mut u64, &mut Tried),
-    random: &mut Random,
+    rng: &mut Rng,
     progress: &dyn Progress,
 ) -> Layout<'a> {
-    let mut repair = Repair::new(start, random.bits());
+    let mut repair = Repair::new(start, rng.bits());
     let mut layout = repair.run(share / REPAIR_SHARE, progress);
     let (moves, work) = repair.effort();
     tried.moves += u64::from(moves);
@@ -184,7 +183,7 @@ fn attempt<'a>(
         split::split_overlaps(&mut layout);
         split::join_pieces(&mut layout, || !progress.is_cancelled());
         let limit = share.saturating_sub(work);
-        let mut joiner = join::Joiner::new(layout, random, limit);
+        let mut joiner = join::Joiner::new(layout, rng, limit);
         let spent = joiner.run(progress);
         *budget = budget.saturating_sub(spent);
         tried.joins += joiner.joins;
@@ -201,25 +200,24 @@ fn best_start<'a>(
     mesh: &Mesh,
     seams: &Seams,
     (count, first): (usize, usize),
-    random: &mut Random,
+    rng: &mut Rng,
     progress: &dyn Progress,
 ) -> (Layout<'a>, usize) {
-    let rule = |turn: usize, random: &mut Random| match first + turn {
+    let rule = |turn: usize, rng: &mut Rng| match first + turn {
         0 if !seams.is_searched() => Rule::Sharpest,
-        turn => Rule::of_turn(turn, random),
+        turn => Rule::of_turn(turn, rng),
     };
-    let lay = |rule, limit, random: &mut Random| {
-        Layout::new(dual, start::forest(dual, mesh, rule, random), limit)
-    };
-    let first = rule(0, random);
-    let mut best = lay(first, usize::MAX, random).expect("no limit, no giving up");
+    let lay =
+        |rule, limit, rng: &mut Rng| Layout::new(dual, start::forest(dual, mesh, rule, rng), limit);
+    let first = rule(0, rng);
+    let mut best = lay(first, usize::MAX, rng).expect("no limit, no giving up");
     for turn in 1..count {
         if best.overlaps.is_empty() || progress.is_cancelled() {
             return (best, turn);
         }
         progress.report("choosing a start", turn, count);
-        let rule = rule(turn, random);
-        if let Some(better) = lay(rule, best.overlaps.len() - 1, random) {
+        let rule = rule(turn, rng);
+        if let Some(better) = lay(rule, best.overlaps.len() - 1, rng) {
             best = better;
         }
     }

@@ -150,7 +150,7 @@ impl Seams {
 
 /// How the mesh in memory relates to the file that it came from.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Source<'a> {
+pub struct MeshSource<'a> {
     /// Factor from the file's unit to millimetres. The mesh is in millimetres already; the factor
     /// is only recorded.
     pub scale: f64,
@@ -158,7 +158,7 @@ pub struct Source<'a> {
     pub split_vertices: &'a [SplitVertex],
 }
 
-impl Default for Source<'_> {
+impl Default for MeshSource<'_> {
     fn default() -> Self {
         Self { scale: 1.0, split_vertices: &[] }
     }

@@ -9,8 +9,8 @@
 use super::dual::NONE;
 use super::forest::Forest;
 use super::layout::{Layout, Motion};
-use super::random::Random;
 use crate::progress::Progress;
+use crate::random::Rng;
 
 /// Folds of a path that one step tries to cut, those with the smallest parts.
 const FOLDS: usize = 8;
@@ -41,7 +41,7 @@ struct Move {
 /// The search and its memory.
 pub(super) struct Repair<'a> {
     layout: Layout<'a>,
-    random: Random,
+    rng: Rng,
     /// Side → first step in which its edge may fold again.
     tabu: Vec<u32>,
     step: u32,
@@ -60,7 +60,7 @@ impl<'a> Repair<'a> {
         let tabu = vec![0; layout.dual.across.len()];
         Self {
             layout,
-            random: Random::new(seed),
+            rng: Rng::new(seed),
             tabu,
             step: 0,
             work: 0,
@@ -107,7 +107,7 @@ impl<'a> Repair<'a> {
         self.step += 1;
         // A step that finds nothing to try counts too, so that the search ends.
         self.work += 1;
-        let (f, g) = self.layout.overlaps[self.random.below(self.layout.overlaps.len())];
+        let (f, g) = self.layout.overlaps[self.rng.below(self.layout.overlaps.len())];
         self.layout.forest.path(self.layout.dual, f, g, &mut self.path);
         let forest = &self.layout.forest;
         self.path.retain(|&c| !forest.must_keep(self.layout.dual, c));
@@ -120,7 +120,7 @@ impl<'a> Repair<'a> {
                 break;
             }
         }
-        if let Some(chosen) = best.filter(|m| m.gain >= 0 || self.random.unit() < WORSE) {
+        if let Some(chosen) = best.filter(|m| m.gain >= 0 || self.rng.unit() < WORSE) {
             self.take(chosen);
         }
     }
@@ -162,7 +162,7 @@ impl<'a> Repair<'a> {
 
     /// Some sides of the marked part, on its boundary, by which it may be hung on.
     fn gather_hinges(&mut self, cut: u32) {
-        let Self { layout, hinges, faces, tabu, step, random, .. } = self;
+        let Self { layout, hinges, faces, tabu, step, rng, .. } = self;
         let dual = layout.dual;
         let above = layout.forest.parent_side[cut as usize];
         let is_open = |s: u32| {
@@ -175,12 +175,12 @@ impl<'a> Repair<'a> {
         hinges.clear();
         if faces.len() * 3 <= LOOKS {
             hinges.extend(faces.iter().flat_map(|&f| dual.sides(f)).filter(|&s| is_open(s)));
-            random.shuffle_front(hinges, HINGES);
+            rng.shuffle_front(hinges, HINGES);
             return hinges.truncate(HINGES);
         }
         for _ in 0..LOOKS {
-            let sides = dual.sides(faces[random.below(faces.len())]);
-            let side = sides.start + random.below(sides.len()) as u32;
+            let sides = dual.sides(faces[rng.below(faces.len())]);
+            let side = sides.start + rng.below(sides.len()) as u32;
             if is_open(side) && !hinges.contains(&side) {
                 hinges.push(side);
                 if hinges.len() == HINGES {

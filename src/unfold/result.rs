@@ -2,19 +2,19 @@
 
 use glam::DVec2;
 
-use super::Source;
+use super::MeshSource;
 use super::dual::{Dual, FLAT, NONE};
 use super::layout::Layout;
 use crate::geom::polygon::signed_area;
 use crate::measure;
 use crate::mesh::{EdgeId, HalfEdgeMap, Mesh, VertexId, VertexMap};
 use crate::net::{
-    EdgeLabel, FlatFace, Fold, FoldKind, MeshCounts, Net, Piece, PieceId, Proof, Rim, Seam,
+    EdgeLabel, FlatFace, Fold, FoldKind, MeshCounts, Net, NetRim, Piece, PieceId, Proof, Seam,
     SeamSide, Segment,
 };
 
 /// The net of a layout without overlaps; its proof is still empty.
-pub(super) fn net(mesh: &Mesh, layout: &Layout, source: &Source) -> Net {
+pub(super) fn net(mesh: &Mesh, layout: &Layout, source: &MeshSource) -> Net {
     let writer = Writer::new(mesh, layout, source);
     let (folds, seams, rims) = writer.edges();
     Net {
@@ -49,7 +49,7 @@ struct Writer<'a> {
 }
 
 impl<'a> Writer<'a> {
-    fn new(mesh: &'a Mesh, layout: &'a Layout, source: &Source) -> Self {
+    fn new(mesh: &'a Mesh, layout: &'a Layout, source: &MeshSource) -> Self {
         let (dual, forest) = (layout.dual, &layout.forest);
         let mut trees: Vec<&[u32]> =
             forest.roots().into_iter().map(|root| forest.subtree(root)).collect();
@@ -146,7 +146,7 @@ impl<'a> Writer<'a> {
         if is_first { ends } else { [ends[1], ends[0]] }
     }
 
-    fn edges(&self) -> (Vec<Fold>, Vec<Seam>, Vec<Rim>) {
+    fn edges(&self) -> (Vec<Fold>, Vec<Seam>, Vec<NetRim>) {
         let (mut folds, mut seams, mut rims) = (Vec::new(), Vec::new(), Vec::new());
         for e in self.mesh.edges() {
             match e.half_edges().map(|h| self.side_of[h]) {
@@ -204,8 +204,8 @@ impl<'a> Writer<'a> {
         }
     }
 
-    fn rim(&self, e: EdgeId, s: u32) -> Rim {
-        Rim {
+    fn rim(&self, e: EdgeId, s: u32) -> NetRim {
+        NetRim {
             edge: self.ends(e),
             piece: self.piece_of(s),
             face: self.face_number(s),

@@ -12,8 +12,8 @@ use glam::{DVec2, DVec3};
 
 use super::dual::{Dual, FLAT, NONE};
 use super::forest::Forest;
-use super::random::Random;
 use crate::mesh::{EdgeId, EdgeMap, Mesh};
+use crate::random::Rng;
 
 /// Sets of faces that hang together (union-find).
 #[derive(Debug)]
@@ -57,18 +57,18 @@ pub(super) enum Rule {
 
 impl Rule {
     /// The rule of the given turn: two of three by steepest edges, the others by turns.
-    pub fn of_turn(turn: usize, random: &mut Random) -> Self {
+    pub fn of_turn(turn: usize, rng: &mut Rng) -> Self {
         match turn % 6 {
             2 => Self::Longest,
-            5 => Self::Along(random.direction()),
-            _ => Self::Steepest(random.direction()),
+            5 => Self::Along(direction(rng)),
+            _ => Self::Steepest(direction(rng)),
         }
     }
 }
 
 /// The spanning forest of a rule.
-pub(super) fn forest(dual: &Dual, mesh: &Mesh, rule: Rule, random: &mut Random) -> Forest {
-    let weights = weights(dual, mesh, rule, random);
+pub(super) fn forest(dual: &Dual, mesh: &Mesh, rule: Rule, rng: &mut Rng) -> Forest {
+    let weights = weights(dual, mesh, rule, rng);
     spanning(dual, by_weight(dual, &weights))
 }
 
@@ -94,7 +94,7 @@ fn spanning(dual: &Dual, order: impl IntoIterator<Item = usize>) -> Forest {
     hang(dual, &kept)
 }
 
-/// Chains: every face keeps two folds at most, the dullest first and of nearly equal ones the
+/// Chains: every face keeps two folds at most, the flattest first and of nearly equal ones the
 /// longest. Every vertex inside the mesh ends up on a seam, since a ring of folds around one would
 /// be no chain.
 pub(super) fn strips(dual: &Dual) -> Forest {
@@ -150,20 +150,20 @@ fn hang(dual: &Dual, kept: &[bool]) -> Forest {
     Forest::new(dual, parent_side)
 }
 
-fn weights(dual: &Dual, mesh: &Mesh, rule: Rule, random: &mut Random) -> Vec<f64> {
+fn weights(dual: &Dual, mesh: &Mesh, rule: Rule, rng: &mut Rng) -> Vec<f64> {
     let longest = dual.hinges.iter().map(|h| h.length).fold(f64::MIN_POSITIVE, f64::max);
     let edge = |sides: [u32; 2]| dual.half_edges[sides[0] as usize].edge();
     match rule {
         Rule::Sharpest => dual.hinges.iter().map(|h| -h.fold * h.length).collect(),
         Rule::Longest => {
-            dual.hinges.iter().map(|h| -h.length / longest + 0.2 * random.unit()).collect()
+            dual.hinges.iter().map(|h| -h.length / longest + 0.2 * rng.unit()).collect()
         }
         Rule::Along(direction) => {
             let slope = |e: EdgeId| {
                 let [a, b] = mesh.edge_positions(e);
                 (b - a).normalize_or_zero().dot(direction).abs()
             };
-            dual.hinges.iter().map(|h| -slope(edge(h.sides)) + 0.2 * random.unit()).collect()
+            dual.hinges.iter().map(|h| -slope(edge(h.sides)) + 0.2 * rng.unit()).collect()
         }
         Rule::Steepest(direction) => {
             let opened = steepest(mesh, direction);
@@ -188,6 +188,11 @@ fn steepest(mesh: &Mesh, direction: DVec3) -> EdgeMap<bool> {
         }
     }
     opened
+}
+
+/// A direction, uniform on the sphere.
+fn direction(rng: &mut Rng) -> DVec3 {
+    unit_vector(2.0 * rng.unit() - 1.0, rng.unit() * std::f64::consts::TAU)
 }
 
 /// The unit vector with a height and an angle around the vertical; uniform on the sphere when both

@@ -15,8 +15,8 @@ use std::time::{Duration, Instant};
 use kerfold::geom::Plane;
 use kerfold::mesh::VertexId;
 use kerfold::op::{
-    CutChain, Disjoint, Reach, ResolveParams, Scope, TruncateEdge, TruncateFace, TruncateVertex,
-    resolve, truncate_edges, truncate_faces, truncate_vertices,
+    CutChain, Disjoint, Reach, ResolveParams, Scope, TruncateEdgeParams, TruncateFaceParams,
+    TruncateVertexParams, resolve, truncate_edges, truncate_faces, truncate_vertices,
 };
 use kerfold::select::Selection;
 
@@ -169,7 +169,11 @@ fn truncate_some(mesh: &Mesh, random: &mut Random) -> Option<Mesh> {
             let select = ids(mesh.vertex_count(), random)?;
             truncate_vertices(
                 mesh,
-                &TruncateVertex { scope, disjoint, ..TruncateVertex::new(select, offset) },
+                &TruncateVertexParams {
+                    scope,
+                    disjoint,
+                    ..TruncateVertexParams::new(select, offset)
+                },
                 &context,
             )
         }
@@ -177,7 +181,7 @@ fn truncate_some(mesh: &Mesh, random: &mut Random) -> Option<Mesh> {
             let select = ids(mesh.edge_count(), random)?;
             truncate_edges(
                 mesh,
-                &TruncateEdge { scope, disjoint, ..TruncateEdge::new(select, offset) },
+                &TruncateEdgeParams { scope, disjoint, ..TruncateEdgeParams::new(select, offset) },
                 &context,
             )
         }
@@ -185,7 +189,7 @@ fn truncate_some(mesh: &Mesh, random: &mut Random) -> Option<Mesh> {
             let select = ids(mesh.face_count(), random)?;
             truncate_faces(
                 mesh,
-                &TruncateFace { scope, disjoint, ..TruncateFace::new(select, offset) },
+                &TruncateFaceParams { scope, disjoint, ..TruncateFaceParams::new(select, offset) },
                 &context,
             )
         }

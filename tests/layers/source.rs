@@ -18,7 +18,9 @@ pub fn read(path: &Path) -> String {
 /// All source files but those that hold only tests.
 pub fn sources() -> Vec<Source> {
     let mut files = Vec::new();
-    collect(&root().join("src"), &mut files);
+    for (_, home) in super::CRATES {
+        collect(&root().join(home), &mut files);
+    }
     let read_one = |file: &PathBuf| {
         let path = file
             .strip_prefix(root())
@@ -115,28 +117,33 @@ impl Source {
         Fault { path: self.path.clone(), line, advice }
     }
 
+    /// The path below the folder of its crate.
+    fn inner_path(&self) -> Option<&str> {
+        super::CRATES.iter().find_map(|(_, home)| self.path.strip_prefix(home))
+    }
+
     /// The module of the crate to which the file belongs; none for the roots of library and binary.
     pub fn module(&self) -> Option<&str> {
-        let first = self.path.strip_prefix("src/")?.split('/').next()?;
+        let first = self.inner_path()?.split('/').next()?;
         let name = first.trim_end_matches(".rs");
         (!["lib", "main"].contains(&name)).then_some(name)
     }
 
     /// How many modules deep the file stands: 1 for `src/mesh/mod.rs`, 2 for `src/mesh/walk.rs`.
     fn depth(&self) -> usize {
-        let parts =
-            self.path.trim_start_matches("src/").trim_end_matches(".rs").trim_end_matches("/mod");
-        parts.split('/').count()
+        let path = self.inner_path().unwrap_or_default();
+        path.trim_end_matches(".rs").trim_end_matches("/mod").split('/').count()
     }
 
-    /// The module of the crate that a path begins with, be it by `crate::` or by climbing up with
-    /// `super::`.
+    /// The module of the house that a path begins with, be it by `crate::`, by the name of one of
+    /// our crates, or by climbing up with `super::`.
     pub fn inner_module(&self, path: &UsedPath) -> Option<String> {
         let first = path.segments.first()?;
         let climbs = path.segments.iter().take_while(|s| *s == "super").count();
         let steps = match first.as_str() {
             "crate" => 1,
             "super" if climbs == self.depth() => climbs,
+            name if super::CRATES.iter().any(|(ours, _)| *ours == name) => 1,
             _ => return None,
         };
         path.segments.get(steps).filter(|s| *s != "self").cloned()

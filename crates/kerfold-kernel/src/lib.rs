@@ -3,6 +3,7 @@
 pub mod code;
 pub mod geom;
 pub mod progress;
+pub mod random;
 pub mod units;
 
 #[cfg(feature = "mesh")]

@@ -1,7 +1,7 @@
 //! From flat outlines to sheets that a shop can cut.
 
 // What lies below, under the names that it has in the kernel.
-use kerfold_kernel::{code, geom, progress, units};
+use kerfold_kernel::{code, geom, progress, random, units};
 
 pub mod lint;
 pub mod net;

@@ -199,7 +199,7 @@ pub fn read_mesh_bytes(
             raw
         }),
     };
-    let mut source = Source { path, raw: raw.map_err(|located| located.in_file(path))? };
+    let mut source = SourceFile { path, raw: raw.map_err(|located| located.in_file(path))? };
     let scale = source.scale(options)?;
     source.weld(options, &mut notes)?;
     let (mesh, splits) = source.build()?;
@@ -217,12 +217,12 @@ fn check_options(options: &ReadOptions) -> Result<(), IoError> {
 }
 
 /// What came out of a file, on its way to a mesh.
-struct Source<'a> {
+struct SourceFile<'a> {
     path: &'a Path,
     raw: RawMesh,
 }
 
-impl Source<'_> {
+impl SourceFile<'_> {
     /// Scales the positions and returns the factor. A factor of 1 touches no digit.
     fn scale(&mut self, options: &ReadOptions) -> Result<f64, IoError> {
         if let Some(vertex) = self.raw.positions.iter().position(|p| !p.is_finite()) {

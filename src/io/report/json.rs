@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use crate::check::{Details, EdgeDetail, FaceReport, Finding, Limits, Report, VertexDetail};
+use crate::check::{CheckFinding, Details, EdgeDetail, FaceReport, Limits, Report, VertexDetail};
 use crate::code::Coded;
 use crate::measure::Summary;
 use crate::mesh::VertexId;
@@ -288,7 +288,7 @@ fn edge(e: &EdgeDetail) -> Edge {
     }
 }
 
-fn finding(f: &Finding) -> FindingRow<'_> {
+fn finding(f: &CheckFinding) -> FindingRow<'_> {
     FindingRow {
         check: f.check.name(),
         code: f.check.code().to_string(),

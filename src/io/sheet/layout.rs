@@ -3,7 +3,7 @@
 use glam::DVec2;
 use serde::Serialize;
 
-use crate::io::order_json::Source;
+use crate::io::order_json::OrderSource;
 use crate::sheet::{Layout, Placed, Sheet};
 
 #[derive(Serialize)]
@@ -52,7 +52,7 @@ pub fn write_layout_json(layout: &Layout, command: &str) -> String {
 
 /// As [`write_layout_json`]; pieces of an order, for which there are sources, tell where they come
 /// from.
-pub fn write_order_layout_json(layout: &Layout, sources: &[Source], command: &str) -> String {
+pub fn write_order_layout_json(layout: &Layout, sources: &[OrderSource], command: &str) -> String {
     let file = File {
         command,
         sheets: layout.sheets.iter().map(|s| sheet(s, sources)).collect(),
@@ -64,7 +64,7 @@ pub fn write_order_layout_json(layout: &Layout, sources: &[Source], command: &st
     text + "\n"
 }
 
-fn sheet(sheet: &Sheet, sources: &[Source]) -> SheetEntry {
+fn sheet(sheet: &Sheet, sources: &[OrderSource]) -> SheetEntry {
     let placed = sheet.placed.iter().map(|p| placed(p, sources)).collect();
     let places =
         |points: [DVec2; 2]| points.map(|p| DVec2::new(six_decimals(p.x), six_decimals(p.y)));
@@ -78,7 +78,7 @@ fn sheet(sheet: &Sheet, sources: &[Source]) -> SheetEntry {
     }
 }
 
-fn placed(placed: &Placed, sources: &[Source]) -> PlacedEntry {
+fn placed(placed: &Placed, sources: &[OrderSource]) -> PlacedEntry {
     let Placed { piece, x, y, rotation } = *placed;
     let source =
         sources.get(piece.0).map(|s| SourceEntry { file: s.file, id: s.id.clone(), copy: s.copy });

@@ -23,7 +23,7 @@ pub struct StepPart<'a> {
 
 /// The bytes of the file; `command` is the command line that made it.
 pub fn step_bytes<'a>(parts: impl Iterator<Item = StepPart<'a>>, command: &str) -> Vec<u8> {
-    let mut step = Step { text: header(command), next: 1 };
+    let mut step = StepFile { text: header(command), next: 1 };
     let context = step.context();
     let mut products = Vec::new();
     for part in parts {
@@ -53,12 +53,12 @@ struct Context {
     placement: usize,
 }
 
-struct Step {
+struct StepFile {
     text: String,
     next: usize,
 }
 
-impl Step {
+impl StepFile {
     fn add(&mut self, entity: &str) -> usize {
         let id = self.next;
         self.next += 1;

@@ -154,15 +154,15 @@ proptest! {
         let (select, context) = (Selection::all(), OpContext::default());
         let result = match operator {
             0 => {
-                let params = TruncateVertex { scope, repeat, disjoint, ..TruncateVertex::new(select, offset) };
+                let params = TruncateVertexParams { scope, repeat, disjoint, ..TruncateVertexParams::new(select, offset) };
                 truncate_vertices(&mesh, &params, &context).map(|r| r.0)
             }
             1 => {
-                let params = TruncateEdge { scope, repeat, disjoint, bend: offset - 1.0, ..TruncateEdge::new(select, offset) };
+                let params = TruncateEdgeParams { scope, repeat, disjoint, bend: offset - 1.0, ..TruncateEdgeParams::new(select, offset) };
                 truncate_edges(&mesh, &params, &context).map(|r| r.0)
             }
             2 => {
-                let params = TruncateFace { scope, repeat, disjoint, ..TruncateFace::new(select, offset) };
+                let params = TruncateFaceParams { scope, repeat, disjoint, ..TruncateFaceParams::new(select, offset) };
                 truncate_faces(&mesh, &params, &context).map(|r| r.0)
             }
             3 => resolve(&mesh, &ResolveParams::default(), &context).map(|r| r.0),

@@ -24,7 +24,7 @@ use crate::measure::face_centroid;
 use crate::mesh::{
     FaceId, FaceMap, HalfEdgeId, HalfEdgeMap, Mesh, VertexId, VertexMap, WalkBuilder,
 };
-use crate::select::Made;
+use crate::select::NewElements;
 
 /// The mean of the normals is shorter than this where faces look all ways.
 const ALL_WAYS: f64 = 0.25;
@@ -63,7 +63,7 @@ pub(super) fn hub(
     mesh: &Mesh,
     params: &HandleParams,
     context: &OpContext<'_>,
-) -> Result<(Mesh, Made, HandleReport), OpError> {
+) -> Result<(Mesh, NewElements, HandleReport), OpError> {
     let refuse = |reason| OpError::NoHandle { from: params.from.face, to: params.to.face, reason };
     let corners: Vec<FaceCorner> =
         [params.from, params.to].into_iter().chain(params.also.iter().copied()).collect();
@@ -87,9 +87,9 @@ pub(super) fn hub(
     };
     let port_faces: Vec<FaceId> =
         ports.iter().map(port_of).collect::<Option<_>>().ok_or_else(|| refuse(no_room))?;
-    let mut made = Made {
+    let mut made = NewElements {
         faces: hub_faces.iter().copied().filter(|f| !port_faces.contains(f)).collect(),
-        ..Made::default()
+        ..NewElements::default()
     };
     made.vertices = (0..points.len())
         .map(|i| VertexId::new(made_mesh.vertex_slots() - points.len() + i))

@@ -37,7 +37,7 @@ use super::report::first_few;
 use super::{OpContext, OpError, OpFinding};
 use crate::code::Coded;
 use crate::mesh::{FaceId, HalfEdgeId, Mesh, VertexId};
-use crate::select::Made;
+use crate::select::NewElements;
 
 pub use params::{FaceCorner, HandleAxis, HandleParams, Weights};
 
@@ -102,7 +102,7 @@ pub fn handle(
     mesh: &Mesh,
     params: &HandleParams,
     context: &OpContext<'_>,
-) -> Result<(Mesh, Made, HandleReport), OpError> {
+) -> Result<(Mesh, NewElements, HandleReport), OpError> {
     if !(1..=MOST_SEGMENTS).contains(&params.segments) {
         return Err(OpError::CountOutOfRange {
             what: "segments",
@@ -168,7 +168,7 @@ fn join(
     mesh: &Mesh,
     params: &Join<'_>,
     context: &OpContext<'_>,
-) -> Result<(Mesh, Made, HandleReport), OpError> {
+) -> Result<(Mesh, NewElements, HandleReport), OpError> {
     if context.progress.is_cancelled() {
         return Err(OpError::Cancelled);
     }
@@ -326,7 +326,7 @@ impl Tube {
     }
 
     /// Joins the ends through the sections, one pipe after the other.
-    fn build(&mut self, sections: &[Vec<DVec3>]) -> Made {
+    fn build(&mut self, sections: &[Vec<DVec3>]) -> NewElements {
         let mesh = &mut self.mesh;
         let ends = self.ends.map(|h| mesh.face(h));
         let carried: Vec<_> = mesh
@@ -337,7 +337,7 @@ impl Tube {
         // New faces are made like the one that they are cut off, plane included; those of a tube
         // have planes of their own.
         mesh.clear_planes();
-        let mut made = Made::default();
+        let mut made = NewElements::default();
         let mut from = self.ends[0];
         for section in sections {
             let (front, back) =

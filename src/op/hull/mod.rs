@@ -20,7 +20,7 @@ mod parts;
 #[cfg(test)]
 mod tests;
 
-pub use params::{Axis, HullParams, Step, Steps};
+pub use params::{Axis, HullParams, HullStepChoice, HullStepList};
 
 use super::{OpContext, OpError};
 use crate::geom::hull::{Form, HalfSpace, Intersect, Numbers, convex_hull, intersect};
@@ -116,7 +116,7 @@ pub fn hull(
     let mut report = HullReport { empty_clusters: clusters.empty, ..HullReport::default() };
     let mut result = Assembly::default();
     let steps = params.steps.as_ref().map_or(&[][..], |steps| &steps.0);
-    let mut pictures: Vec<(Step, Assembly)> =
+    let mut pictures: Vec<(HullStepChoice, Assembly)> =
         steps.iter().map(|&step| (step, Assembly::default())).collect();
     for (i, cluster) in clusters.parts.iter().enumerate() {
         context.progress.report("hulls", i, clusters.parts.len());

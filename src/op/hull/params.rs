@@ -51,7 +51,7 @@ pub struct HullParams {
     /// Also hand out the dual hull after its first planes, as in `1,20,all`; needs the box.
     #[arg(long, value_name = "LIST", requires = "dual", conflicts_with = "no_box")]
     #[serde(default)]
-    pub steps: Option<Steps>,
+    pub steps: Option<HullStepList>,
 }
 
 fn default_concavity() -> f64 {
@@ -123,14 +123,14 @@ pub enum Axis {
 
 /// After how many planes the dual hull is to be handed out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Step {
+pub enum HullStepChoice {
     /// After the first so many; 0 is the box.
     After(usize),
     /// After all.
     All,
 }
 
-impl Step {
+impl HullStepChoice {
     /// The number of planes, without limit for all.
     pub fn planes(self) -> usize {
         match self {
@@ -142,9 +142,9 @@ impl Step {
 
 /// Several steps, typed as `1,20,all`; in a recipe also a list.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Hash)]
-pub struct Steps(pub Vec<Step>);
+pub struct HullStepList(pub Vec<HullStepChoice>);
 
-impl FromStr for Step {
+impl FromStr for HullStepChoice {
     type Err = UnitError;
     fn from_str(text: &str) -> Result<Self, UnitError> {
         let error =
@@ -156,14 +156,14 @@ impl FromStr for Step {
     }
 }
 
-impl FromStr for Steps {
+impl FromStr for HullStepList {
     type Err = UnitError;
     fn from_str(text: &str) -> Result<Self, UnitError> {
         text.split(',').map(str::parse).collect::<Result<_, _>>().map(Self)
     }
 }
 
-impl fmt::Display for Step {
+impl fmt::Display for HullStepChoice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::After(planes) => planes.fmt(f),
@@ -172,7 +172,7 @@ impl fmt::Display for Step {
     }
 }
 
-impl<'de> Deserialize<'de> for Steps {
+impl<'de> Deserialize<'de> for HullStepList {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(Reader)
     }
@@ -182,32 +182,32 @@ impl<'de> Deserialize<'de> for Steps {
 struct Reader;
 
 impl<'de> de::Visitor<'de> for Reader {
-    type Value = Steps;
+    type Value = HullStepList;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("steps like \"1,20,all\", a number, or a list of both")
     }
 
-    fn visit_str<E: de::Error>(self, text: &str) -> Result<Steps, E> {
+    fn visit_str<E: de::Error>(self, text: &str) -> Result<HullStepList, E> {
         text.parse().map_err(E::custom)
     }
 
-    fn visit_u64<E: de::Error>(self, planes: u64) -> Result<Steps, E> {
-        Ok(Steps(vec![Step::After(usize::try_from(planes).map_err(E::custom)?)]))
+    fn visit_u64<E: de::Error>(self, planes: u64) -> Result<HullStepList, E> {
+        Ok(HullStepList(vec![HullStepChoice::After(usize::try_from(planes).map_err(E::custom)?)]))
     }
 
-    fn visit_i64<E: de::Error>(self, planes: i64) -> Result<Steps, E> {
+    fn visit_i64<E: de::Error>(self, planes: i64) -> Result<HullStepList, E> {
         match u64::try_from(planes) {
             Ok(planes) => self.visit_u64(planes),
             Err(_) => Err(E::invalid_value(de::Unexpected::Signed(planes), &self)),
         }
     }
 
-    fn visit_seq<A: de::SeqAccess<'de>>(self, mut list: A) -> Result<Steps, A::Error> {
+    fn visit_seq<A: de::SeqAccess<'de>>(self, mut list: A) -> Result<HullStepList, A::Error> {
         let mut steps = Vec::new();
-        while let Some(Steps(more)) = list.next_element()? {
+        while let Some(HullStepList(more)) = list.next_element()? {
             steps.extend(more);
         }
-        Ok(Steps(steps))
+        Ok(HullStepList(steps))
     }
 }

@@ -290,7 +290,7 @@ fn bad_parameters_are_refused() {
         OpError::ConcavityOutOfRange { .. }
     ));
     assert!(matches!(refuse(HullParams { no_box: true, ..default() }), OpError::Requires { .. }));
-    let steps = Some(Steps(vec![Step::All]));
+    let steps = Some(HullStepList(vec![HullStepChoice::All]));
     assert!(matches!(
         refuse(HullParams { no_box: true, steps, ..dual() }),
         OpError::Exclude { .. }

@@ -12,7 +12,7 @@ use super::super::OpError;
 use super::{Opening, RindReport};
 use crate::measure::face_centroid;
 use crate::mesh::{EdgeMap, FaceId, FaceMap, HalfEdgeId, HalfEdgeMap, Mesh};
-use crate::select::Made;
+use crate::select::NewElements;
 
 /// Two faces look at each other's back when the cosine between their normals is below this.
 const LOOKS_BACK: f64 = -0.5;
@@ -27,7 +27,7 @@ pub(super) fn open(
     mesh: &Mesh,
     openings: &FaceMap<Opening>,
     thickness: f64,
-) -> Result<(Mesh, Made, RindReport), OpError> {
+) -> Result<(Mesh, NewElements, RindReport), OpError> {
     let pairs = pairs(mesh, openings, thickness)?;
     let mut made_mesh = mesh.clone();
     let mut was_there = EdgeMap::filled(mesh.edge_slots(), false);
@@ -52,8 +52,10 @@ pub(super) fn open(
             made_mesh.set_plane(f, plane);
         }
     }
-    let made =
-        Made { faces: made_mesh.faces().filter(|&f| !stays(f)).collect(), ..Made::default() };
+    let made = NewElements {
+        faces: made_mesh.faces().filter(|&f| !stays(f)).collect(),
+        ..NewElements::default()
+    };
     let components = made_mesh.components().len();
     let euler = made_mesh.vertex_count() as i64 - made_mesh.edge_count() as i64
         + (made_mesh.face_count() + made_mesh.hole_count()) as i64;

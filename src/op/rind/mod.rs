@@ -41,7 +41,7 @@ use crate::check::short;
 use crate::code::Coded;
 use crate::geom::RoundingBound;
 use crate::mesh::{FaceId, FaceMap, Mesh};
-use crate::select::{Made, Selection};
+use crate::select::{NewElements, Selection};
 use crate::units::Length;
 
 /// How to make a rind. One definition for the library, the command line and the recipe.
@@ -183,7 +183,7 @@ pub fn rind(
     mesh: &Mesh,
     params: &RindParams,
     context: &OpContext<'_>,
-) -> Result<(Mesh, Made, RindReport), OpError> {
+) -> Result<(Mesh, NewElements, RindReport), OpError> {
     let thickness = thicknesses(mesh, params)?;
     let openings = openings(mesh, params, context)?;
     if mesh.faces().all(|f| openings[f] != Opening::None) {

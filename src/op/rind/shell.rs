@@ -8,7 +8,7 @@ use crate::mesh::{
     EdgeId, EdgeMap, FaceId, FaceMap, HalfEdgeId, HalfEdgeMap, Mesh, VertexId, VertexMap,
     WalkBuilder,
 };
-use crate::select::Made;
+use crate::select::NewElements;
 
 /// What stays of a mesh when it becomes a shell.
 pub(super) struct Shell<'a> {
@@ -48,7 +48,7 @@ impl<'a> Shell<'a> {
     }
 
     /// Builds the mesh; with `grows_outwards` the second skin is the outer one.
-    pub fn build(&self, skin: &Skin, grows_outwards: bool) -> (Mesh, Made) {
+    pub fn build(&self, skin: &Skin, grows_outwards: bool) -> (Mesh, NewElements) {
         let mesh = self.mesh;
         let mut walks = WalkBuilder::with_capacity(
             2 * mesh.vertex_count(),
@@ -64,7 +64,10 @@ impl<'a> Shell<'a> {
             let back = walks.face(around.iter().rev().map(|&h| skins.sides[second][h].twin()));
             copies.push((f, if grows_outwards { [back, out] } else { [out, back] }));
         }
-        let mut made = Made { faces: copies.iter().map(|c| c.1[1]).collect(), ..Made::default() };
+        let mut made = NewElements {
+            faces: copies.iter().map(|c| c.1[1]).collect(),
+            ..NewElements::default()
+        };
         made.vertices = skins.vertices.iter().map(|v| v.1[1]).collect();
         for f in mesh.faces_and_holes().filter(|&f| self.is_open(f)) {
             for h in mesh.face_half_edges(f).filter(|h| !self.removed[h.edge()]) {

@@ -2,7 +2,7 @@ use super::*;
 use crate::measure::{genus, planarity, volume};
 use crate::shape;
 
-fn run(mesh: &Mesh, params: &RindParams) -> (Mesh, Made, RindReport) {
+fn run(mesh: &Mesh, params: &RindParams) -> (Mesh, NewElements, RindReport) {
     let (made, new, report) = rind(mesh, params, &OpContext::default()).expect("a rind");
     assert!(made.faults().is_empty(), "{:?}", &made.faults()[..made.faults().len().min(4)]);
     assert_eq!((genus(&made), made.components().len()), (report.genus, report.components));

@@ -107,7 +107,7 @@ pub fn sierpinski(
 
 /// The kinds of the vertices of a mesh in words, and what to expect of each; known before the first
 /// round.
-pub fn sierpinski_forecast(mesh: &Mesh) -> Vec<String> {
+pub fn sierpinski_preview(mesh: &Mesh) -> Vec<String> {
     kinds_in_words(count_kinds(mesh))
 }
 

@@ -68,7 +68,7 @@ pub enum ProofError {
     },
     /// A rim that the mesh does not have.
     #[error("there is no rim from vertex {} to vertex {} on face {face}", edge[0], edge[1])]
-    Rim {
+    NetRim {
         /// Its ends.
         edge: [usize; 2],
         /// Its face.
@@ -167,7 +167,7 @@ codes!(finding ProofError {
     Counts = 401,
     FaceTimes = 402,
     Corners = 403,
-    Rim = 404,
+    NetRim = 404,
     Mirrored = 405,
     Outline = 406,
     Distorted = 407,

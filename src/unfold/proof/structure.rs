@@ -173,7 +173,7 @@ fn check_rims(
     place: f64,
 ) -> Result<(), ProofError> {
     for rim in &net.rims {
-        let missing = ProofError::Rim { edge: rim.edge, face: rim.face };
+        let missing = ProofError::NetRim { edge: rim.edge, face: rim.face };
         if !faces.contains_key(&rim.face) {
             return Err(missing);
         }

@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use super::*;
 use crate::net::PieceId;
 use crate::progress::Silent;
-use crate::unfold::{Seams, Source, UnfoldParams, unfold};
+use crate::unfold::{MeshSource, Seams, UnfoldParams, unfold};
 
 /// An open box without lid and front: rims, seams and folds.
 fn box_and_net() -> (Mesh, Net) {
@@ -13,8 +13,9 @@ fn box_and_net() -> (Mesh, Net) {
         |i: usize| DVec3::new((i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2) as f64 * 0.5) * 100.0;
     let faces = [vec![0, 2, 3, 1], vec![2, 6, 7, 3], vec![0, 4, 6, 2], vec![1, 3, 7, 5]];
     let mesh = Mesh::from_faces((0..8).map(corner), faces).expect("a box");
-    let net = unfold(&mesh, &Seams::Free, &UnfoldParams::default(), &Source::default(), &Silent)
-        .expect("a net");
+    let net =
+        unfold(&mesh, &Seams::Free, &UnfoldParams::default(), &MeshSource::default(), &Silent)
+            .expect("a net");
     assert_eq!((net.pieces.len(), net.folds.len(), net.seams.len()), (1, 3, 2));
     (mesh, net)
 }
@@ -74,7 +75,7 @@ fn structure() {
     ));
     assert!(matches!(
         fault_of(|net| net.rims[0].edge = [0, 7]),
-        ProofError::Rim { edge: [0, 7], .. }
+        ProofError::NetRim { edge: [0, 7], .. }
     ));
 }
 
@@ -140,7 +141,7 @@ fn one_face_on_top_of_another() {
     let faces =
         UnfoldParams { pieces: crate::unfold::PiecesMode::Faces, ..UnfoldParams::default() };
     let mut net =
-        unfold(&mesh, &Seams::Free, &faces, &Source::default(), &Silent).expect("three pieces");
+        unfold(&mesh, &Seams::Free, &faces, &MeshSource::default(), &Silent).expect("three pieces");
     let moved = net.pieces.remove(2);
     net.pieces[0].faces.extend(moved.faces);
     assert_eq!(

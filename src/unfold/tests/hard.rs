@@ -88,7 +88,7 @@ fn spiked_tetrahedron(foot: f64, height: f64) -> Mesh {
 fn spiked_polyhedra_end_with_what_was_tried() {
     let mesh = spiked_tetrahedron(0.5, 4.0);
     let params = UnfoldParams { pieces: PiecesMode::One, effort: 3, ..UnfoldParams::default() };
-    let error = unfold(&mesh, &Seams::Free, &params, &Source::default(), &Silent)
+    let error = unfold(&mesh, &Seams::Free, &params, &MeshSource::default(), &Silent)
         .expect_err("no net is known");
     let UnfoldError::MorePieces { asked: 1, found, starts, moves, joins, .. } = error else {
         panic!("{error}")
@@ -145,8 +145,8 @@ fn seams_by_angle_reach_every_cone_point() {
 fn polishing_shortens_seams_and_keeps_the_net_flat() {
     let mesh = polytope(150, 4);
     let dual = Dual::new(&mesh, &Seams::Free).expect("planar faces");
-    let mut random = Random::new(1);
-    let (start, _) = best_start(&dual, &mesh, &Seams::Free, (STARTS, 0), &mut random, &Silent);
+    let mut rng = Rng::new(1);
+    let (start, _) = best_start(&dual, &mesh, &Seams::Free, (STARTS, 0), &mut rng, &Silent);
     let mut layout = Repair::new(start, 1).run(1_000_000, &Silent);
     assert!(layout.overlaps.is_empty());
     let length = |layout: &Layout| -> f64 {

@@ -10,6 +10,7 @@ mod plane;
 pub mod polygon;
 pub mod predicate;
 mod rounding;
+#[cfg(feature = "sparse")]
 pub mod sparse;
 mod triangulate;
 mod triple;

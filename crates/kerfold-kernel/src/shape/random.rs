@@ -5,6 +5,7 @@ use glam::DVec3;
 use crate::geom::Plane;
 use crate::geom::hull::{Form, HalfSpace, Intersect, Polytope, intersect};
 use crate::mesh::{FaceId, Mesh, VertexId};
+use crate::random::Rng;
 
 /// The intersection of `n` half-spaces whose planes touch the unit sphere at uniformly random
 /// points.
@@ -18,7 +19,7 @@ use crate::mesh::{FaceId, Mesh, VertexId};
 /// When n is below 4.
 pub fn random_tangent_polytope(n: usize, seed: u64) -> Mesh {
     assert!(n >= 4, "a solid has at least 4 faces, not {n}");
-    let mut random = SplitMix(seed);
+    let mut random = Rng::new(seed);
     let options =
         Intersect { form: Form::Simple, interior: Some(DVec3::ZERO), ..Intersect::default() };
     // The planes enclose the sphere when the hull of the touching points holds the centre: nearly
@@ -61,37 +62,6 @@ fn tangent_mesh(points: &[DVec3], polytope: &Polytope) -> Option<Mesh> {
         );
     }
     Some(mesh)
-}
-
-/// The splitmix64 generator (Steele, Lea and Flood 2014).
-struct SplitMix(u64);
-
-impl SplitMix {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// Uniform in [−1, 1).
-    fn signed(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-
-    /// Uniform on the unit sphere (Marsaglia 1972): nothing but a square root, so all machines
-    /// agree.
-    fn on_sphere(&mut self) -> DVec3 {
-        loop {
-            let (u, v) = (self.signed(), self.signed());
-            let s = u * u + v * v;
-            if s < 1.0 {
-                let radius = 2.0 * (1.0 - s).sqrt();
-                return DVec3::new(u * radius, v * radius, 1.0 - 2.0 * s);
-            }
-        }
-    }
 }
 
 #[cfg(test)]
@@ -140,7 +110,7 @@ mod tests {
 
     #[test]
     fn the_points_are_uniform_on_the_sphere() {
-        let mut random = SplitMix(42);
+        let mut random = Rng::new(42);
         let points: Vec<DVec3> = (0..10_000).map(|_| random.on_sphere()).collect();
         assert!(points.iter().all(|p| (p.length() - 1.0).abs() < 1e-15));
         let mean = points.iter().sum::<DVec3>() / 10_000.0;

@@ -1,10 +1,13 @@
-//! Lengths and angles as people type them (`3mm`, `1/8in`, `30deg`) and as files show them.
+//! Lengths, angles, directions and points as people type them (`3mm`, `1/8in`, `30deg`, `-z`) and
+//! as files show them.
 
 mod nearest;
 #[cfg(feature = "serde")]
 mod serde;
+mod space;
 
 pub use nearest::nearest_word;
+pub use space::{Direction, Point};
 
 use std::fmt;
 use std::str::FromStr;

@@ -15,7 +15,7 @@ mod report;
 
 pub use artwork::{ArtPath, ArtText, Artwork, Operation, UnitState};
 pub use params::{LimitError, LintParams, SheetLimit};
-pub use report::{Check, Finding, LintReport};
+pub use report::{Check, LintFinding, LintReport};
 
 use contours::Contours;
 use pairs::Pairs;

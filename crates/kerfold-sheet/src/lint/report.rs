@@ -95,7 +95,7 @@ impl Check {
 
 /// One thing that a shop would send back.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Finding {
+pub struct LintFinding {
     /// What it is.
     pub check: Check,
     /// Where, in mm from the lower left corner, where it has a place.
@@ -114,7 +114,7 @@ pub struct Finding {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LintReport {
     /// In the order of the checks.
-    pub findings: Vec<Finding>,
+    pub findings: Vec<LintFinding>,
 }
 
 impl LintReport {
@@ -137,7 +137,7 @@ impl LintReport {
         numbers: Option<(f64, f64)>,
     ) {
         let (measured, limit) = numbers.unzip();
-        self.findings.push(Finding {
+        self.findings.push(LintFinding {
             check,
             at,
             element: element.to_owned(),

@@ -23,7 +23,7 @@ pub struct Net {
     /// Opened edges, ascending by edge.
     pub seams: Vec<Seam>,
     /// Edges with one face only, ascending by edge.
-    pub rims: Vec<Rim>,
+    pub rims: Vec<NetRim>,
     /// What re-measuring the net against the mesh found.
     pub proof: Proof,
 }
@@ -162,7 +162,7 @@ pub struct SeamSide {
 
 /// An edge that has a face on one side only.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Rim {
+pub struct NetRim {
     /// Its two vertices.
     pub edge: [usize; 2],
     /// The piece.

@@ -20,12 +20,12 @@ pub struct Assembly {
     /// The stretches by their number less one.
     pub stretches: Vec<Stretch>,
     /// What to do, in order.
-    pub steps: Vec<Step>,
+    pub steps: Vec<AssemblyStep>,
 }
 
 /// One stretch is closed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Step {
+pub struct AssemblyStep {
     /// The number of the stretch, as on the sheet.
     pub number: usize,
     /// The piece that this step attaches; nothing when both sides hang together already.
@@ -43,7 +43,7 @@ pub(crate) fn assembly(net: &Net, stretches: Vec<Stretch>) -> Assembly {
     steps.iter().for_each(|step| zip.close(step.number - 1));
     while let Some(next) = zip.best() {
         zip.close(next);
-        steps.push(Step { number: next + 1, attaches: None });
+        steps.push(AssemblyStep { number: next + 1, attaches: None });
     }
     Assembly { stretches, steps }
 }
@@ -140,7 +140,7 @@ impl PartialOrd for Reach {
 }
 
 /// One step for every piece but the first of each body.
-fn attach_all(net: &Net, stretches: &[Stretch]) -> Vec<Step> {
+fn attach_all(net: &Net, stretches: &[Stretch]) -> Vec<AssemblyStep> {
     let mut of_piece: BTreeMap<PieceId, Vec<usize>> = BTreeMap::new();
     for (i, piece) in stretches.iter().enumerate().flat_map(|(i, s)| s.pieces.map(|p| (i, p))) {
         of_piece.entry(piece).or_default().push(i);
@@ -164,7 +164,7 @@ fn attach_all(net: &Net, stretches: &[Stretch]) -> Vec<Step> {
             if let Some(new) = new {
                 placed.insert(new);
                 waiting.extend(reaches(new));
-                steps.push(Step { number, attaches: Some(new) });
+                steps.push(AssemblyStep { number, attaches: Some(new) });
             }
         }
     }
@@ -179,7 +179,7 @@ mod tests {
     #[test]
     fn the_other_piece_is_attached_once() {
         let assembly = assembly_of(&two_pieces());
-        assert_eq!(assembly.steps, [Step { number: 1, attaches: Some(PieceId(1)) }]);
+        assert_eq!(assembly.steps, [AssemblyStep { number: 1, attaches: Some(PieceId(1)) }]);
         let assembly = assembly_of(&twins(square(40.0), 60.0));
         assert_eq!(assembly.steps.iter().filter(|s| s.attaches.is_some()).count(), 1);
         assert_eq!(assembly.steps.len(), assembly.stretches.len());

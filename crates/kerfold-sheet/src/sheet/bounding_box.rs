@@ -15,7 +15,7 @@ const TIE: f64 = 1e-9;
 
 /// A bounding rectangle after a turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MinBox {
+pub struct OrientedBox {
     /// Degrees by which the points must be turned counter-clockwise so that the box is upright; in
     /// [0, 180).
     pub angle: f64,
@@ -27,12 +27,12 @@ pub struct MinBox {
 
 /// The bounding rectangle of least area, lying: `width` is at least `height`. All zero without
 /// points.
-pub fn smallest_box(points: &[DVec2]) -> MinBox {
+pub fn smallest_box(points: &[DVec2]) -> OrientedBox {
     let hull = convex_hull(points);
     let best = best_of(&hull, flush_angles(&hull).into_iter(), |_| true);
-    best.map_or(MinBox { angle: 0.0, width: 0.0, height: 0.0 }, |b| {
+    best.map_or(OrientedBox { angle: 0.0, width: 0.0, height: 0.0 }, |b| {
         if b.width < b.height {
-            MinBox { angle: b.angle + 90.0, width: b.height, height: b.width }
+            OrientedBox { angle: b.angle + 90.0, width: b.height, height: b.width }
         } else {
             b
         }
@@ -46,9 +46,9 @@ pub fn smallest_box(points: &[DVec2]) -> MinBox {
 /// axis, or at one where the box just touches the room; all of these are tried. `rounding` is how
 /// much larger a box may be that is called fitting; at least 1e-10 of the room, since turns have
 /// nine decimals.
-pub(crate) fn fitting_box(points: &[DVec2], room: DVec2, rounding: f64) -> Option<MinBox> {
+pub(crate) fn fitting_box(points: &[DVec2], room: DVec2, rounding: f64) -> Option<OrientedBox> {
     let hull = convex_hull(points);
-    let fits = |b: &MinBox| b.width <= room.x + rounding && b.height <= room.y + rounding;
+    let fits = |b: &OrientedBox| b.width <= room.x + rounding && b.height <= room.y + rounding;
     let flush = flush_angles(&hull);
     let upright = flush.iter().copied();
     let both = upright.clone().chain(upright.map(|a| a + 90.0));
@@ -57,19 +57,19 @@ pub(crate) fn fitting_box(points: &[DVec2], room: DVec2, rounding: f64) -> Optio
 }
 
 /// The box of the hull after a turn of `angle` degrees.
-pub(crate) fn box_at(hull: &[DVec2], angle: f64) -> MinBox {
+pub(crate) fn box_at(hull: &[DVec2], angle: f64) -> OrientedBox {
     let turn = Turn::degrees(angle);
     let turned: Vec<DVec2> = hull.iter().map(|&p| turn.apply(p - hull[0])).collect();
     let (low, high) = bounds(&turned).unwrap_or_default();
-    MinBox { angle, width: high.x - low.x, height: high.y - low.y }
+    OrientedBox { angle, width: high.x - low.x, height: high.y - low.y }
 }
 
 fn best_of(
     hull: &[DVec2],
     angles: impl Iterator<Item = f64>,
-    allowed: impl Fn(&MinBox) -> bool,
-) -> Option<MinBox> {
-    let area = |b: &MinBox| b.width * b.height;
+    allowed: impl Fn(&OrientedBox) -> bool,
+) -> Option<OrientedBox> {
+    let area = |b: &OrientedBox| b.width * b.height;
     let boxes = angles.map(|a| box_at(hull, a)).filter(allowed);
     boxes.reduce(|best, b| if area(&b) < area(&best) * (1.0 - TIE) { b } else { best })
 }
@@ -144,12 +144,12 @@ mod tests {
     fn an_upright_rectangle_stays_and_a_turned_one_comes_back() {
         assert_eq!(
             smallest_box(&rectangle(5.0, 2.0, 0.0)),
-            MinBox { angle: 0.0, width: 5.0, height: 2.0 }
+            OrientedBox { angle: 0.0, width: 5.0, height: 2.0 }
         );
         let found = smallest_box(&rectangle(5.0, 2.0, 30.0));
         assert!((found.width - 5.0).abs() < 1e-9 && (found.height - 2.0).abs() < 1e-9);
         assert!((found.angle - 150.0).abs() < 1e-7, "{}", found.angle);
-        assert_eq!(smallest_box(&[]), MinBox { angle: 0.0, width: 0.0, height: 0.0 });
+        assert_eq!(smallest_box(&[]), OrientedBox { angle: 0.0, width: 0.0, height: 0.0 });
         assert_eq!(smallest_box(&[DVec2::ONE]).width, 0.0);
     }
 

@@ -19,7 +19,7 @@ mod error;
 mod files;
 mod joint;
 mod kerf;
-mod kerf_test;
+mod kerf_coupon;
 mod layout;
 mod letter;
 mod material;
@@ -32,14 +32,14 @@ mod score;
 mod slit;
 mod verify;
 
-pub use assembly::{Assembly, Step, assembly_of};
-pub use bounding_box::{MinBox, smallest_box};
+pub use assembly::{Assembly, AssemblyStep, assembly_of};
+pub use bounding_box::{OrientedBox, smallest_box};
 pub use drawing::{Drawing, Layer, LayerKind, Mark, MarkKind, Stroke};
 pub use error::{SheetError, TooLarge};
 pub use files::{Colours, Formats, FormatsError, Paper, PartFiles, Pen, Rgb, SheetFormat, Style};
-pub use joint::{Fallback, FlapSide, Joint, JointReport, Substitute};
+pub use joint::{FlapSide, Joint, JointFallback, JointReport, Substitute};
 pub use kerf::CutShape;
-pub use kerf_test::kerf_coupon;
+pub use kerf_coupon::kerf_coupon;
 pub use layout::{
     Layout, Placed, Sheet, SheetId, SheetReport, SheetSet, fits, lay_out, lay_out_watched,
 };

@@ -6,7 +6,9 @@ use super::words::{DEFINITIONS, count, figure, optional, text};
 use super::{
     Bar, Block, Chart, Content, PanelCard, ReportPage, ReportRows, Section, Table, Word, Words,
 };
-use crate::check::{EdgeDetail, FaceReport, Finding, Report, Unit, Verdict, VertexDetail, short};
+use crate::check::{
+    CheckFinding, EdgeDetail, FaceReport, Report, Unit, Verdict, VertexDetail, short,
+};
 
 /// Rows of each table when only the worst are listed.
 const LISTED: usize = 24;
@@ -211,10 +213,11 @@ fn findings<'a>(page: &ReportPage<'a>) -> Option<Section<'a>> {
     if all.is_empty() {
         return Some(Section { title, blocks: vec![Block::Text(text("None."))] });
     }
-    let mut rows: Vec<&Finding> = all.iter().collect();
+    let mut rows: Vec<&CheckFinding> = all.iter().collect();
     if page.rows == ReportRows::Worst {
         // The sort is stable: what breaks nothing by measure stays in order.
-        let rank = |f: &Finding| if f.limit > 0.0 { f.measured / f.limit } else { f64::INFINITY };
+        let rank =
+            |f: &CheckFinding| if f.limit > 0.0 { f.measured / f.limit } else { f64::INFINITY };
         rows.sort_by(|a, b| a.check.cmp(&b.check).then(rank(b).total_cmp(&rank(a))));
         // The worst of every check: a long list of one must not hide the others.
         let groups = rows.chunk_by(|a, b| a.check == b.check);
@@ -222,7 +225,7 @@ fn findings<'a>(page: &ReportPage<'a>) -> Option<Section<'a>> {
     }
     let mut blocks =
         page.share_listed(rows.len(), all.len(), "by check, each with the worst first");
-    let row = |f: &&Finding| {
+    let row = |f: &&CheckFinding| {
         let unit = format!(" {}", if f.unit == Unit::Permille { "‰" } else { f.unit.name() });
         let measure = |x: f64| vec![Word::Figure(x), Word::Text(unit.clone())];
         vec![

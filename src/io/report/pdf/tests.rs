@@ -6,13 +6,13 @@ use crate::mesh::Mesh;
 use crate::picture::RenderParams;
 use crate::shape::{SolidParams, solid};
 
-struct Made {
+struct NewElements {
     report: Report,
     details: Details,
     pictures: ReportPictures,
 }
 
-impl Made {
+impl NewElements {
     fn of(mesh: &Mesh) -> Self {
         let params = CheckParams { require: vec![Requirement::Valence3], ..CheckParams::default() };
         let report = check(mesh, &params).expect("good limits");
@@ -73,7 +73,7 @@ fn shown_strings(pdf: &[u8]) -> Vec<String> {
 
 #[test]
 fn the_file_is_whole() {
-    let made = Made::of(&bent());
+    let made = NewElements::of(&bent());
     let pdf = check_pdf(&made.page(ReportRows::Worst));
     assert!(pdf.starts_with(b"%PDF-1.5\n") && pdf.ends_with(b"%%EOF\n"));
     // The table of places points at every object.
@@ -98,7 +98,7 @@ fn the_file_is_whole() {
 
 #[test]
 fn everything_that_the_content_says_is_on_the_pages() {
-    let made = Made::of(&bent());
+    let made = NewElements::of(&bent());
     for rows in [ReportRows::Worst, ReportRows::All] {
         let page = made.page(rows);
         let shown = shown_strings(&check_pdf(&page));
@@ -152,7 +152,7 @@ fn everything_that_the_content_says_is_on_the_pages() {
 fn long_tables_go_on_with_their_head_and_nothing_leaves_the_paper() {
     let name = "geodesic-4".parse().expect("a name");
     let mesh = solid(&SolidParams { name, edge: None, size: None }).expect("a solid");
-    let made = Made::of(&mesh);
+    let made = NewElements::of(&mesh);
     let pdf = check_pdf(&made.page(ReportRows::All));
     let shown = shown_strings(&pdf);
     let heads = shown.iter().filter(|s| s.as_str() == "Conical residual, mm/mm").count();

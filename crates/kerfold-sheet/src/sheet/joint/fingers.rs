@@ -14,7 +14,7 @@ use glam::DVec2;
 use super::super::letter::segments_meet;
 use super::boundary::{Boundaries, Contour};
 use super::params::Fingers;
-use super::{Fallback, JointReport};
+use super::{JointFallback, JointReport};
 use crate::geom::polygon::signed_area;
 use crate::net::{Net, Segment};
 
@@ -39,7 +39,7 @@ pub(super) struct Comb {
 
 impl Comb {
     /// The fingers of a seam, or why it can have none.
-    pub fn of(fold_angle: f64, length: f64, fingers: &Fingers) -> Result<Self, Fallback> {
+    pub fn of(fold_angle: f64, length: f64, fingers: &Fingers) -> Result<Self, JointFallback> {
         let thickness = fingers.thickness;
         let (short, deep) = depths(fold_angle, thickness)?;
         let zones = 2 * (length / (2.0 * fingers.width)).round().max(1.0) as usize;
@@ -50,7 +50,7 @@ impl Comb {
         } else {
             zones
         };
-        if zones == 0 { Err(Fallback::Short) } else { Ok(Self { zones, short, deep }) }
+        if zones == 0 { Err(JointFallback::Short) } else { Ok(Self { zones, short, deep }) }
     }
 
     fn level(&self, zone: usize) -> f64 {
@@ -60,16 +60,16 @@ impl Comb {
 
 /// How far before the edge a plate ends that goes through its partner, and one that ends at the
 /// partner's inner side.
-pub(super) fn depths(fold_angle: f64, thickness: f64) -> Result<(f64, f64), Fallback> {
+pub(super) fn depths(fold_angle: f64, thickness: f64) -> Result<(f64, f64), JointFallback> {
     let dihedral = 180.0 - fold_angle;
     if dihedral > 180.0 {
-        return Err(Fallback::Concave);
+        return Err(JointFallback::Concave);
     }
     if dihedral > FLATTEST {
-        return Err(Fallback::Shallow);
+        return Err(JointFallback::Shallow);
     }
     if dihedral.is_nan() || dihedral < SHARPEST {
-        return Err(Fallback::Sharp);
+        return Err(JointFallback::Sharp);
     }
     let (sin, cos) = dihedral.to_radians().sin_cos();
     let short = (thickness * cos / sin).max(0.0);
@@ -83,10 +83,10 @@ pub(super) fn add_fingers(
     fingers: &Fingers,
     report: &mut JointReport,
 ) -> Vec<usize> {
-    let mut combs: Vec<Result<Comb, Fallback>> = (0..net.seams.len())
+    let mut combs: Vec<Result<Comb, JointFallback>> = (0..net.seams.len())
         .map(|s| match boundaries.places[s] {
             [Some(_), Some(_)] => Comb::of(net.seams[s].fold_angle, net.seams[s].length, fingers),
-            _ => Err(Fallback::Narrow),
+            _ => Err(JointFallback::Narrow),
         })
         .collect();
     // Every round takes fingers away, so that it ends; without any the outlines are those of the
@@ -96,7 +96,7 @@ pub(super) fn add_fingers(
         let mut is_clean = true;
         for piece in 0..net.pieces.len() {
             for s in in_the_way(boundaries, piece, fingers.thickness / 2.0, |s| combs[s].is_ok()) {
-                combs[s] = Err(Fallback::Narrow);
+                combs[s] = Err(JointFallback::Narrow);
                 is_clean = false;
             }
         }
@@ -118,7 +118,7 @@ pub(super) fn add_fingers(
 }
 
 /// Cuts the fingers of all edges of a contour.
-fn shape(contour: &mut Contour, combs: &[Result<Comb, Fallback>]) {
+fn shape(contour: &mut Contour, combs: &[Result<Comb, JointFallback>]) {
     let n = contour.len();
     let comb = |i: usize| contour.sides[i].and_then(|(s, _)| combs[s].as_ref().ok().copied());
     let all: Vec<Option<Comb>> = (0..n).map(comb).collect();
@@ -230,10 +230,10 @@ mod tests {
     #[test]
     fn what_fingers_cannot_hold_is_told() {
         let why = |fold: f64, length: f64| Comb::of(fold, length, &PLY).expect_err("no fingers");
-        assert_eq!(why(20.0, 60.0), Fallback::Shallow);
-        assert_eq!(why(-20.0, 60.0), Fallback::Concave);
-        assert_eq!(why(155.0, 60.0), Fallback::Sharp);
-        assert_eq!(why(90.0, 5.0), Fallback::Short);
+        assert_eq!(why(20.0, 60.0), JointFallback::Shallow);
+        assert_eq!(why(-20.0, 60.0), JointFallback::Concave);
+        assert_eq!(why(155.0, 60.0), JointFallback::Sharp);
+        assert_eq!(why(90.0, 5.0), JointFallback::Short);
     }
 
     proptest! {

@@ -39,7 +39,7 @@ const TRIALS: [(usize, f64); 8] =
 
 /// A flap that was made.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Made {
+pub(super) struct NewElements {
     pub seam: usize,
     pub side: usize,
     /// The seam's edge on the piece, the piece on its left.
@@ -48,7 +48,7 @@ pub(super) struct Made {
     pub top: Segment,
 }
 
-impl Made {
+impl NewElements {
     pub fn fold(&self, net: &Net) -> FlapFold {
         let seam = &net.seams[self.seam];
         FlapFold { piece: seam.sides[self.side].piece, id: seam.id, segment: self.base }
@@ -62,7 +62,7 @@ pub(super) fn add_flaps(
     flap: &Flap,
     kerf: f64,
     report: &mut JointReport,
-) -> Vec<Made> {
+) -> Vec<NewElements> {
     let mut made = Vec::new();
     for s in 0..net.seams.len() {
         let first = first_side(net, boundaries, s, flap.side);
@@ -74,7 +74,7 @@ pub(super) fn add_flaps(
                 place,
                 other,
                 share,
-                Made { seam: s, side, base, top },
+                NewElements { seam: s, side, base, top },
             ))
         });
         let Some((place, other, share, flap)) = found else {

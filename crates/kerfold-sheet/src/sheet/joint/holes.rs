@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::super::letter::Stretch;
 use super::super::verify::{distance_to_contour, distance_to_segment};
 use super::boundary::{Boundaries, Place};
-use super::flaps::Made;
+use super::flaps::NewElements;
 use super::params::Holes;
 use super::slots::Slot;
 use super::{Hole, JointReport};
@@ -121,7 +121,7 @@ fn hole_pair(
 pub(super) fn rivet(
     net: &Net,
     boundaries: &Boundaries,
-    flaps: &[Made],
+    flaps: &[NewElements],
     holes: &Holes,
     report: &mut JointReport,
 ) -> Vec<Hole> {

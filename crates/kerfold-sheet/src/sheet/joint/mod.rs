@@ -41,7 +41,7 @@ pub struct JointReport {
     /// Seams with tabs and slots.
     pub tabbed: usize,
     /// Seams that fingers or tabs cannot hold, with the reason; they have the substitute.
-    pub fallbacks: Vec<(EdgeLabel, Fallback)>,
+    pub fallbacks: Vec<(EdgeLabel, JointFallback)>,
     /// Of these the ones to be mitred, with what to take off the square edge of either side, in
     /// degrees; negative where the edge is concave.
     pub mitred: Vec<(EdgeLabel, f64)>,
@@ -53,7 +53,7 @@ pub struct JointReport {
 
 /// Why a seam has no fingers or tabs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Fallback {
+pub enum JointFallback {
     /// The plates lie too flat: the dihedral angle is more than 140°.
     Shallow,
     /// The plates meet at less than 30°.
@@ -297,7 +297,7 @@ mod tests {
             let net = twins(random_convex(3).into_iter().map(|p| 3.0 * p).collect(), 30.0);
             let stitched = join(&net, &with(joint)).expect("good numbers").expect("a joint").report;
             assert!(
-                stitched.fallbacks.iter().all(|f| f.1 == Fallback::Shallow)
+                stitched.fallbacks.iter().all(|f| f.1 == JointFallback::Shallow)
                     && stitched.hole_pairs > 0
             );
             assert_eq!(stitched.fallbacks.len(), net.seams.len());

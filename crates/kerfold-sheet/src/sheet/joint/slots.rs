@@ -19,7 +19,7 @@ use super::super::verify::edges;
 use super::boundary::{Boundaries, Contour, Place, segment_distance};
 use super::fingers::{corner, depths, in_the_way};
 use super::params::{FlapSide, Tabs};
-use super::{Fallback, JointReport};
+use super::{JointFallback, JointReport};
 use crate::geom::polygon::{Location, locate};
 use crate::net::{Net, Segment};
 
@@ -56,7 +56,7 @@ impl Row {
         length: f64,
         tabs: &Tabs,
         (side, ends): (usize, f64),
-    ) -> Result<Self, Fallback> {
+    ) -> Result<Self, JointFallback> {
         let (short, deep) = depths(fold_angle, tabs.thickness)?;
         let dihedral = (180.0 - fold_angle).to_radians();
         let web = tabs.thickness;
@@ -64,7 +64,7 @@ impl Row {
         let free = length - 2.0 * ends * (deep + web);
         let width = tabs.width.min(free);
         if width < tabs.thickness || width.is_nan() {
-            return Err(Fallback::Short);
+            return Err(JointFallback::Short);
         }
         let count = ((free - width) / (2.0 * width)).floor().max(0.0) as usize + 1;
         let first = (length - width * (2 * count - 1) as f64) / 2.0;
@@ -126,8 +126,8 @@ pub(super) fn add_tabs(
     report: &mut JointReport,
 ) -> (Vec<Slot>, Vec<usize>) {
     let mut trials = vec![0; net.seams.len()];
-    let mut rows: Vec<Result<Row, Fallback>> = (0..net.seams.len())
-        .map(|s| next_row(net, boundaries, tabs, s, &mut trials[s], Fallback::Narrow))
+    let mut rows: Vec<Result<Row, JointFallback>> = (0..net.seams.len())
+        .map(|s| next_row(net, boundaries, tabs, s, &mut trials[s], JointFallback::Narrow))
         .collect();
     // Every round takes a trial from a seam, so that it ends; without any the outlines are those of
     // the net.
@@ -142,7 +142,7 @@ pub(super) fn add_tabs(
         blocked.sort_unstable();
         blocked.dedup();
         for &s in &blocked {
-            rows[s] = next_row(net, boundaries, tabs, s, &mut trials[s], Fallback::Narrow);
+            rows[s] = next_row(net, boundaries, tabs, s, &mut trials[s], JointFallback::Narrow);
         }
         if blocked.is_empty() {
             break;
@@ -176,8 +176,8 @@ fn next_row(
     tabs: &Tabs,
     s: usize,
     trial: &mut usize,
-    why: Fallback,
-) -> Result<Row, Fallback> {
+    why: JointFallback,
+) -> Result<Row, JointFallback> {
     let seam = &net.seams[s];
     if boundaries.places[s].iter().any(Option::is_none) {
         return Err(why);
@@ -207,7 +207,7 @@ fn edge(boundaries: &Boundaries, place: Place) -> Segment {
 }
 
 /// Cuts tabs and lips of all edges of a contour.
-fn shape(contour: &mut Contour, rows: &[Result<Row, Fallback>]) {
+fn shape(contour: &mut Contour, rows: &[Result<Row, JointFallback>]) {
     let n = contour.len();
     let row = |i: usize| contour.sides[i].and_then(|(s, k)| Some((rows[s].as_ref().ok()?, k)));
     let level =
@@ -234,7 +234,7 @@ fn slots_in_the_way(
     net: &Net,
     boundaries: &Boundaries,
     piece: usize,
-    rows: &[Result<Row, Fallback>],
+    rows: &[Result<Row, JointFallback>],
 ) -> Vec<usize> {
     let paths: Vec<Vec<DVec2>> = boundaries.of_piece(piece).map(Contour::path).collect();
     let id = net.pieces[piece].id;
@@ -312,8 +312,8 @@ mod tests {
         assert_eq!((row.starts.len(), row.width), (3, 9.0));
         // Evenly between the ends.
         assert!((row.starts[0] + row.starts[2] + 9.0 - 60.0).abs() < 1e-12);
-        assert_eq!(Row::of(90.0, 14.0, &PLY, (0, 1.0)), Err(Fallback::Short));
-        assert_eq!(Row::of(20.0, 60.0, &PLY, (0, 1.0)), Err(Fallback::Shallow));
+        assert_eq!(Row::of(90.0, 14.0, &PLY, (0, 1.0)), Err(JointFallback::Short));
+        assert_eq!(Row::of(20.0, 60.0, &PLY, (0, 1.0)), Err(JointFallback::Shallow));
     }
 
     proptest! {

@@ -9,13 +9,13 @@ use glam::DVec2;
 
 use super::super::bounding_box::rounded;
 use super::super::layout::Turn;
-use super::chance::Chance;
-use super::field::{Field, Spot};
+use super::collision_field::{CollisionField, Spot};
 use super::search::Turns;
 use super::shape::Posed;
 use super::start::{Bins, Start};
 use super::{Axis, Effort, NoPlace, Problem};
 use crate::progress::Progress;
+use crate::random::Rng;
 
 /// How many free places are compared, and how many are looked at for them.
 const KEPT: usize = 8;
@@ -40,15 +40,15 @@ pub(super) fn lay_abutting(
     progress: &dyn Progress,
 ) -> Result<Vec<Spot>, NoPlace> {
     let mut best: Option<Abutting> = None;
-    let mut chance = Chance::new(effort.seed);
+    let mut rng = Rng::new(effort.seed);
     let mut work = 0;
     loop {
-        let mut field = Field::new(shapes, problem.spacing);
+        let mut field = CollisionField::new(shapes, problem.spacing);
         let mut bins = Bins::new(problem);
         let shake = if best.is_some() { SHAKE } else { 0.0 };
         let mut start = Start {
             field: &mut field,
-            chance: &mut chance,
+            rng: &mut rng,
             bins: &mut bins,
             trials: 60,
             shake,
@@ -76,7 +76,7 @@ pub(super) fn lay_abutting(
     }
 }
 
-fn laid(field: &Field<'_>, bins: &Bins<'_>) -> Abutting {
+fn laid(field: &CollisionField<'_>, bins: &Bins<'_>) -> Abutting {
     let spots = field.spots[..field.pieces].to_vec();
     let count = spots.iter().map(|s| s.bin + 1).max().unwrap_or(0);
     let mut used: f64 = 0.0;
@@ -95,7 +95,7 @@ struct Against {
 
 /// The best place of a piece against those in a bin, if there is one.
 pub(super) fn abutting(
-    field: &mut Field<'_>,
+    field: &mut CollisionField<'_>,
     turns: &Turns,
     axis: Axis,
     (i, bin): (usize, usize),
@@ -129,7 +129,7 @@ pub(super) fn abutting(
 /// All places in the room of the bin at which a side of the piece lies against a side of another,
 /// corner to corner.
 fn against(
-    field: &mut Field<'_>,
+    field: &mut CollisionField<'_>,
     turns: &Turns,
     axis: Axis,
     (i, bin): (usize, usize),
@@ -170,7 +170,7 @@ fn allowed(turns: &Turns, angle: f64) -> Option<f64> {
     }
 }
 
-fn sides_at(field: &Field<'_>, i: usize, spot: Spot) -> Vec<[DVec2; 2]> {
+fn sides_at(field: &CollisionField<'_>, i: usize, spot: Spot) -> Vec<[DVec2; 2]> {
     let turn = Turn::degrees(spot.angle);
     field.shapes[i].sides.iter().map(|side| side.map(|p| turn.apply(p) + spot.at)).collect()
 }

@@ -5,12 +5,12 @@ use glam::DVec2;
 
 use super::super::layout::Turn;
 use super::Lying;
-use super::chance::Chance;
-use super::field::{Field, Room, Spot};
+use super::collision_field::{CollisionField, Room, Spot};
 use super::search::{Search, Trials, Turns};
 use super::separate::{End, Patience, Rules, restore, separate};
 use super::start::Bins;
 use crate::progress::Progress;
+use crate::random::Rng;
 
 /// A layout without collisions.
 #[derive(Debug, Clone)]
@@ -32,8 +32,8 @@ const MANY: usize = 400;
 const MOST_FAILS: usize = 40;
 
 pub(super) struct Explore<'e, 'f, 'a, 'p> {
-    pub field: &'f mut Field<'a>,
-    pub chance: &'f mut Chance,
+    pub field: &'f mut CollisionField<'a>,
+    pub rng: &'f mut Rng,
     pub bins: &'e mut Bins<'p>,
     pub turns: &'e [Turns],
     pub groups: &'e [Option<usize>],
@@ -161,7 +161,7 @@ impl Explore<'_, '_, '_, '_> {
             let straight = Turns::Some(vec![home + 90.0 * quarters]);
             let trials = Trials { anywhere: 0, near: 8 };
             let is_straight = spot.angle == home + 90.0 * quarters;
-            let mut search = Search::new(self.field, self.chance, &straight, &only, i);
+            let mut search = Search::new(self.field, self.rng, &straight, &only, i);
             let here = Spot { angle: home + 90.0 * quarters, ..spot };
             let found =
                 if is_straight { None } else { search.best(trials, Some(here), f64::INFINITY) };
@@ -173,7 +173,7 @@ impl Explore<'_, '_, '_, '_> {
         let axis = self.bins.get(spot.bin).axis();
         let mut step = self.field.shapes[i].diameter;
         let least = 1e-4 * step;
-        let mut search = Search::new(self.field, self.chance, &self.turns[i], &only, i);
+        let mut search = Search::new(self.field, self.rng, &self.turns[i], &only, i);
         while step > least {
             let moved = [axis.unit(), axis.other().unit()].into_iter().find_map(|way| {
                 let to = search.inside(Spot { at: spot.at - way * step, ..spot })?;
@@ -243,7 +243,7 @@ impl Explore<'_, '_, '_, '_> {
             match self.groups[i] {
                 None => self.relocate(i, last),
                 Some(group) => {
-                    let to = *group_bin.entry(group).or_insert_with(|| self.chance.below(last));
+                    let to = *group_bin.entry(group).or_insert_with(|| self.rng.below(last));
                     if self.bins.of[i].binary_search(&to).is_err() {
                         return None;
                     }
@@ -277,7 +277,7 @@ impl Explore<'_, '_, '_, '_> {
 
     /// Puts a piece where it is least in the way.
     fn relocate_to(&mut self, i: usize, bins: &[usize]) {
-        let mut search = Search::new(self.field, self.chance, &self.turns[i], bins, i);
+        let mut search = Search::new(self.field, self.rng, &self.turns[i], bins, i);
         let trials = Trials { anywhere: 30, near: 0 };
         let found = search.best(trials, None, f64::INFINITY);
         if let Some(found) = found {
@@ -309,7 +309,7 @@ impl Explore<'_, '_, '_, '_> {
             self.field.shapes[b].area.total_cmp(&self.field.shapes[a].area).then(a.cmp(&b))
         });
         let large = (order.len() / 2).max(2);
-        let (i, j) = (order[self.chance.below(large)], order[self.chance.below(large)]);
+        let (i, j) = (order[self.rng.below(large)], order[self.rng.below(large)]);
         let (a, b) = (self.field.spots[i], self.field.spots[j]);
         for (k, to) in [(i, b), (j, a)] {
             if to.bin >= open || self.bins.of[k].binary_search(&to.bin).is_err() {
@@ -337,6 +337,6 @@ impl Explore<'_, '_, '_, '_> {
         let many = self.field.pieces > MANY;
         let patience = Patience { rounds: if many { 20 } else { 80 }, strikes: 2, work: self.work };
         let progress = self.progress;
-        separate(self.field, &rules, self.chance, patience, &|| progress.is_cancelled())
+        separate(self.field, &rules, self.rng, patience, &|| progress.is_cancelled())
     }
 }

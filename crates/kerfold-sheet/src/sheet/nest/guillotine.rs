@@ -7,10 +7,10 @@
 use glam::DVec2;
 
 use super::super::params::Stock;
-use super::chance::Chance;
 use super::stock::StockSheet;
 use super::{Axis, Effort, NoPlace};
 use crate::progress::Progress;
+use crate::random::Rng;
 
 /// A piece as the boxes around it: for every angle, its size with the spacing on its upper and
 /// right side.
@@ -62,7 +62,7 @@ pub(super) fn guillotine(
     effort: Effort,
     progress: &dyn Progress,
 ) -> Result<Packed, NoPlace> {
-    let mut chance = Chance::new(effort.seed);
+    let mut rng = Rng::new(effort.seed);
     let key = |b: &Boxed, by: usize| {
         let size = b.ways.first().map_or(DVec2::ZERO, |w| w.1);
         [size.x * size.y, size.max_element(), size.x + size.y][by]
@@ -80,7 +80,7 @@ pub(super) fn guillotine(
         let mut order: Vec<usize> = (0..boxes.len()).collect();
         let keys: Vec<f64> = boxes
             .iter()
-            .map(|b| key(b, by) * if round < 9 { 1.0 } else { chance.between(0.7, 1.3) })
+            .map(|b| key(b, by) * if round < 9 { 1.0 } else { rng.between(0.7, 1.3) })
             .collect();
         order.sort_by(|&a, &b| keys[b].total_cmp(&keys[a]).then(a.cmp(&b)));
         let packed = pack(boxes, &order, sheets, SPLITS[(round / 3 % 3) as usize])?;

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::super::bounding_box::{MinBox, box_at, fitting_box, rounded};
+use super::super::bounding_box::{OrientedBox, box_at, fitting_box, rounded};
 use super::super::kerf::CutShape;
 use super::super::layout::Turn;
 use super::super::params::SheetParams;
@@ -37,7 +37,7 @@ pub(crate) struct Candidate<'a> {
     pub rotation: Rotation,
     hull: Vec<DVec2>,
     /// On every sheet of the stock, the turn at which it fits best.
-    pub poses: Vec<Option<MinBox>>,
+    pub poses: Vec<Option<OrientedBox>>,
 }
 
 /// Finds out on which sheets pieces fit.
@@ -51,7 +51,7 @@ pub(crate) fn candidates<'a>(
     let mut all = Vec::with_capacity(shapes.len());
     for shape in shapes {
         let (rotation, hull) = (rotation(shape.piece), convex_hull(&shape.outline));
-        let mut poses: Vec<Option<MinBox>> = Vec::with_capacity(sheets.len());
+        let mut poses: Vec<Option<OrientedBox>> = Vec::with_capacity(sheets.len());
         for (i, sheet) in sheets.iter().enumerate() {
             // Sheets of one kind stand together.
             let same = i > 0
@@ -65,10 +65,10 @@ pub(crate) fn candidates<'a>(
     all
 }
 
-fn pose(hull: &[DVec2], rotation: Rotation, sheet: &StockSheet) -> Option<MinBox> {
+fn pose(hull: &[DVec2], rotation: Rotation, sheet: &StockSheet) -> Option<OrientedBox> {
     let bin = sheet.bin();
     let (room, rounding) = (bin.high - bin.low, sheet.stock.rounding());
-    let fits = |b: &MinBox| b.width <= room.x + rounding && b.height <= room.y + rounding;
+    let fits = |b: &OrientedBox| b.width <= room.x + rounding && b.height <= room.y + rounding;
     match rotation.angles() {
         None => fitting_box(hull, room, rounding),
         Some(angles) => angles.into_iter().map(|a| box_at(hull, a)).find(fits),
@@ -126,11 +126,11 @@ fn boxes(
     pack: impl Fn(&[Item], DVec2) -> Vec<super::super::place::Spot>,
 ) -> Vec<Lying> {
     let stock = &sheet.stock;
-    let poses: Vec<MinBox> = candidates.iter().filter_map(|c| c.poses[0]).collect();
+    let poses: Vec<OrientedBox> = candidates.iter().filter_map(|c| c.poses[0]).collect();
     // A box with the spacing on two sides, in a room with the spacing on two sides: neighbours keep
     // their distance.
     let room = stock.usable() + DVec2::splat(stock.spacing);
-    let item = |(c, p): (&Candidate<'_>, &MinBox)| {
+    let item = |(c, p): (&Candidate<'_>, &OrientedBox)| {
         let grown = DVec2::new(p.width, p.height) + DVec2::splat(stock.spacing);
         // A box that touches the room may be larger by rounding.
         let fit = |size: DVec2| {
@@ -140,7 +140,7 @@ fn boxes(
         Item { upright: fit(grown), turned: fit(DVec2::new(grown.y, grown.x)).filter(|_| may_turn) }
     };
     let spots = pack(&candidates.iter().zip(&poses).map(item).collect::<Vec<_>>(), room);
-    let lying = |((c, pose), spot): ((&Candidate<'_>, &MinBox), super::super::place::Spot)| {
+    let lying = |((c, pose), spot): ((&Candidate<'_>, &OrientedBox), super::super::place::Spot)| {
         let angle = rounded(pose.angle + if spot.turned { 90.0 } else { 0.0 });
         Lying {
             bin: spot.bin,

@@ -7,9 +7,8 @@
 //! work counted in parts measured, not time.
 
 mod abut;
-mod chance;
+mod collision_field;
 mod explore;
-mod field;
 mod guillotine;
 mod lay;
 mod params;
@@ -30,15 +29,15 @@ pub use self::params::{
 };
 pub(crate) use self::stock::StockSheet;
 
-use self::chance::Chance;
+use self::collision_field::{CollisionField, Obstacle};
 use self::explore::Explore;
-use self::field::{Field, Obstacle};
 use self::search::Turns;
 use self::shape::Shape;
 use self::start::{Bins, Start};
 use super::bounding_box::rounded;
 use super::layout::Turn;
 use crate::progress::Progress;
+use crate::random::Rng;
 
 /// Along which side a sheet is used up: the longer one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -144,15 +143,15 @@ pub(crate) fn nest(
     if problem.common_line == CommonLine::On {
         return Ok(lying(&abut::lay_abutting((problem, &shapes), effort, progress)?, &shapes));
     }
-    let mut field = Field::new(&shapes, problem.spacing);
-    let mut chance = Chance::new(effort.seed);
+    let mut field = CollisionField::new(&shapes, problem.spacing);
+    let mut rng = Rng::new(effort.seed);
     let mut bins = Bins::new(problem);
     let trials = if problem.pieces.len() > FEW_TRIALS { 60 } else { 200 };
-    Start { field: &mut field, chance: &mut chance, bins: &mut bins, trials, shake: 0.0, progress }
+    Start { field: &mut field, rng: &mut rng, bins: &mut bins, trials, shake: 0.0, progress }
         .lay_all()?;
     let mut explore = Explore {
         field: &mut field,
-        chance: &mut chance,
+        rng: &mut rng,
         bins: &mut bins,
         turns: &turns,
         groups: &groups,
@@ -172,7 +171,7 @@ pub(crate) fn nest(
 }
 
 /// Where the frames of the pieces lie.
-fn lying(spots: &[field::Spot], shapes: &[Shape]) -> Vec<Lying> {
+fn lying(spots: &[collision_field::Spot], shapes: &[Shape]) -> Vec<Lying> {
     let lying = spots.iter().zip(shapes).map(|(spot, shape)| {
         // The angle as the file shows it: far from the origin of its frame a piece would feel the
         // difference.

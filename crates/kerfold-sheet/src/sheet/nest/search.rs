@@ -3,9 +3,9 @@
 
 use glam::DVec2;
 
-use super::chance::Chance;
-use super::field::{Field, Spot};
+use super::collision_field::{CollisionField, Spot};
 use super::shape::Posed;
+use crate::random::Rng;
 
 /// At which angles a piece may lie.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,20 +17,20 @@ pub(super) enum Turns {
 }
 
 impl Turns {
-    fn any(&self, chance: &mut Chance) -> f64 {
+    fn any(&self, rng: &mut Rng) -> f64 {
         match self {
             // One in eight lies as it is known to fit.
-            Self::Free { home } if chance.below(8) == 0 => *home + 90.0 * chance.below(4) as f64,
-            Self::Free { .. } => 360.0 * chance.unit(),
-            Self::Some(angles) => angles[chance.below(angles.len())],
+            Self::Free { home } if rng.below(8) == 0 => *home + 90.0 * rng.below(4) as f64,
+            Self::Free { .. } => 360.0 * rng.unit(),
+            Self::Some(angles) => angles[rng.below(angles.len())],
         }
     }
 
-    fn near(&self, angle: f64, chance: &mut Chance) -> f64 {
+    fn near(&self, angle: f64, rng: &mut Rng) -> f64 {
         match self {
-            Self::Free { .. } => angle + 15.0 * chance.near_zero(),
-            Self::Some(_) if chance.below(2) == 0 => angle,
-            Self::Some(_) => self.any(chance),
+            Self::Free { .. } => angle + 15.0 * rng.near_zero(),
+            Self::Some(_) if rng.below(2) == 0 => angle,
+            Self::Some(_) => self.any(rng),
         }
     }
 }
@@ -54,8 +54,8 @@ const KEPT: usize = 3;
 
 /// Looks for places of one piece in the bins that are open to it.
 pub(super) struct Search<'f, 'a> {
-    pub field: &'f mut Field<'a>,
-    pub chance: &'f mut Chance,
+    pub field: &'f mut CollisionField<'a>,
+    pub rng: &'f mut Rng,
     pub turns: &'f Turns,
     /// The bins in which it may lie.
     pub bins: &'f [usize],
@@ -67,13 +67,13 @@ pub(super) struct Search<'f, 'a> {
 
 impl<'f, 'a> Search<'f, 'a> {
     pub fn new(
-        field: &'f mut Field<'a>,
-        chance: &'f mut Chance,
+        field: &'f mut CollisionField<'a>,
+        rng: &'f mut Rng,
         turns: &'f Turns,
         bins: &'f [usize],
         piece: usize,
     ) -> Self {
-        Self { field, chance, turns, bins, piece, scratch: Posed::default(), is_posed: false }
+        Self { field, rng, turns, bins, piece, scratch: Posed::default(), is_posed: false }
     }
 
     fn pose(&mut self, angle: f64) {
@@ -111,9 +111,9 @@ impl<'f, 'a> Search<'f, 'a> {
 
     /// A place at random with the box of the piece inside a box, if it is not too large.
     pub fn within(&mut self, bin: usize, low: DVec2, high: DVec2) -> Spot {
-        let angle = self.turns.any(self.chance);
+        let angle = self.turns.any(self.rng);
         self.pose(angle);
-        let at = self.chance.point(low - self.scratch.low, high - self.scratch.high);
+        let at = self.rng.point(low - self.scratch.low, high - self.scratch.high);
         Spot { bin, at, angle }
     }
 
@@ -153,9 +153,8 @@ impl<'f, 'a> Search<'f, 'a> {
         if let Some(spot) = here {
             offer(&mut kept, Found { spot, loss: most });
             for _ in 0..trials.near {
-                let angle = self.turns.near(spot.angle, self.chance);
-                let by = DVec2::new(self.chance.near_zero(), self.chance.near_zero())
-                    * (0.25 * diameter);
+                let angle = self.turns.near(spot.angle, self.rng);
+                let by = DVec2::new(self.rng.near_zero(), self.rng.near_zero()) * (0.25 * diameter);
                 if let Some(found) =
                     self.try_at(Spot { at: spot.at + by, angle, ..spot }, worst(&kept))
                 {
@@ -190,11 +189,11 @@ impl<'f, 'a> Search<'f, 'a> {
 
     /// A place at random.
     pub fn anywhere(&mut self) -> Spot {
-        let bin = self.bins[self.chance.below(self.bins.len())];
-        let angle = self.turns.any(self.chance);
+        let bin = self.bins[self.rng.below(self.bins.len())];
+        let angle = self.turns.any(self.rng);
         self.pose(angle);
         let (low, high) = self.field.range(&self.scratch, bin);
-        Spot { bin, at: self.chance.point(low, high), angle }
+        Spot { bin, at: self.rng.point(low, high), angle }
     }
 
     /// Steps along a random line or about the middle, longer after a success and shorter after
@@ -208,7 +207,7 @@ impl<'f, 'a> Search<'f, 'a> {
         // A turn that moves the rim by about a step.
         let degrees = (2.0 / diameter).to_degrees();
         while step > last && found.loss > 0.0 {
-            let way = self.chance.below(if free { 6 } else { 4 });
+            let way = self.rng.below(if free { 6 } else { 4 });
             let (by, turn) = match way {
                 0 => (DVec2::X, 0.0),
                 1 => (DVec2::Y, 0.0),

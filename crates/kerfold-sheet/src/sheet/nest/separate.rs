@@ -6,9 +6,9 @@
 //! Odgaard 2007 and Umetani et al. 2009; the order of moves, the weights and the strikes as
 //! Gardeyn, Vanden Berghe and Wauters 2025 describe them.
 
-use super::chance::Chance;
-use super::field::{Field, Spot};
+use super::collision_field::{CollisionField, Spot};
 use super::search::{Search, Trials, Turns};
+use crate::random::Rng;
 
 /// When separating is given up.
 #[derive(Debug, Clone, Copy)]
@@ -55,9 +55,9 @@ impl<'r> Rules<'r> {
 
 /// Moves pieces until all keep their distance.
 pub(super) fn separate(
-    field: &mut Field<'_>,
+    field: &mut CollisionField<'_>,
     rules: &Rules<'_>,
-    chance: &mut Chance,
+    rng: &mut Rng,
     patience: Patience,
     stop: &dyn Fn() -> bool,
 ) -> End {
@@ -74,7 +74,7 @@ pub(super) fn separate(
                 restore(field, &best.1);
                 return End::OutOfWork;
             }
-            round(field, rules, chance, &collisions);
+            round(field, rules, rng, &collisions);
             collisions = field.collisions();
             field.reweigh(&collisions);
             let now = sum(&collisions);
@@ -97,7 +97,7 @@ fn sum(collisions: &[(u32, u32, f64)]) -> f64 {
 }
 
 /// Puts every piece back to where it was.
-pub(super) fn restore(field: &mut Field<'_>, spots: &[Spot]) {
+pub(super) fn restore(field: &mut CollisionField<'_>, spots: &[Spot]) {
     for (i, &spot) in spots.iter().enumerate().take(field.pieces) {
         if field.spots[i] != spot || !field.is_in(i) {
             field.put(i, spot);
@@ -107,9 +107,9 @@ pub(super) fn restore(field: &mut Field<'_>, spots: &[Spot]) {
 
 /// Moves every piece that is too near to another once, in random order.
 fn round(
-    field: &mut Field<'_>,
+    field: &mut CollisionField<'_>,
     rules: &Rules<'_>,
-    chance: &mut Chance,
+    rng: &mut Rng,
     collisions: &[(u32, u32, f64)],
 ) {
     let mut is_hit = vec![false; field.spots.len()];
@@ -117,7 +117,7 @@ fn round(
         .iter()
         .for_each(|&(a, b, _)| (is_hit[a as usize], is_hit[b as usize]) = (true, true));
     let mut order: Vec<usize> = (0..field.pieces).filter(|&i| is_hit[i]).collect();
-    chance.shuffle(&mut order);
+    rng.shuffle(&mut order);
     for i in order {
         let loss = field.loss_here(i);
         if loss == 0.0 {
@@ -127,7 +127,7 @@ fn round(
         // What belongs to a group stays on the sheet of the group.
         let only = [here.bin];
         let bins: &[usize] = if rules.groups[i].is_some() { &only } else { rules.open_to(i) };
-        let mut search = Search::new(field, chance, &rules.turns[i], bins, i);
+        let mut search = Search::new(field, rng, &rules.turns[i], bins, i);
         if let Some(found) = search.best(rules.trials, Some(here), loss) {
             field.put(i, found.spot);
         }

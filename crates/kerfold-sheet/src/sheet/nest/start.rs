@@ -2,11 +2,11 @@
 //! sheet as a few hundred trials find room for it. Pieces of a group go onto one sheet.
 
 use super::abut::abutting;
-use super::chance::Chance;
-use super::field::{Field, Obstacle, Room, Spot};
+use super::collision_field::{CollisionField, Obstacle, Room, Spot};
 use super::search::{Search, Trials, Turns};
 use super::{Bin, CommonLine, NoPlace, Problem};
 use crate::progress::Progress;
+use crate::random::Rng;
 
 /// The bins that have been opened, and which pieces fit in them.
 pub(super) struct Bins<'p> {
@@ -30,7 +30,7 @@ impl<'p> Bins<'p> {
     }
 
     /// Opens one more bin: the limited ones first, then the last as often as needed.
-    pub fn open_next(&mut self, field: &mut Field<'_>) {
+    pub fn open_next(&mut self, field: &mut CollisionField<'_>) {
         let stock = self.stock(self.open);
         let bin = self.get(self.open);
         let obstacles: Vec<Obstacle> = bin.obstacles.clone();
@@ -50,8 +50,8 @@ const MOST_TRIED: usize = 24;
 
 /// Lays out everything for the first time.
 pub(super) struct Start<'s, 'f, 'a, 'p> {
-    pub field: &'f mut Field<'a>,
-    pub chance: &'f mut Chance,
+    pub field: &'f mut CollisionField<'a>,
+    pub rng: &'f mut Rng,
     pub bins: &'s mut Bins<'p>,
     /// Trials for one piece on one sheet.
     pub trials: usize,
@@ -108,9 +108,9 @@ impl Start<'_, '_, '_, '_> {
     fn units(&mut self) -> Vec<Vec<usize>> {
         let mut order: Vec<usize> = (0..self.field.pieces).collect();
         let shapes = self.field.shapes;
-        let (shake, chance) = (self.shake, &mut *self.chance);
+        let (shake, rng) = (self.shake, &mut *self.rng);
         let mut area = |s: &super::shape::Shape| {
-            if shake > 0.0 { s.area * (1.0 + shake * chance.unit()) } else { s.area }
+            if shake > 0.0 { s.area * (1.0 + shake * rng.unit()) } else { s.area }
         };
         let areas: Vec<f64> = shapes.iter().map(&mut area).collect();
         order.sort_by(|&a, &b| areas[b].total_cmp(&areas[a]).then(a.cmp(&b)));
@@ -155,7 +155,7 @@ impl Start<'_, '_, '_, '_> {
         }
         let only = [bin];
         let trials = self.trials;
-        let mut search = Search::new(self.field, self.chance, turns, &only, i);
+        let mut search = Search::new(self.field, self.rng, turns, &only, i);
         let home = match turns {
             Turns::Free { home } => *home,
             Turns::Some(angles) => angles[0],

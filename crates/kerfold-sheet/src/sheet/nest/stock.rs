@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::super::error::SheetError;
 use super::super::params::{SheetParams, Stock};
-use super::field::Obstacle;
+use super::collision_field::Obstacle;
 use super::parts::convex_parts;
 use super::shape::Shape;
 use super::{Bin, CommonLine, Guillotine};

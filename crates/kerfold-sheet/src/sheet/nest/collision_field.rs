@@ -17,7 +17,7 @@ pub(super) struct Room {
 
 /// What a shortage counts: a little more than in proportion, so that one large one is worse than
 /// several small ones.
-fn grown(shortage: f64) -> f64 {
+fn penalty(shortage: f64) -> f64 {
     shortage * shortage.sqrt().sqrt()
 }
 
@@ -71,7 +71,7 @@ type Weights = Vec<(u32, f64)>;
 
 /// Bins, pieces and obstacles.
 #[derive(Debug)]
-pub(super) struct Field<'a> {
+pub(super) struct CollisionField<'a> {
     pub shapes: &'a [Shape],
     /// Where every piece lies; obstacles come after the pieces.
     pub spots: Vec<Spot>,
@@ -101,7 +101,7 @@ pub(super) struct Obstacle {
     pub clearance: f64,
 }
 
-impl<'a> Field<'a> {
+impl<'a> CollisionField<'a> {
     /// Pieces without bins.
     pub fn new(shapes: &'a [Shape], spacing: f64) -> Self {
         let mut extents: Vec<f64> = shapes.iter().flat_map(Shape::extents).collect();
@@ -273,7 +273,7 @@ impl<'a> Field<'a> {
         let work = self.shortages(i, posed, bin, at, |other, shortage| {
             let weight =
                 weights.iter().find(|(w, _)| *w == other as u32).map_or(1.0, |(_, weight)| *weight);
-            sum += weight * grown(shortage);
+            sum += weight * penalty(shortage);
             sum < most
         });
         self.work += work;

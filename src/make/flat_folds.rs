@@ -1,33 +1,33 @@
-//! The folds of a D-form that nobody named: the dull edges of a closed 3-valent mesh.
+//! The folds of a D-form that nobody named: the flat edges of a closed 3-valent mesh.
 //!
 //! Everywhere an edge's angle alone decides. With the length as a factor, short sharp edges would
-//! be lighter than the long dull folds of a strip: on a carved D-form 60° × 1 mm is less than 4° ×
+//! be lighter than the long flat folds of a strip: on a carved D-form 60° × 1 mm is less than 4° ×
 //! 85 mm, though a maker folds the latter.
 
 use crate::measure::{edge_length, fold_angle};
 use crate::mesh::{EdgeId, EdgeMap, Mesh};
 use crate::progress::Progress;
-use crate::seam::{dullest_matching, piece_count};
+use crate::seam::{flattest_matching, piece_count};
 
 /// A D-form folds far less than it is seamed: the mean seam must turn at least this many times as
 /// much as the mean fold.
 const CONTRAST: f64 = 4.0;
-/// The share of vertices that must have exactly one dull edge. Where cuts overlap it is not all of
+/// The share of vertices that must have exactly one flat edge. Where cuts overlap it is not all of
 /// them.
 const ONE_DULL_EDGE: f64 = 0.8;
 
 /// The folds of a D-form, or `None` when the mesh is none. Of two ways the one with fewer pieces:
-/// the dullest perfect matching, and all edges below the angle that gives the most vertices exactly
-/// one dull edge.
+/// the flattest perfect matching, and all edges below the angle that gives the most vertices exactly
+/// one flat edge.
 pub(super) fn folds(mesh: &Mesh, progress: &dyn Progress) -> Option<Vec<EdgeId>> {
     if !mesh.is_closed() || mesh.vertices().any(|v| mesh.valence(v) != 3) {
         return None;
     }
     let angle = |e: EdgeId| fold_angle(mesh, e).unwrap_or(0.0).abs();
-    let matching = dullest_matching(mesh, progress).ok();
+    let matching = flattest_matching(mesh, progress).ok();
     let found = matching
         .into_iter()
-        .chain(dull_edges(mesh, angle))
+        .chain(flat_edges(mesh, angle))
         .filter(|folds| contrast(mesh, folds) > CONTRAST);
     found.min_by_key(|folds| piece_count(mesh, folds))
 }
@@ -48,15 +48,15 @@ fn contrast(mesh: &Mesh, folds: &[EdgeId]) -> f64 {
 }
 
 /// The edges below the best angle.
-fn dull_edges(mesh: &Mesh, angle: impl Fn(EdgeId) -> f64) -> Option<Vec<EdgeId>> {
+fn flat_edges(mesh: &Mesh, angle: impl Fn(EdgeId) -> f64) -> Option<Vec<EdgeId>> {
     let mut edges: Vec<EdgeId> = mesh.edges().collect();
     edges.sort_by(|&a, &b| angle(a).total_cmp(&angle(b)).then(a.cmp(&b)));
-    let mut dull = crate::mesh::VertexMap::filled(mesh.vertex_slots(), 0_u8);
+    let mut flat = crate::mesh::VertexMap::filled(mesh.vertex_slots(), 0_u8);
     let (mut with_one, mut best, mut most) = (0_usize, 0, 0);
     for (i, &e) in edges.iter().enumerate() {
         for v in mesh.edge_vertices(e) {
-            dull[v] += 1;
-            match dull[v] {
+            flat[v] += 1;
+            match flat[v] {
                 1 => with_one += 1,
                 2 => with_one -= 1,
                 _ => {}

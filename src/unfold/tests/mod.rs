@@ -88,7 +88,7 @@ fn params(pieces: PiecesMode) -> UnfoldParams {
 }
 
 fn try_unfold(mesh: &Mesh, seams: &Seams, pieces: PiecesMode) -> Result<Net, UnfoldError> {
-    unfold(mesh, seams, &params(pieces), &Source::default(), &Silent)
+    unfold(mesh, seams, &params(pieces), &MeshSource::default(), &Silent)
 }
 
 /// Unfolds, and checks what every net promises beyond its proof.
@@ -354,7 +354,7 @@ fn split_vertices_go_by_their_number_in_the_file() {
     }
     let (mesh, split_vertices) = builder.build().expect("two solids at a point");
     assert_eq!(split_vertices.len(), 1);
-    let source = Source { scale: 25.4, split_vertices: &split_vertices };
+    let source = MeshSource { scale: 25.4, split_vertices: &split_vertices };
     let net =
         unfold(&mesh, &Seams::Free, &UnfoldParams::default(), &source, &Silent).expect("a net");
     assert_eq!((net.scale, net.counts.vertices, net.pieces.len()), (25.4, 11, 2));
@@ -371,8 +371,8 @@ fn split_vertices_go_by_their_number_in_the_file() {
 
 /// A ball of triangles whose points lie nearer to or farther from the middle by chance.
 fn rough_ball(seed: u64, around: usize, rings: usize) -> Mesh {
-    let mut random = random::Random::new(seed);
-    let mut radius = || 1.0 + 0.5 * random.unit();
+    let mut rng = Rng::new(seed);
+    let mut radius = || 1.0 + 0.5 * rng.unit();
     let mut points = vec![at(0., 0., 1.0), at(0., 0., -1.0)];
     for k in 0..rings * around {
         let height = ((k / around + 1) as f64 * PI / (rings + 1) as f64).cos();
@@ -407,7 +407,7 @@ proptest::proptest! {
     fn without_effort_the_net_is_divided_but_still_valid(seed: u64) {
         let mesh = rough_ball(seed, 20, 12);
         let params = UnfoldParams { effort: 0, ..UnfoldParams::default() };
-        let net = unfold(&mesh, &Seams::Free, &params, &Source::default(), &Silent).expect("a net");
+        let net = unfold(&mesh, &Seams::Free, &params, &MeshSource::default(), &Silent).expect("a net");
         assert_eq!(net.folds.len(), mesh.face_count() - net.pieces.len());
     }
 }
@@ -422,7 +422,7 @@ fn a_cancelled_search_still_returns_a_net() {
         }
     }
     let mesh = rough_ball(1, 20, 12);
-    unfold(&mesh, &Seams::Free, &UnfoldParams::default(), &Source::default(), &Stopped)
+    unfold(&mesh, &Seams::Free, &UnfoldParams::default(), &MeshSource::default(), &Stopped)
         .expect("a net");
 }
 
@@ -430,7 +430,7 @@ fn a_cancelled_search_still_returns_a_net() {
 fn the_same_seed_gives_the_same_net() {
     let mesh = torus(16, 10);
     let again = || {
-        unfold(&mesh, &Seams::Free, &UnfoldParams::default(), &Source::default(), &Silent)
+        unfold(&mesh, &Seams::Free, &UnfoldParams::default(), &MeshSource::default(), &Silent)
             .expect("a net")
     };
     assert_eq!(again(), again());

@@ -136,8 +136,9 @@ fn every_link_leads_to_a_file() {
 fn every_name_of_the_glossary_is_in_the_source() {
     let names = bold_names(&read(&root().join("docs/glossary.md")));
     assert!(names.len() > 20, "the names of the glossary were not found");
-    let source: Vec<String> =
-        files(&root().join("src"), "rs").iter().map(|file| read(file)).collect();
+    let folders = ["src", "crates/kerfold-kernel/src", "crates/kerfold-sheet/src"];
+    let files = folders.iter().flat_map(|folder| files(&root().join(folder), "rs"));
+    let source: Vec<String> = files.map(|file| read(&file)).collect();
     let words: BTreeSet<String> = source.iter().flat_map(|text| words_of(text)).collect();
     let lost = missing(names, &words);
     assert!(

@@ -27,7 +27,8 @@ fn source_files(folder: &Path) -> Vec<PathBuf> {
 /// The source outside the room of codes itself, with the path of each file.
 fn source() -> Vec<(String, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let files = source_files(&root.join("src"));
+    let folders = ["src", "crates/kerfold-kernel/src", "crates/kerfold-sheet/src"];
+    let files = folders.iter().flat_map(|folder| source_files(&root.join(folder)));
     let shown = |file: &Path| {
         file.strip_prefix(root)
             .expect("a file of this package")
@@ -35,7 +36,7 @@ fn source() -> Vec<(String, String)> {
             .replace('\\', "/")
     };
     let read = |file: PathBuf| (shown(&file), fs::read_to_string(&file).expect("a source file"));
-    files.into_iter().map(read).filter(|(path, _)| !path.starts_with("src/code/")).collect()
+    files.map(read).filter(|(path, _)| !path.contains("/src/code/")).collect()
 }
 
 /// The codes of all `codes!(…)` tables of a text, each with the type it stands in.
@@ -116,7 +117,7 @@ fn every_error_type_has_a_table() {
             .collect();
         assert!(
             lacking.is_empty(),
-            "{path}: give codes to {lacking:?} with codes!(…), see src/code/mod.rs"
+            "{path}: give codes to {lacking:?} with codes!(…), see crates/kerfold-kernel/src/code/mod.rs"
         );
     }
 }

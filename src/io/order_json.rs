@@ -12,7 +12,7 @@ use serde::Deserialize;
 use super::pieces_json::{PiecesJsonError, read_pieces_json};
 use crate::code::codes;
 use crate::geom::polygon::{Location, locate, segments_cross, signed_area};
-use crate::net::{EdgeLabel, FlatFace, MeshCounts, Net, NetRim, Piece, PieceId, Proof, Seam};
+use crate::net::{EdgeLabel, FlatFace, Fold, MeshCounts, Net, NetRim, Piece, PieceId, Proof, Seam};
 use crate::sheet::{NestParams, Rotation};
 
 /// Why pieces could not be taken.
@@ -100,6 +100,13 @@ struct Entry {
     group: Option<String>,
 }
 
+impl Entry {
+    /// How many times it is made; once where nothing is said.
+    fn quantity(&self) -> usize {
+        self.quantity.unwrap_or(1)
+    }
+}
+
 /// Where a piece of an order comes from.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct OrderSource {
@@ -164,44 +171,45 @@ impl Order {
             None => bare_net(&file.pieces),
         };
         let net = checked(net)?;
-        let most_copies = file.pieces.iter().map(|e| e.quantity.unwrap_or(1)).max().unwrap_or(0);
-        let count = file
-            .pieces
-            .iter()
-            .map(|e| e.quantity.unwrap_or(1))
-            .fold(0_usize, usize::saturating_add);
-        let count = count.saturating_mul(quantity).saturating_add(self.net.pieces.len());
-        if count > MOST_PIECES {
-            return Err(OrderError::Count { count, most: MOST_PIECES });
-        }
+        self.refuse_too_many(&file.pieces, quantity)?;
+        let most_copies = file.pieces.iter().map(Entry::quantity).max().unwrap_or(0);
         for whole in 0..quantity {
             for single in 0..most_copies {
-                let is_made = |i: usize| single < file.pieces[i].quantity.unwrap_or(1);
-                let names = self.add_copy(&net, is_made);
-                for (i, &new) in &names {
-                    let entry = &file.pieces[*i];
-                    let id = entry.id.clone().unwrap_or_else(|| format!("pieces[{i}]"));
-                    self.sources.push(OrderSource {
-                        file: self.files,
-                        id,
-                        copy: whole * entry.quantity.unwrap_or(1) + single,
-                    });
-                    if let Some(rotation) = &entry.rotation {
-                        let rotation = rotation
-                            .parse()
-                            .map_err(|error| OrderError::Rotation { index: *i, error })?;
-                        self.rotations.insert(new, rotation);
-                    }
-                    if let Some(group) = &entry.group {
-                        self.groups
-                            .entry((self.files, whole, group.clone()))
-                            .or_default()
-                            .insert(new);
-                    }
+                let names = self.add_copy(&net, |i| single < file.pieces[i].quantity());
+                for (&index, &piece) in &names {
+                    self.note_source(&file.pieces[index], Copy { index, piece, whole, single })?;
                 }
             }
         }
         self.files += 1;
+        Ok(())
+    }
+
+    fn refuse_too_many(&self, entries: &[Entry], quantity: usize) -> Result<(), OrderError> {
+        let one_set = entries.iter().map(Entry::quantity).fold(0_usize, usize::saturating_add);
+        let count = one_set.saturating_mul(quantity).saturating_add(self.net.pieces.len());
+        if count > MOST_PIECES {
+            return Err(OrderError::Count { count, most: MOST_PIECES });
+        }
+        Ok(())
+    }
+
+    /// Remembers where a piece comes from and what its file says about it.
+    fn note_source(&mut self, entry: &Entry, copy: Copy) -> Result<(), OrderError> {
+        let Copy { index, piece, whole, single } = copy;
+        self.sources.push(OrderSource {
+            file: self.files,
+            id: entry.id.clone().unwrap_or_else(|| format!("pieces[{index}]")),
+            copy: whole * entry.quantity() + single,
+        });
+        if let Some(rotation) = &entry.rotation {
+            let rotation =
+                rotation.parse().map_err(|error| OrderError::Rotation { index, error })?;
+            self.rotations.insert(piece, rotation);
+        }
+        if let Some(group) = &entry.group {
+            self.groups.entry((self.files, whole, group.clone())).or_default().insert(piece);
+        }
         Ok(())
     }
 
@@ -234,68 +242,59 @@ impl Order {
             let id = PieceId(self.net.pieces.len());
             names.insert(i, id);
             renamed.insert(piece.id, id);
-            let face = |f: &FlatFace| FlatFace {
-                face: f.face + base.faces,
-                vertices: f.vertices.iter().map(|v| v + base.vertices).collect(),
-                polygon: f.polygon.clone(),
-            };
-            let faces = piece.faces.iter().map(face).collect();
-            self.net.pieces.push(Piece {
-                id,
-                faces,
-                outline: piece.outline.clone(),
-                holes: piece.holes.clone(),
-            });
+            let faces = piece.faces.iter().map(|f| shifted_face(f, base)).collect();
+            let (outline, holes) = (piece.outline.clone(), piece.holes.clone());
+            self.net.pieces.push(Piece { id, faces, outline, holes });
         }
-        let ends = |edge: [usize; 2]| edge.map(|v| v + base.vertices);
-        let label = |id: EdgeLabel| EdgeLabel(id.0 + base.edges);
         for fold in &net.folds {
             if let Some(&piece) = renamed.get(&fold.piece) {
-                let faces = fold.faces.map(|f| f + base.faces);
-                self.net.folds.push(crate::net::Fold {
-                    id: label(fold.id),
-                    edge: ends(fold.edge),
+                self.net.folds.push(Fold {
+                    id: shifted_label(fold.id, base),
+                    edge: shifted_ends(fold.edge, base),
                     piece,
-                    faces,
+                    faces: fold.faces.map(|f| f + base.faces),
                     ..fold.clone()
                 });
             }
         }
         for seam in &net.seams {
-            let mut sides = seam.sides.clone();
-            let is_whole = sides.iter().all(|side| renamed.contains_key(&side.piece));
-            for side in &mut sides {
-                let Some(&piece) = renamed.get(&side.piece) else { continue };
-                (side.piece, side.face) = (piece, side.face + base.faces);
-                if !is_whole {
-                    // The partner is not made this time.
-                    self.net.rims.push(NetRim {
-                        edge: ends(seam.edge),
-                        piece,
-                        face: side.face,
-                        segment: side.segment,
-                    });
-                }
-            }
-            if is_whole {
-                self.net.seams.push(Seam {
-                    id: label(seam.id),
-                    edge: ends(seam.edge),
-                    sides,
-                    ..seam.clone()
-                });
-            }
+            self.add_seam(seam, base, &renamed);
         }
         for rim in &net.rims {
             if let Some(&piece) = renamed.get(&rim.piece) {
                 self.net.rims.push(NetRim {
-                    edge: ends(rim.edge),
+                    edge: shifted_ends(rim.edge, base),
                     piece,
                     face: rim.face + base.faces,
                     ..rim.clone()
                 });
             }
         }
+        self.add_counts_and_proof(net, base);
+        names
+    }
+
+    /// Adds a seam with both its sides, or a rim for the side whose partner is not made this time.
+    fn add_seam(&mut self, seam: &Seam, base: MeshCounts, renamed: &BTreeMap<PieceId, PieceId>) {
+        let edge = shifted_ends(seam.edge, base);
+        let mut sides = seam.sides.clone();
+        let is_whole = sides.iter().all(|side| renamed.contains_key(&side.piece));
+        for side in &mut sides {
+            let Some(&piece) = renamed.get(&side.piece) else { continue };
+            side.piece = piece;
+            side.face += base.faces;
+            if !is_whole {
+                let (face, segment) = (side.face, side.segment);
+                self.net.rims.push(NetRim { edge, piece, face, segment });
+            }
+        }
+        if is_whole {
+            let id = shifted_label(seam.id, base);
+            self.net.seams.push(Seam { id, edge, sides, ..seam.clone() });
+        }
+    }
+
+    fn add_counts_and_proof(&mut self, net: &Net, base: MeshCounts) {
         let labels = net.folds.iter().map(|f| f.id).chain(net.seams.iter().map(|s| s.id));
         let edges = labels.map(|l| l.0 + 1).max().unwrap_or(0).max(net.counts.edges);
         self.net.counts = MeshCounts {
@@ -307,8 +306,34 @@ impl Order {
         proof.congruence_mm = proof.congruence_mm.max(net.proof.congruence_mm);
         proof.refold_mm = proof.refold_mm.max(net.proof.refold_mm);
         proof.overlaps += net.proof.overlaps;
-        names
     }
+}
+
+/// Which copy of which entry a piece is.
+struct Copy {
+    /// The place of the entry in its file.
+    index: usize,
+    piece: PieceId,
+    /// The number of the copy of the whole file, and of the entry in it.
+    whole: usize,
+    single: usize,
+}
+
+/// A face whose numbers begin behind those that are taken.
+fn shifted_face(face: &FlatFace, base: MeshCounts) -> FlatFace {
+    FlatFace {
+        face: face.face + base.faces,
+        vertices: face.vertices.iter().map(|v| v + base.vertices).collect(),
+        polygon: face.polygon.clone(),
+    }
+}
+
+fn shifted_ends(edge: [usize; 2], base: MeshCounts) -> [usize; 2] {
+    edge.map(|v| v + base.vertices)
+}
+
+fn shifted_label(label: EdgeLabel, base: MeshCounts) -> EdgeLabel {
+    EdgeLabel(label.0 + base.edges)
 }
 
 /// A net of pieces that are one face each, without edges that are known.

@@ -91,19 +91,7 @@ pub fn info_text(summary: &Summary, notes: &[String], command: &str) -> String {
     }
     page.row("Valence", &[&format!("{} (edges: vertices)", histogram(&s.valences))]);
     page.row("Sides", &[&format!("{} (sides: faces)", histogram(&s.sides))]);
-    if s.rims.is_empty() {
-        page.row("Rims", &["none, the surface is closed"]);
-    } else {
-        let edges: usize = s.rims.iter().sum();
-        page.row(
-            "Rims",
-            &[
-                &counted(s.rims.len(), "rim", "rims"),
-                &counted(edges, "edge", "edges"),
-                &format!("{} mm", short(s.rim_length)),
-            ],
-        );
-    }
+    rims(&mut page, s);
     if s.seams > 0 {
         page.row("Seams", &[&format!("{} marked", counted(s.seams, "edge", "edges"))]);
     }
@@ -112,17 +100,29 @@ pub fn info_text(summary: &Summary, notes: &[String], command: &str) -> String {
         if i == 0 { page.row("Groups", &[&group]) } else { page.more(&[&group]) }
     }
     components(&mut page, s);
-    let inwards = s.components.iter().filter(|c| c.volume.is_some_and(|v| v < 0.0)).count();
-    let own = (inwards > 0).then(|| {
-        format!(
-            "{} with a negative volume: faces look inwards there, or it is a cavity",
-            counted(inwards, "component", "components")
-        )
-    });
-    for note in notes.iter().chain(own.as_ref()) {
+    for note in notes.iter().chain(&inwards_in_words(s)) {
         page.row("Note", &[note]);
     }
     page.text
+}
+
+fn rims(page: &mut Page, s: &Summary) {
+    if s.rims.is_empty() {
+        return page.row("Rims", &["none, the surface is closed"]);
+    }
+    let edges: usize = s.rims.iter().sum();
+    let length = format!("{} mm", short(s.rim_length));
+    let rims = counted(s.rims.len(), "rim", "rims");
+    page.row("Rims", &[&rims, &counted(edges, "edge", "edges"), &length]);
+}
+
+/// Components whose faces look inwards, if there are any.
+fn inwards_in_words(s: &Summary) -> Option<String> {
+    let inwards = s.components.iter().filter(|c| c.volume.is_some_and(|v| v < 0.0)).count();
+    let components = counted(inwards, "component", "components");
+    (inwards > 0).then(|| {
+        format!("{components} with a negative volume: faces look inwards there, or it is a cavity")
+    })
 }
 
 fn nodes(page: &mut Page, report: &Report) {

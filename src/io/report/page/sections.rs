@@ -245,49 +245,14 @@ fn findings<'a>(page: &ReportPage<'a>) -> Option<Section<'a>> {
 
 fn nodes<'a>(page: &ReportPage<'a>) -> Option<Section<'a>> {
     let (r, all) = (page.report, &page.details.vertices);
-    let bar = |(valence, &count): (&usize, &usize)| Bar {
+    let rows = nodes_to_list(all, page.rows);
+    let bar = |(&valence, &count): (&usize, &usize)| Bar {
         label: valence.to_string(),
         count,
-        is_kept: *valence <= 3,
+        is_kept: valence <= 3,
     };
-    let worst = all.iter().filter_map(|v| v.residual).fold(0.0, f64::max);
-    let deficits = || all.iter().filter_map(|v| v.deficit_degrees);
-    let [least, most] = [deficits().reduce(f64::min), deficits().reduce(f64::max)].map(optional);
-    let mut rows: Vec<&VertexDetail> = all.iter().collect();
-    if page.rows == ReportRows::Worst {
-        let key = |v: &VertexDetail| {
-            (v.residual.unwrap_or(f64::INFINITY), v.deficit_degrees.map_or(0.0, f64::abs))
-        };
-        // Residuals of three planes are rounding; they must not decide the order.
-        let rank = |v: &VertexDetail| if v.valence > 3 { key(v) } else { (0.0, key(v).1) };
-        rows.sort_by(|a, b| rank(b).0.total_cmp(&rank(a).0).then(rank(b).1.total_cmp(&rank(a).1)));
-        rows.truncate(LISTED);
-    }
-    let row = |v: &&VertexDetail| {
-        let place = if v.is_on_rim { "rim" } else { "inside" };
-        let (residual, deficit) = (optional(v.residual), optional(v.deficit_degrees));
-        vec![
-            text(v.vertex.to_string()),
-            text(v.valence.to_string()),
-            text(place),
-            residual,
-            deficit,
-        ]
-    };
-    let nodes = count(r.model.vertices, "node", "nodes");
-    let crowded = all.iter().filter(|v| v.valence > 3).count();
-    let mut words = text(format!(
-        "{crowded} of {nodes} have more than three edges. At a node with three edges, plates of \
-        constant thickness meet exactly; \
-         at others they may miss each other: here by up to "
-    ));
-    words.extend([
-        Word::Figure(worst),
-        " mm per mm of thickness. The angle deficits run from ".into(),
-    ]);
-    words.extend(least.into_iter().chain(text("° to ")).chain(most).chain(text("°.")));
     let mut blocks = vec![
-        Block::Text(words),
+        Block::Text(nodes_in_words(r.model.vertices, all)),
         Block::Chart(Chart {
             name: "Nodes by valence",
             axis: "valence: number of edges that meet",
@@ -303,9 +268,56 @@ fn nodes<'a>(page: &ReportPage<'a>) -> Option<Section<'a>> {
     blocks.push(Block::Table(Table {
         class: "nodes",
         head: &["Node", "Valence", "Where", "Conical residual, mm/mm", "Angle deficit, °"],
-        rows: rows.iter().map(row).collect(),
+        rows: rows.into_iter().map(node_row).collect(),
     }));
     Some(Section { title: "Nodes".to_owned(), blocks })
+}
+
+/// The nodes for the table: all of them, or the worst with the worst first.
+fn nodes_to_list(all: &[VertexDetail], wanted: ReportRows) -> Vec<&VertexDetail> {
+    let mut rows: Vec<&VertexDetail> = all.iter().collect();
+    if wanted == ReportRows::Worst {
+        let deficit = |v: &VertexDetail| v.deficit_degrees.map_or(0.0, f64::abs);
+        // Residuals of three planes are rounding; they must not decide the order.
+        let residual = |v: &VertexDetail| match v.valence {
+            0..=3 => 0.0,
+            _ => v.residual.unwrap_or(f64::INFINITY),
+        };
+        rows.sort_by(|a, b| {
+            let by_residual = residual(b).total_cmp(&residual(a));
+            by_residual.then(deficit(b).total_cmp(&deficit(a)))
+        });
+        rows.truncate(LISTED);
+    }
+    rows
+}
+
+fn node_row(v: &VertexDetail) -> Vec<Words> {
+    vec![
+        text(v.vertex.to_string()),
+        text(v.valence.to_string()),
+        text(if v.is_on_rim { "rim" } else { "inside" }),
+        optional(v.residual),
+        optional(v.deficit_degrees),
+    ]
+}
+
+/// What is to be said of all nodes, above their chart.
+fn nodes_in_words(count_of_nodes: usize, all: &[VertexDetail]) -> Words {
+    let crowded = all.iter().filter(|v| v.valence > 3).count();
+    let nodes = count(count_of_nodes, "node", "nodes");
+    let worst = all.iter().filter_map(|v| v.residual).fold(0.0, f64::max);
+    let deficits = || all.iter().filter_map(|v| v.deficit_degrees);
+    let least = optional(deficits().reduce(f64::min));
+    let most = optional(deficits().reduce(f64::max));
+    let mut words = text(format!(
+        "{crowded} of {nodes} have more than three edges. At a node with three edges, plates of \
+        constant thickness meet exactly; at others they may miss each other: here by up to "
+    ));
+    words.push(Word::Figure(worst));
+    words.push(" mm per mm of thickness. The angle deficits run from ".into());
+    words.extend(least.into_iter().chain(text("° to ")).chain(most).chain(text("°.")));
+    words
 }
 
 fn edges<'a>(page: &ReportPage<'a>) -> Option<Section<'a>> {

@@ -339,59 +339,71 @@ impl Mesh {
         edges: Vec<(VertexId, VertexId)>,
         faces: &FaceList,
     ) -> Self {
-        let mut mesh = Self { seams: vec![false; edges.len()], ..Self::default() };
-        let unset = HalfEdgeId(NONE);
-        mesh.half_edges = Vec::with_capacity(2 * edges.len());
-        for (a, b) in edges {
-            let pair = [a, b].map(|origin| HalfEdge {
-                next: unset,
-                prev: unset,
-                origin,
-                face: FaceId(NONE),
-            });
-            mesh.half_edges.extend(pair);
-        }
         let absent: Vec<usize> = (0..positions.len()).filter(|&v| positions[v].is_none()).collect();
+        let mut mesh = Self { seams: vec![false; edges.len()], ..Self::default() };
+        mesh.assemble_edges(edges);
+        mesh.assemble_vertices(positions);
+        mesh.assemble_faces(faces);
+        mesh.free_or_isolate_unused(absent);
+        mesh
+    }
+
+    /// Half-edges in pairs, not linked yet.
+    fn assemble_edges(&mut self, edges: Vec<(VertexId, VertexId)>) {
+        let unset = HalfEdgeId(NONE);
+        let half_edge = |origin| HalfEdge { next: unset, prev: unset, origin, face: FaceId(NONE) };
+        self.half_edges = Vec::with_capacity(2 * edges.len());
+        for (a, b) in edges {
+            self.half_edges.extend([half_edge(a), half_edge(b)]);
+        }
+    }
+
+    /// Vertices, each with the last half-edge that leaves it; in the memory of the positions, which
+    /// are as large.
+    fn assemble_vertices(&mut self, positions: Vec<Option<DVec3>>) {
         let vertex = |p: Option<DVec3>| Vertex {
             position: p.unwrap_or_default(),
             start: Link::FREE,
             is_given: true,
         };
-        // In the memory of the positions, which are as large.
-        mesh.vertices = positions.into_iter().map(vertex).collect();
-        for (h, half_edge) in mesh.half_edges.iter().enumerate() {
-            mesh.vertices[half_edge.origin.index()].start = Link(h as u32);
+        self.vertices = positions.into_iter().map(vertex).collect();
+        for (h, half_edge) in self.half_edges.iter().enumerate() {
+            self.vertices[half_edge.origin.index()].start = Link(h as u32);
         }
-        mesh.faces.reserve(faces.len());
+    }
+
+    fn assemble_faces(&mut self, faces: &FaceList) {
+        self.faces.reserve(faces.len());
         for (walk, kind) in faces.iter() {
-            let f = mesh.new_face(kind);
-            mesh.faces[f.index()].start = Link::edge(walk[0]);
+            let f = self.new_face(kind);
+            self.faces[f.index()].start = Link::edge(walk[0]);
             for (i, &h) in walk.iter().enumerate() {
-                mesh.link(h, walk[(i + 1) % walk.len()]);
-                mesh.half_edges[h.index()].face = f;
+                self.link(h, walk[(i + 1) % walk.len()]);
+                self.half_edges[h.index()].face = f;
             }
         }
+    }
+
+    /// Vertices without a position are free slots; those without an edge become point spheres.
+    fn free_or_isolate_unused(&mut self, absent: Vec<usize>) {
         let mut absent = absent.into_iter().peekable();
-        for v in 0..mesh.vertices.len() {
+        for v in 0..self.vertices.len() {
             if absent.next_if_eq(&v).is_some() {
-                mesh.free_vertices.push(VertexId::new(v));
-            } else if mesh.vertices[v].start == Link::FREE {
-                let f = mesh.new_face(FaceKind::Solid);
-                mesh.isolate(VertexId::new(v), f);
+                self.free_vertices.push(VertexId::new(v));
+            } else if self.vertices[v].start == Link::FREE {
+                let f = self.new_face(FaceKind::Solid);
+                self.isolate(VertexId::new(v), f);
             }
         }
-        mesh
     }
 
     /// Closes the gaps that deleted elements left, keeping the order of what lives. Returns where
     /// everything went.
     pub fn compact(&mut self) -> Renumbering {
-        let has_vertex: Vec<bool> =
-            (0..self.vertices.len()).map(|i| self.vertices[i].start != Link::FREE).collect();
+        let has_vertex: Vec<bool> = self.vertices.iter().map(|v| v.start != Link::FREE).collect();
         let has_edge: Vec<bool> =
-            (0..self.seams.len()).map(|i| self.half_edges[2 * i].next.0 != NONE).collect();
-        let has_face: Vec<bool> =
-            (0..self.faces.len()).map(|i| self.faces[i].start != Link::FREE).collect();
+            self.half_edges.chunks_exact(2).map(|pair| pair[0].next.0 != NONE).collect();
+        let has_face: Vec<bool> = self.faces.iter().map(|f| f.start != Link::FREE).collect();
         let map = Renumbering {
             vertices: renumber(&has_vertex),
             edges: renumber(&has_edge),
@@ -402,27 +414,33 @@ impl Mesh {
         retain(&mut self.seams, &has_edge);
         let both: Vec<bool> = has_edge.iter().flat_map(|&live| [live, live]).collect();
         retain(&mut self.half_edges, &both);
+        self.relink(&map);
+        self.compact_planes();
+        self.free_vertices.clear();
+        self.free_edges.clear();
+        self.free_faces.clear();
+        map
+    }
+
+    /// Gives every link the new number of what it leads to.
+    fn relink(&mut self, map: &Renumbering) {
         let half_edge = |h: HalfEdgeId| HalfEdgeId(map.edges[h.edge().index()] << 1 | h.0 & 1);
+        let start = |link: Link, partners: &[u32]| match link.half_edge() {
+            Some(h) => Link::edge(half_edge(h)),
+            None => Link::lone(partners[(link.0 & !MAX_ELEMENTS) as usize]),
+        };
         for h in &mut self.half_edges {
             h.next = half_edge(h.next);
             h.prev = half_edge(h.prev);
             h.origin.0 = map.vertices[h.origin.index()];
             h.face.0 = map.faces[h.face.index()];
         }
-        let relink = |link: Link, partners: &[u32]| match link.half_edge() {
-            Some(h) => Link::edge(half_edge(h)),
-            None => Link::lone(partners[(link.0 & !MAX_ELEMENTS) as usize]),
-        };
         for v in &mut self.vertices {
-            v.start = relink(v.start, &map.faces);
+            v.start = start(v.start, &map.faces);
         }
         for f in &mut self.faces {
-            f.start = relink(f.start, &map.vertices);
+            f.start = start(f.start, &map.vertices);
         }
-        self.compact_planes();
-        (self.free_vertices, self.free_edges, self.free_faces) =
-            (Vec::new(), Vec::new(), Vec::new());
-        map
     }
 
     /// Renumbers the carried planes in the order of their faces; several faces may share one.

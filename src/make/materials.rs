@@ -23,7 +23,7 @@ pub enum MaterialError {
         advice: String,
     },
     /// A file of materials was named, but no material.
-    #[error("{}: name the material of this file with --material", path.display())]
+    #[error("{}: name the material of this file that is to be taken", path.display())]
     NoName {
         /// The file.
         path: PathBuf,

@@ -10,6 +10,15 @@ pub(super) fn first_few<T: ToString>(list: &[T], most: usize) -> String {
     shown.join(", ") + if list.len() > most { ", …" } else { "" }
 }
 
+/// An offset that was made smaller so that cuts are disjoint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ShrunkOffset {
+    /// The element, by its number in the mesh of its round.
+    pub element: usize,
+    /// The offset that was used.
+    pub offset: f64,
+}
+
 /// What a chain of cuts did. Ids of things that were made are those of the resulting mesh.
 #[derive(Debug, Clone, Default)]
 pub struct CutReport {
@@ -25,9 +34,8 @@ pub struct CutReport {
     /// their round: it removed a vertex that was not its own, or something that another cut had
     /// made.
     pub overcut: Vec<usize>,
-    /// The elements whose offset was made smaller so that the cuts are disjoint, by their number in
-    /// the mesh of their round, and the offset that was used.
-    pub shrunk: Vec<(usize, f64)>,
+    /// The elements whose offset was made smaller so that the cuts are disjoint.
+    pub shrunk: Vec<ShrunkOffset>,
     /// What was made, for the selections `made` and `strip` of the next step.
     pub made: NewElements,
     /// Vertices of the result where other than three edges meet.
@@ -65,7 +73,7 @@ impl CutReport {
                 first_few(&self.overcut, 12)
             ));
         }
-        if let Some(least) = self.shrunk.iter().map(|s| s.1).min_by(f64::total_cmp) {
+        if let Some(least) = self.shrunk.iter().map(|s| s.offset).min_by(f64::total_cmp) {
             let count = self.shrunk.len();
             notes.push(format!(
                 "{count} offsets were made smaller to keep the cuts apart, the least to {least:.4}"
@@ -127,12 +135,7 @@ impl RoundMarks {
 
 /// Closes the gaps in the mesh and fills in what only the result can tell.
 pub(super) fn finish(mut mesh: Mesh, mut report: CutReport) -> (Mesh, CutReport) {
-    let map = mesh.compact();
-    let made = &mut report.made;
-    made.vertices = made.vertices.iter().filter_map(|&v| map.vertex(v)).collect();
-    made.edges = made.edges.iter().filter_map(|&e| map.edge(e)).collect();
-    made.strip = made.strip.iter().filter_map(|&e| map.edge(e)).collect();
-    made.faces = made.faces.iter().filter_map(|&f| map.face(f)).collect();
+    report.made.compact(&mut mesh);
     report.not_three_valent = mesh.vertices().filter(|&v| mesh.valence(v) != 3).collect();
     report.components = mesh.components().len();
     (mesh, report)

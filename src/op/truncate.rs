@@ -7,7 +7,7 @@ use serde::Deserialize;
 
 use super::OpError;
 use super::cut::{Cutter, Lineage, Reach, SlicingPlane};
-use super::report::{CutReport, RoundMarks, finish};
+use super::report::{CutReport, RoundMarks, ShrunkOffset, finish};
 use crate::geom::Plane;
 use crate::mesh::{Mesh, VertexId};
 use crate::progress::{Progress, Silent};
@@ -118,6 +118,11 @@ impl Offsets {
         self.shrunk.get(&element).copied().unwrap_or(self.usual)
     }
 
+    /// The offsets that were made smaller, by element.
+    fn used(self) -> impl Iterator<Item = ShrunkOffset> {
+        self.shrunk.into_iter().map(|(element, offset)| ShrunkOffset { element, offset })
+    }
+
     fn shrink(&mut self, elements: &[usize]) {
         for &id in elements {
             *self.shrunk.entry(id).or_insert(self.usual) *= SHRINKAGE;
@@ -177,7 +182,7 @@ pub(super) fn truncate(
         report.missed += done.missed;
         report.lids += done.lids;
         report.overcut.extend(done.overcut);
-        report.shrunk.extend(offsets.shrunk);
+        report.shrunk.extend(offsets.used());
         report.made = done.marks.collect(&cutter);
     }
     report.overcut.sort_unstable();

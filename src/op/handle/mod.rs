@@ -52,6 +52,8 @@ const MOST_SEGMENTS: u32 = 10_000;
 /// What a handle came out as.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct HandleReport {
+    /// What was made: the tube.
+    pub made: NewElements,
     /// How many sides of the face with fewer were halved.
     pub halved: usize,
     /// The mean angle by which the tube turns around its axis, in degrees.
@@ -92,7 +94,7 @@ impl HandleReport {
     }
 }
 
-/// Makes a handle. Returns the mesh, what was made (the tube), and a report.
+/// Makes a handle.
 ///
 /// # Errors
 /// [`OpError::CountOutOfRange`] for the segments; [`OpError::NoSuchElement`]; [`OpError::NoArea`];
@@ -102,7 +104,7 @@ pub fn handle(
     mesh: &Mesh,
     params: &HandleParams,
     context: &OpContext<'_>,
-) -> Result<(Mesh, NewElements, HandleReport), OpError> {
+) -> Result<(Mesh, HandleReport), OpError> {
     if !(1..=MOST_SEGMENTS).contains(&params.segments) {
         return Err(OpError::CountOutOfRange {
             what: "segments",
@@ -168,7 +170,7 @@ fn join(
     mesh: &Mesh,
     params: &Join<'_>,
     context: &OpContext<'_>,
-) -> Result<(Mesh, NewElements, HandleReport), OpError> {
+) -> Result<(Mesh, HandleReport), OpError> {
     if context.progress.is_cancelled() {
         return Err(OpError::Cancelled);
     }
@@ -220,8 +222,8 @@ fn join(
     };
     (report.twist_degrees, report.crossing) = (plan.twist.to_degrees(), plan.crossing);
     tube.shift_end(plan.shift);
-    let made = tube.build(&plan.sections);
-    Ok((tube.mesh, made, report))
+    report.made = tube.build(&plan.sections);
+    Ok((tube.mesh, report))
 }
 
 /// The half-edge of a face at its wanted corner.

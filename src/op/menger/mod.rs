@@ -141,18 +141,26 @@ impl Default for MengerParams {
     }
 }
 
+/// A round in which frames or tunnels do not fit.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RoundCrossing {
+    /// The round, counted from 1.
+    pub round: u32,
+    /// The faces whose frame or tunnel does not fit, in ids of the mesh before the round.
+    pub faces: Vec<usize>,
+}
+
 /// What the rounds met with.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct MengerReport {
-    /// For each round that had any: its number, and faces whose frame or tunnel does not fit, in
-    /// ids of the mesh before that round.
-    pub crossing: Vec<(u32, Vec<usize>)>,
+    /// The rounds in which frames or tunnels do not fit.
+    pub crossing: Vec<RoundCrossing>,
 }
 
 impl MengerReport {
     /// The report in words.
     pub fn notes(&self) -> Vec<String> {
-        let note = |(round, faces): &(u32, Vec<usize>)| {
+        let note = |RoundCrossing { round, faces }: &RoundCrossing| {
             format!(
                 "round {round}: the thickness is too large at {} faces ({}), so the sponge crosses \
                 itself there; take less ({})",
@@ -195,7 +203,7 @@ pub fn menger(
         }
         let (next, crossing) = round::round(coarse, params.thickness, params.collapse.radians())?;
         if !crossing.is_empty() {
-            report.crossing.push((round, crossing));
+            report.crossing.push(RoundCrossing { round, faces: crossing });
         }
         fine = Some(next);
     }

@@ -128,6 +128,8 @@ enum Opening {
 /// What a rind came out as.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct RindReport {
+    /// What was made: the second skin and the walls.
+    pub made: NewElements,
     /// How many faces were opened; rims count.
     pub openings: usize,
     /// How many walls without thickness were taken away.
@@ -171,7 +173,7 @@ impl RindReport {
     }
 }
 
-/// Makes a rind. Returns the mesh, what was made (the second skin and the walls), and a report.
+/// Makes a rind.
 ///
 /// # Errors
 /// [`OpError::Select`] for an empty selection; [`OpError::DepthTooSmall`] when a thickness is
@@ -183,7 +185,7 @@ pub fn rind(
     mesh: &Mesh,
     params: &RindParams,
     context: &OpContext<'_>,
-) -> Result<(Mesh, NewElements, RindReport), OpError> {
+) -> Result<(Mesh, RindReport), OpError> {
     let thickness = thicknesses(mesh, params)?;
     let openings = openings(mesh, params, context)?;
     if mesh.faces().all(|f| openings[f] != Opening::None) {
@@ -204,14 +206,14 @@ pub fn rind(
     }
     let shell = shell::Shell::plan(mesh, &openings);
     let (made_mesh, made) = shell.build(&skin, params.thickness.mm() < 0.0);
-    let mut report = shell.report(&made_mesh);
+    let mut report = RindReport { made, ..shell.report(&made_mesh) };
     // What is below the rounding of the construction is no residual.
     report.residual_mm = mesh.vertices().map(|v| skin.residuals[v]).fold(0.0, f64::max);
     if report.residual_mm <= bound(mesh) {
         report.residual_mm = 0.0;
     }
     report.crossing = crossing::crossing_faces(mesh, &openings, &thickness, &skin);
-    Ok((made_mesh, made, report))
+    Ok((made_mesh, report))
 }
 
 fn bound(mesh: &Mesh) -> f64 {

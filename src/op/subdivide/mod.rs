@@ -28,8 +28,10 @@ mod tests;
 
 use serde::Deserialize;
 
+use super::simple::{Mended, make_simple, on_the_edge};
 use super::{OpContext, OpError};
 use crate::mesh::{FaceId, Mesh};
+use crate::select::NewElements;
 
 /// The most faces that a subdivision may make; more would not fit into the store with its edges.
 const MOST_FACES: usize = 1 << 27;
@@ -90,6 +92,21 @@ impl SubdivideParams {
     }
 }
 
+/// What a subdivision did besides.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct SubdivideReport {
+    /// What had to be mended so that files can hold the result; nothing on a mesh without 2-valent
+    /// vertices of which two faces have at most one edge in common.
+    pub mended: Mended,
+}
+
+impl SubdivideReport {
+    /// The report in words.
+    pub fn notes(&self) -> Vec<String> {
+        self.mended.notes()
+    }
+}
+
 /// Subdivides a mesh. Positions count as constructed; planes are not carried along.
 ///
 /// # Errors
@@ -100,7 +117,7 @@ pub fn subdivide(
     mesh: &Mesh,
     params: &SubdivideParams,
     context: &OpContext<'_>,
-) -> Result<Mesh, OpError> {
+) -> Result<(Mesh, SubdivideReport), OpError> {
     let offset = check_params(params)?;
     let mut fine: Option<Mesh> = None;
     for round in 0..params.rounds {
@@ -120,7 +137,18 @@ pub fn subdivide(
         }
         fine = Some(once(coarse, params.scheme, offset));
     }
-    Ok(fine.expect("there is at least one round"))
+    let mut fine = fine.expect("there is at least one round");
+    let mut report = SubdivideReport::default();
+    // Meshes with self-loops are on the way to something else, and need them.
+    if mesh.file_faults().is_empty() && !has_small_faces(mesh) {
+        report.mended = make_simple(&mut fine, &mut NewElements::default(), &on_the_edge);
+    }
+    Ok((fine, report))
+}
+
+/// Whether faces have fewer sides than a file can hold.
+fn has_small_faces(mesh: &Mesh) -> bool {
+    mesh.faces().any(|f| mesh.face_half_edges(f).take(3).count() < 3)
 }
 
 fn check_params(params: &SubdivideParams) -> Result<f64, OpError> {

@@ -146,7 +146,7 @@ mod tests {
             with_material(&params, Path::new(""))
                 .expect_err("no name")
                 .to_string()
-                .contains("--material")
+                .contains("that is to be taken")
         );
         let own = "[felt]\ntitle = \"Felt\"\nthickness = \"3mm\"\nkerf = \"0.3mm\"\nweb = \"3mm\"\n\
                    speed = { cut = 30, score = 50, engrave = 100, travel = 300 }\ncolours = { cut-outer = \"#00FFFF\" }\n";

@@ -1,5 +1,6 @@
 //! Modelling operators, mesh in, mesh out; one operator, one file.
 
+mod cavity;
 mod cut;
 mod error;
 mod finding;
@@ -13,6 +14,7 @@ mod resolve;
 mod rind;
 mod sierpinski;
 mod simple;
+mod size;
 mod slice;
 mod subdivide;
 mod truncate;
@@ -33,7 +35,7 @@ pub use hull::{
 };
 pub use menger::{MengerParams, MengerReport, RoundCrossing, Thickness, menger};
 pub use operate::{Operate, OperatorOutput};
-pub use planarize::{PlanarizeParams, PlanarizeReport, RimRule, planarize};
+pub use planarize::{Needle, PlanarizeParams, PlanarizeReport, RimRule, planarize};
 pub use report::{CutReport, ShrunkOffset};
 pub use resolve::{ResolveParams, ResolveReport, resolve};
 pub use rind::{GroupThickness, RindParams, RindReport, ShellSource, rind};

@@ -123,7 +123,7 @@ impl Operate for RindParams {
         Ok(OperatorOutput {
             mesh,
             notes: report.notes(),
-            is_clean: report.crossing.is_empty(),
+            is_clean: report.crossing.is_empty() && report.pairs.is_empty(),
             made: Some(report.made),
         })
     }
@@ -136,7 +136,7 @@ impl Operate for MengerParams {
             mesh,
             made: None,
             notes: report.notes(),
-            is_clean: report.crossing.is_empty(),
+            is_clean: report.crossing.is_empty() && report.pairs.is_empty(),
         })
     }
 }
@@ -147,7 +147,7 @@ impl Operate for HandleParams {
         Ok(OperatorOutput {
             mesh,
             notes: report.notes(),
-            is_clean: report.crossing.is_empty(),
+            is_clean: report.crossing.is_empty() && report.pairs.is_empty(),
             made: Some(report.made),
         })
     }

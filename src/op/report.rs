@@ -1,6 +1,8 @@
 //! What a chain of cuts made and removed.
 
 use super::cut::{Cutter, Lineage};
+use crate::code::Code;
+use crate::measure::{CrossingKind, CrossingPair};
 use crate::mesh::{FaceId, Mesh, VertexId};
 use crate::select::NewElements;
 
@@ -17,6 +19,32 @@ pub struct ShrunkOffset {
     pub element: usize,
     /// The offset that was used.
     pub offset: f64,
+}
+
+/// As many pairs of faces as a report may hold; more say nothing new.
+pub(super) const MOST_PAIRS: usize = 1000;
+
+/// A note on faces that go through each other; `None` without any.
+pub(super) fn crossing_note(pairs: &[CrossingPair], code: Code) -> Option<String> {
+    let named: Vec<String> = pairs
+        .iter()
+        .map(|pair| {
+            let word = match pair.kind {
+                CrossingKind::Through => "with",
+                CrossingKind::Overlap => "on",
+            };
+            format!("{} {word} {}", pair.first, pair.second)
+        })
+        .collect();
+    let many = if pairs.len() < MOST_PAIRS { "" } else { "at least " };
+    (!pairs.is_empty()).then(|| {
+        format!(
+            "faces of the result go through each other or cover each other, {many}{} pairs: {} \
+            ({code})",
+            pairs.len(),
+            first_few(&named, 8)
+        )
+    })
 }
 
 /// What a chain of cuts did. Ids of things that were made are those of the resulting mesh.
@@ -36,6 +64,8 @@ pub struct CutReport {
     pub overcut: Vec<usize>,
     /// The elements whose offset was made smaller so that the cuts are disjoint.
     pub shrunk: Vec<ShrunkOffset>,
+    /// How many cavities went with the shell that local cuts took from around them.
+    pub cavities_gone: usize,
     /// What was made, for the selections `made` and `strip` of the next step.
     pub made: NewElements,
     /// Vertices of the result where other than three edges meet.
@@ -84,6 +114,9 @@ impl CutReport {
                 "{} vertices have other than three edges",
                 self.not_three_valent.len()
             ));
+        }
+        if self.cavities_gone > 0 {
+            notes.push(format!("{} cavities went with the shell around them", self.cavities_gone));
         }
         if self.components > 1 {
             notes.push(format!("the model now has {} parts", self.components));

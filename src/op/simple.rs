@@ -2,8 +2,7 @@
 //! without area go into their neighbours, and of several edges between two vertices all but one get
 //! a vertex in between.
 
-use glam::DVec3;
-
+use super::OpError;
 use crate::mesh::{EdgeId, FaceId, FileFault, HalfEdgeId, Mesh};
 use crate::select::NewElements;
 
@@ -49,7 +48,7 @@ impl Mended {
         notes
     }
 
-    pub(super) fn add(&mut self, other: Self) {
+    fn add(&mut self, other: Self) {
         self.collapsed += other.collapsed;
         self.dissolved += other.dissolved;
         self.split += other.split;
@@ -60,19 +59,39 @@ impl Mended {
     }
 }
 
-/// Where the vertex in between lies on an edge, with the share of the way that keeps several of
-/// them apart.
-pub(super) type Between<'a> = &'a dyn Fn(&Mesh, EdgeId, f64) -> DVec3;
-
-/// On the edge itself.
-pub(super) fn on_the_edge(mesh: &Mesh, e: EdgeId, share: f64) -> DVec3 {
-    let [a, b] = mesh.edge_positions(e);
-    a.lerp(b, share)
+/// Makes a result as simple as the mesh was that it was made of. Meshes with self-loops, 2-gons and
+/// their like are on the way to something else, and may stay so.
+///
+/// # Errors
+/// [`OpError::NotSimple`] with the first fault that could not be mended.
+pub(super) fn keep_simple(
+    before: &Mesh,
+    result: &mut Mesh,
+    made: &mut NewElements,
+    advice: &'static str,
+) -> Result<Mended, OpError> {
+    if !is_simple(before) {
+        return Ok(Mended::default());
+    }
+    let mended = make_simple(result, made);
+    match result.file_faults().first() {
+        Some(&fault) => Err(OpError::NotSimple { fault, advice }),
+        None => Ok(mended),
+    }
 }
 
-/// Mends what can be mended; what is left the writer refuses. Ids stay without gaps, and `made`
+fn is_simple(mesh: &Mesh) -> bool {
+    let is_small = |f: FaceId| mesh.face_half_edges(f).take(3).count() < 3;
+    let is_loop = |e: EdgeId| {
+        let [a, b] = mesh.edge_vertices(e);
+        a == b
+    };
+    !mesh.faces().any(is_small) && !mesh.edges().any(is_loop) && mesh.file_faults().is_empty()
+}
+
+/// Mends what can be mended. Ids stay without gaps, and `made`
 /// follows them.
-pub(super) fn make_simple(mesh: &mut Mesh, made: &mut NewElements, between: Between<'_>) -> Mended {
+fn make_simple(mesh: &mut Mesh, made: &mut NewElements) -> Mended {
     let mut mended = Mended::default();
     for _ in 0..MOST_PASSES {
         let mut pass = Mended { dissolved: dissolve_two_gons(mesh), ..Mended::default() };
@@ -82,7 +101,7 @@ pub(super) fn make_simple(mesh: &mut Mesh, made: &mut NewElements, between: Betw
             pass.dissolved += dissolve_lines(mesh, &faults);
         }
         if pass.collapsed == 0 && pass.dissolved == 0 {
-            pass.split = split_parallels(mesh, &faults, between);
+            pass.split = split_parallels(mesh, &faults);
         }
         mended.add(pass);
         if pass.is_nothing() {
@@ -140,7 +159,7 @@ fn collapse_points(mesh: &mut Mesh, faults: &[FileFault]) -> usize {
 
 /// Deletes the longest side of each face whose corners lie on a line: the others become sides of
 /// the neighbour, or of the hole, and lie where that side lay.
-fn dissolve_lines(mesh: &mut Mesh, faults: &[FileFault]) -> usize {
+pub(super) fn dissolve_lines(mesh: &mut Mesh, faults: &[FileFault]) -> usize {
     let mut count = 0;
     for fault in faults {
         let &FileFault::NoArea(f) = fault else { continue };
@@ -160,8 +179,8 @@ fn dissolve_lines(mesh: &mut Mesh, faults: &[FileFault]) -> usize {
     count
 }
 
-/// Splits all but the first of the edges between two vertices.
-fn split_parallels(mesh: &mut Mesh, faults: &[FileFault], between: Between<'_>) -> usize {
+/// Splits all but the first of the edges between two vertices, each at a place of its own.
+fn split_parallels(mesh: &mut Mesh, faults: &[FileFault]) -> usize {
     let pairs: Vec<(EdgeId, EdgeId)> = faults
         .iter()
         .filter_map(|fault| match *fault {
@@ -172,8 +191,8 @@ fn split_parallels(mesh: &mut Mesh, faults: &[FileFault], between: Between<'_>) 
     for group in pairs.chunk_by(|a, b| a.0 == b.0) {
         for (i, &(_, e)) in group.iter().enumerate() {
             let share = (i + 1) as f64 / (group.len() + 1) as f64;
-            let at = between(mesh, e, share);
-            mesh.split_edge(e, at);
+            let [a, b] = mesh.edge_positions(e);
+            mesh.split_edge(e, a.lerp(b, share));
         }
     }
     pairs.len()

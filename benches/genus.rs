@@ -33,6 +33,7 @@ fn sierpinskied(mesh: &Mesh, rounds: u32) -> Mesh {
 fn smoothed(mesh: &Mesh, rounds: u32) -> Mesh {
     subdivide(mesh, &SubdivideParams::new(Scheme::DooSabin, rounds), &OpContext::default())
         .expect("it fits")
+        .0
 }
 
 /// One case in this process: faces, seconds, bytes.

@@ -10,7 +10,7 @@ mod clock;
 
 use clock::{peak_megabytes, process_seconds};
 use kerfold::io::sheet::svg::write_svg;
-use kerfold::make::{PanelFiles, SolidFile, panel_model, panel_outputs};
+use kerfold::make::{PanelFiles, PanelSettings, SolidFile, panel_model, panel_outputs};
 use kerfold::mesh::Mesh;
 use kerfold::panel::{Hardware, PanelParams, ReferenceSide, panel_net, plates, schedule};
 use kerfold::progress::Silent;
@@ -81,8 +81,8 @@ fn facade() {
         vec![SolidFile::Step, SolidFile::Obj, SolidFile::Glb, SolidFile::Stl],
     ] {
         let files = PanelFiles { solids };
-        let panelled =
-            panel_model(&mesh, (&params, &files, &sheet), &source, &Silent).expect("panels");
+        let settings = PanelSettings { panels: &params, files: &files, sheet: &sheet };
+        let panelled = panel_model(&mesh, &settings, &source, &Silent).expect("panels");
         let outputs = panel_outputs(&panelled, &sheet, "bench").expect("files");
         let bytes: usize = outputs.iter().map(|(_, bytes)| bytes.len()).sum();
         clock.lap(&format!("all {} files, {} MB", outputs.len(), bytes / 1_000_000));

@@ -79,7 +79,7 @@ fn named(name: &str) -> Mesh {
 
 fn finer(scheme: Scheme, mesh: &Mesh, rounds: u32) -> Mesh {
     let params = SubdivideParams::new(scheme, rounds);
-    subdivide(mesh, &params, &OpContext::default()).expect("a scheme that suits all meshes")
+    subdivide(mesh, &params, &OpContext::default()).expect("a scheme that suits all meshes").0
 }
 
 /// A number in [−1, 1) that depends on the seed alone.

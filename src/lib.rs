@@ -32,6 +32,7 @@ pub use kerfold_kernel::{code, geom, measure, mesh, progress, random, units};
 pub use kerfold_sheet::{lint, net, sheet};
 
 pub mod explain;
+pub mod memory;
 
 pub mod seam;
 pub mod select;

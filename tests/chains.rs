@@ -5,7 +5,7 @@ use std::path::Path;
 
 use kerfold::io::{ReadOptions, read_mesh};
 use kerfold::measure::genus;
-use kerfold::mesh::{FaceId, Mesh, VertexId, assert_sound};
+use kerfold::mesh::{EdgeId, FaceId, Mesh, VertexId, assert_sound};
 use kerfold::op::{
     HandleParams, MengerParams, OpContext, Operate, RindParams, Scheme, ShellSource,
     SierpinskiParams, SubdivideParams, Thickness, TruncateEdgeParams, TruncateFaceParams,
@@ -37,11 +37,15 @@ fn faces(mesh: &Mesh) -> Vec<u32> {
     mesh.faces().map(|f| f.index() as u32).collect()
 }
 
-fn chosen(dice: &mut Dice, ids: &[u32], most: usize) -> Selection {
+fn chosen(dice: &mut Dice, ids: &[u32], most: usize) -> Vec<usize> {
     let mut ids: Vec<u32> = (0..=dice.roll(most)).map(|_| dice.one_of(ids)).collect();
     ids.sort_unstable();
     ids.dedup();
-    Selection::of_ids(ids).expect("at least one")
+    ids.into_iter().map(|id| id as usize).collect()
+}
+
+fn some_faces(dice: &mut Dice, ids: &[u32], most: usize) -> Option<Selection> {
+    Selection::of_faces(chosen(dice, ids, most).into_iter().map(FaceId::new))
 }
 
 fn step(dice: &mut Dice, mesh: &Mesh) -> Box<dyn Operate> {
@@ -52,8 +56,8 @@ fn step(dice: &mut Dice, mesh: &Mesh) -> Box<dyn Operate> {
         2 | 3 => Box::new(RindParams {
             thickness: Length::from_mm([0.3, -0.3, 2.0][dice.roll(3)]),
             thickness_of: Vec::new(),
-            punch: (dice.roll(2) == 0).then(|| chosen(dice, &all, 3)),
-            peel: (dice.roll(2) == 0).then(|| chosen(dice, &all, 5)),
+            punch: if dice.roll(2) == 0 { some_faces(dice, &all, 3) } else { None },
+            peel: if dice.roll(2) == 0 { some_faces(dice, &all, 5) } else { None },
             shell: if dice.roll(3) == 0 { ShellSource::Given } else { ShellSource::New },
         }),
         4 | 5 => {
@@ -86,10 +90,22 @@ fn step(dice: &mut Dice, mesh: &Mesh) -> Box<dyn Operate> {
         _ => {
             let vertices: Vec<u32> = mesh.vertices().map(|v| v.index() as u32).collect();
             let edges: Vec<u32> = mesh.edges().map(|e| e.index() as u32).collect();
+            let some = "at least one";
             match dice.roll(3) {
-                0 => Box::new(TruncateVertexParams::new(chosen(dice, &vertices, 3), 0.2)),
-                1 => Box::new(TruncateEdgeParams::new(chosen(dice, &edges, 2), 0.2)),
-                _ => Box::new(TruncateFaceParams::new(chosen(dice, &all, 2), 0.2)),
+                0 => {
+                    let ids = chosen(dice, &vertices, 3).into_iter().map(VertexId::new);
+                    let select = Selection::of_vertices(ids).expect(some);
+                    Box::new(TruncateVertexParams::new(select, 0.2))
+                }
+                1 => {
+                    let ids = chosen(dice, &edges, 2).into_iter().map(EdgeId::new);
+                    let select = Selection::of_edges(ids).expect(some);
+                    Box::new(TruncateEdgeParams::new(select, 0.2))
+                }
+                _ => {
+                    let select = some_faces(dice, &all, 2).expect(some);
+                    Box::new(TruncateFaceParams::new(select, 0.2))
+                }
             }
         }
     }
@@ -176,7 +192,7 @@ fn rinds_of_spot_have_the_genus_of_their_openings() {
                 patches.push(found);
             }
         }
-        let chosen = Selection::of_ids(patches.iter().flatten().map(|f| f.index() as u32));
+        let chosen = Selection::of_faces(patches.iter().flatten().copied());
         let count = patches.iter().map(Vec::len).sum::<usize>();
         for (punch, peel, openings) in
             [(None, chosen.clone(), patches.len()), (chosen, None, count)]
@@ -189,7 +205,7 @@ fn rinds_of_spot_have_the_genus_of_their_openings() {
                 peel,
                 shell: ShellSource::New,
             };
-            let (made, _, report) = rind(&spot, &params, &OpContext::default()).expect("a rind");
+            let (made, report) = rind(&spot, &params, &OpContext::default()).expect("a rind");
             assert_sound(&made);
             assert_eq!((made.components().len(), genus(&made)), (1, openings - 1), "{report:?}");
         }

@@ -2,7 +2,7 @@
 //! the lines that are drawn are read.
 
 use glam::DVec2;
-use kerfold::make::{FabricateParams, fabricate};
+use kerfold::make::{FabricateParams, FabricateSettings, fabricate};
 use kerfold::net::Net;
 use kerfold::progress::Silent;
 use kerfold::shape::{SolidParams, solid};
@@ -231,8 +231,9 @@ fn flaps_count_when_a_piece_is_divided_for_the_sheet() {
     let source = MeshSource { scale: 1.0, split_vertices: &[] };
     let made = |sheet: &SheetParams| {
         let choice = FabricateParams::default();
-        fabricate(&mesh, None, (&UnfoldParams::default(), &choice, sheet), &source, &Silent)
-            .expect("pieces on sheets")
+        let unfold = UnfoldParams::default();
+        let settings = FabricateSettings { unfold: &unfold, choice: &choice, sheet };
+        fabricate(&mesh, None, &settings, &source, &Silent).expect("pieces on sheets")
     };
     let none = made(&SheetParams { sheet: SheetSize::None, ..SheetParams::default() });
     let bare = smallest_box(&none.net.pieces[0].outline);

@@ -4,7 +4,7 @@ use std::io;
 use std::path::PathBuf;
 
 use crate::check::CheckError;
-use crate::code::codes;
+use crate::code::{Coded, codes};
 use crate::gallery::GalleryError;
 use crate::io::IoError;
 use crate::io::artwork::ArtError;
@@ -120,6 +120,22 @@ impl CliError {
             Self::Stdout(error) => error.kind() == io::ErrorKind::BrokenPipe,
             Self::Io(error) => error.is_broken_pipe(),
             _ => false,
+        }
+    }
+}
+
+impl CliError {
+    /// The options that a message of the library speaks of in its own words; a recipe has none.
+    pub(super) fn options(&self) -> Option<&'static str> {
+        if matches!(self, Self::RecipeStep { .. } | Self::Recipe { .. } | Self::Gallery { .. }) {
+            return None;
+        }
+        match self.code().to_string().as_str() {
+            "E236" => Some("--weld 0"),
+            "E427" => Some("--effort 50, --seed 2, --pieces auto"),
+            "E428" => Some("--pieces auto"),
+            "E604" => Some("--edges 0-10:butt"),
+            _ => None,
         }
     }
 }

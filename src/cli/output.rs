@@ -159,5 +159,7 @@ pub(super) fn say(line: &str) {
 
 /// Prints an error with its code.
 pub(super) fn complain(error: &CliError) {
-    say(&format!("kerfold: {error} ({})", error.code()));
+    let options =
+        error.options().map(|options| format!("; options: {options}")).unwrap_or_default();
+    say(&format!("kerfold: {error}{options} ({})", error.code()));
 }

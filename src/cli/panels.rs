@@ -12,7 +12,9 @@ use super::unfold::summary_json;
 use super::{Console, Outcome};
 use crate::code::Coded;
 use crate::io::panels_json::finding;
-use crate::make::{MakeError, PanelFiles, Panelled, panel_model, panel_outputs, with_material};
+use crate::make::{
+    MakeError, PanelFiles, PanelSettings, Panelled, panel_model, panel_outputs, with_material,
+};
 use crate::panel::{PanelFinding, PanelParams, PanelRequirement};
 use crate::sheet::SheetParams;
 use crate::unfold::MeshSource;
@@ -44,8 +46,8 @@ pub(super) fn run(args: &PanelsArgs, console: &Console) -> Result<Outcome, CliEr
     let sheet = with_material(&args.sheet, Path::new("")).map_err(MakeError::from)?;
     let progress = Terminal::new(console.quiet);
     let source = MeshSource { scale: read.scale, split_vertices: &read.splits };
-    let panelled =
-        panel_model(&read.mesh, (&args.panels, &args.files, &sheet), &source, &progress)?;
+    let settings = PanelSettings { panels: &args.panels, files: &args.files, sheet: &sheet };
+    let panelled = panel_model(&read.mesh, &settings, &source, &progress)?;
     let command = command_line();
     let written = Console::write_folder(&args.output, panel_outputs(&panelled, &sheet, &command)?)?;
     let notes: Vec<String> =

@@ -10,8 +10,8 @@ use super::output::{command_line, model_text, short};
 use super::terminal::Terminal;
 use super::{Console, Outcome};
 use crate::make::{
-    FabricateParams, Fabrication, MakeError, ShowParams, fabricate, fabrication_outputs,
-    show_outputs, with_material,
+    FabricateParams, FabricateSettings, Fabrication, MakeError, ShowParams, fabricate,
+    fabrication_outputs, show_outputs, with_material,
 };
 use crate::picture::RenderParams;
 use crate::progress::Progress;
@@ -42,8 +42,8 @@ pub(super) fn run(args: &UnfoldArgs, console: &Console) -> Result<Outcome, CliEr
     let sheet = with_material(&args.sheet, Path::new("")).map_err(MakeError::from)?;
     let progress = Terminal::new(console.quiet);
     let source = MeshSource { scale: read.scale, split_vertices: &read.splits };
-    let fabrication =
-        fabricate(&read.mesh, None, (&args.unfold, &args.choice, &sheet), &source, &progress)?;
+    let settings = FabricateSettings { unfold: &args.unfold, choice: &args.choice, sheet: &sheet };
+    let fabrication = fabricate(&read.mesh, None, &settings, &source, &progress)?;
     let command = command_line();
     let mut outputs = fabrication_outputs(&fabrication, &sheet, &command)?;
     let show = args.show.from_here();

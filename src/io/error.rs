@@ -5,7 +5,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use crate::code::codes;
-use crate::mesh::BuildError;
+use crate::mesh::{BuildError, FileFault};
 
 /// Where in a file something is. Shown as `spot.obj:17`, or as `spot.stl` when the file has no
 /// lines.
@@ -200,6 +200,15 @@ pub enum IoError {
         /// The vertex, counted from 0 among the vertices that are written.
         vertex: usize,
     },
+    /// A mesh that no file of polygons can hold.
+    #[error(
+        "this mesh would not be read again: {fault}; take another step, or other numbers, that \
+        leave a mesh of simple polygons"
+    )]
+    NotForFiles {
+        /// What is wrong with it, in numbers of the mesh in memory.
+        fault: FileFault,
+    },
     /// A coordinate does not fit the single precision of glTF.
     #[error("{name} is too far out for GLB, which holds numbers up to 3e38; write OBJ or PLY")]
     TooFarForGlb {
@@ -227,6 +236,7 @@ codes!(error IoError {
     Unwritable = 116,
     TooFarForStl = 117,
     TooFarForGlb = 118,
+    NotForFiles = 119,
 } through {
     Content.fault,
     Mesh.fault,

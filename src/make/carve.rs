@@ -190,7 +190,7 @@ fn carve(
     if params.rounds == 0 {
         return Ok(uncarved(notes));
     }
-    let Some(select) = Selection::of_ids(round.iter().map(|e| e.index() as u32)) else {
+    let Some(select) = Selection::of_edges(round.iter().copied()) else {
         notes.push(
             "no fold is cut: none has two convex ends, where a plane could shave it off".to_owned(),
         );

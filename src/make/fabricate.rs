@@ -71,6 +71,17 @@ pub struct Fabrication {
     pub sources: Vec<order_json::OrderSource>,
 }
 
+/// What a fabrication is asked for.
+#[derive(Debug, Clone, Copy)]
+pub struct FabricateSettings<'a> {
+    /// How the mesh is unfolded.
+    pub unfold: &'a UnfoldParams,
+    /// Which seams are taken.
+    pub choice: &'a FabricateParams,
+    /// How the pieces lie on sheets, and what is drawn on them.
+    pub sheet: &'a SheetParams,
+}
+
 /// Unfolds a mesh, in millimetres, and lays the pieces out. Pieces too large for the sheet are
 /// opened at the fold that divides their area best until they fit.
 ///
@@ -80,10 +91,11 @@ pub struct Fabrication {
 pub fn fabricate(
     mesh: &Mesh,
     made: Option<&NewElements>,
-    (params, choice, sheet): (&UnfoldParams, &FabricateParams, &SheetParams),
+    settings: &FabricateSettings<'_>,
     source: &MeshSource<'_>,
     progress: &dyn Progress,
 ) -> Result<Fabrication, MakeError> {
+    let FabricateSettings { unfold: params, choice, sheet } = *settings;
     let context = Context { mesh, made, progress };
     let keep = selected(&context, choice.keep.as_ref())?;
     let (mut seams, words) = choose_seams(&context, source, params, choice)?;

@@ -23,7 +23,7 @@ pub enum MaterialError {
         advice: String,
     },
     /// A file of materials was named, but no material.
-    #[error("{}: name the material of this file with --material", path.display())]
+    #[error("{}: name the material of this file that is to be taken", path.display())]
     NoName {
         /// The file.
         path: PathBuf,
@@ -146,7 +146,7 @@ mod tests {
             with_material(&params, Path::new(""))
                 .expect_err("no name")
                 .to_string()
-                .contains("--material")
+                .contains("that is to be taken")
         );
         let own = "[felt]\ntitle = \"Felt\"\nthickness = \"3mm\"\nkerf = \"0.3mm\"\nweb = \"3mm\"\n\
                    speed = { cut = 30, score = 50, engrave = 100, travel = 300 }\ncolours = { cut-outer = \"#00FFFF\" }\n";

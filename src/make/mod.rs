@@ -24,12 +24,14 @@ mod show;
 pub use carve::{CarvedDform, carve_dform};
 pub use dform::{DformParams, MatchingChoice, MatchingChoiceError};
 pub use error::MakeError;
-pub use fabricate::{FabricateParams, Fabrication, fabricate};
+pub use fabricate::{FabricateParams, FabricateSettings, Fabrication, fabricate};
 pub use materials::{MaterialError, material, with_material};
 pub use nest::{NestError, NestStep, nest_files};
 pub use operate::operate;
 pub use outputs::{Output, fabrication_outputs, sheet_picture};
-pub use panels::{PanelFiles, PanelOptionError, Panelled, SolidFile, panel_model, panel_outputs};
+pub use panels::{
+    PanelFiles, PanelOptionError, PanelSettings, Panelled, SolidFile, panel_model, panel_outputs,
+};
 pub use planes::{PlanesStep, solid_of_planes};
 pub use report_pictures::report_pictures;
 pub use seam_choice::SeamChoice;

@@ -105,6 +105,17 @@ codes!(error PanelOptionError {
     Unused = 743,
 });
 
+/// What a job of panels is asked for.
+#[derive(Debug, Clone, Copy)]
+pub struct PanelSettings<'a> {
+    /// How the plates are made.
+    pub panels: &'a PanelParams,
+    /// Which 3D files are written.
+    pub files: &'a PanelFiles,
+    /// How the plates lie on sheets, and what is drawn on them.
+    pub sheet: &'a SheetParams,
+}
+
 /// Makes the plates of a mesh in millimetres, lists them and lays them out on sheets. The
 /// thickness, the width of fingers and the sizes of holes are those of the sheet's parameters;
 /// without a thickness that of the material is taken.
@@ -115,10 +126,11 @@ codes!(error PanelOptionError {
 /// hold.
 pub fn panel_model(
     mesh: &Mesh,
-    (params, files, sheet): (&PanelParams, &PanelFiles, &SheetParams),
+    settings: &PanelSettings<'_>,
     source: &MeshSource<'_>,
     progress: &dyn Progress,
 ) -> Result<Panelled, MakeError> {
+    let PanelSettings { panels: params, files, sheet } = *settings;
     let (thickness, hardware) = hardware(params, sheet)?;
     let density = params.density.or_else(|| sheet.made_of.as_ref()?.density);
     let params = &PanelParams { density, ..params.clone() };

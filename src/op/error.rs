@@ -2,7 +2,7 @@
 
 use crate::code::codes;
 use crate::geom::hull::{HalfSpaceError, HullError};
-use crate::mesh::{BuildError, EdgeId, FaceId, VertexId};
+use crate::mesh::{BuildError, EdgeId, FaceId, FileFault, VertexId};
 use crate::select::SelectError;
 
 /// Why an operator refused; no mesh was made.
@@ -255,6 +255,43 @@ pub enum OpError {
         /// Why not, and what to do.
         reason: &'static str,
     },
+    /// The result would not fit the memory of the machine, or no mesh could number it.
+    #[error(
+        "{asked} {what} would make about {edges:.3e} edges, which take {} of memory, and {} may be \
+        taken here; {}",
+        memory_size(*bytes), memory_size(*budget), most_that_fit(*most, what)
+    )]
+    DoesNotFit {
+        /// What makes the result large: rounds, segments.
+        what: &'static str,
+        /// How many were asked for.
+        asked: u32,
+        /// The most that fit.
+        most: u32,
+        /// How many edges there would be.
+        edges: f64,
+        /// What they would take, in bytes.
+        bytes: f64,
+        /// What they may take, in bytes.
+        budget: f64,
+    },
+    /// The result is no mesh of polygons that a file could hold.
+    #[error("the result is no mesh of simple polygons: {fault}; {advice}")]
+    NotSimple {
+        /// What is wrong with it.
+        fault: FileFault,
+        /// What to do.
+        advice: &'static str,
+    },
+    /// A local cut takes away what is around a cavity, but does not reach the cavity itself.
+    #[error(
+        "the cuts run into a cavity that they do not reach, at its vertex {vertex}; let them reach \
+        everything (a global scope), or cut less deep"
+    )]
+    CavityLaidOpen {
+        /// A vertex of the cavity, of the mesh before the cuts.
+        vertex: VertexId,
+    },
     /// The user asked to stop.
     #[error("stopped before the end; nothing was written")]
     Cancelled,
@@ -290,6 +327,9 @@ codes!(error OpError {
     NoSuchElement = 327,
     NoHandle = 328,
     Cancelled = 329,
+    DoesNotFit = 330,
+    NotSimple = 331,
+    CavityLaidOpen = 332,
 } through {
     Select.0,
     NoHull.reason,
@@ -301,6 +341,24 @@ fn first_few(elements: &[usize]) -> String {
     let shown: Vec<String> = elements.iter().take(8).map(usize::to_string).collect();
     let more = elements.len().saturating_sub(shown.len());
     if more == 0 { shown.join(", ") } else { format!("{} and {more} more", shown.join(", ")) }
+}
+
+/// An amount of memory in words.
+fn memory_size(bytes: f64) -> String {
+    if bytes.is_infinite() {
+        "more than can be counted".to_owned()
+    } else if bytes < 1e9 {
+        format!("{:.0} MB", bytes / 1e6)
+    } else {
+        format!("{:.1} GB", bytes / 1e9)
+    }
+}
+
+fn most_that_fit(most: u32, what: &str) -> String {
+    match most {
+        0 => "not even one fits; make the model simpler".to_owned(),
+        most => format!("at most {most} {what} fit"),
+    }
 }
 
 fn ordinal(n: usize) -> String {

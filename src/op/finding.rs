@@ -16,6 +16,8 @@ pub enum OpFinding {
     HandleCrosses,
     /// [`super::planarize`] made sides of faces cross.
     FacesCross,
+    /// [`super::planarize`] made corners of faces too sharp for any material.
+    NeedleCorners,
 }
 
 codes!(finding OpFinding {
@@ -24,4 +26,5 @@ codes!(finding OpFinding {
     SpongeCrosses = 503,
     HandleCrosses = 504,
     FacesCross = 505,
+    NeedleCorners = 506,
 });

@@ -1,5 +1,6 @@
 //! Modelling operators, mesh in, mesh out; one operator, one file.
 
+mod cavity;
 mod cut;
 mod error;
 mod finding;
@@ -12,6 +13,8 @@ mod report;
 mod resolve;
 mod rind;
 mod sierpinski;
+mod simple;
+mod size;
 mod slice;
 mod subdivide;
 mod truncate;
@@ -30,17 +33,18 @@ pub use hull::{
     Axis, HullParams, HullPart, HullReport, HullStep, HullStepChoice, HullStepList, halfspaces,
     hull,
 };
-pub use menger::{MengerParams, MengerReport, Thickness, menger};
+pub use menger::{MengerParams, MengerReport, RoundCrossing, Thickness, menger};
 pub use operate::{Operate, OperatorOutput};
-pub use planarize::{PlanarizeParams, PlanarizeReport, RimRule, planarize};
-pub use report::CutReport;
+pub use planarize::{Needle, PlanarizeParams, PlanarizeReport, RimRule, planarize};
+pub use report::{CutReport, ShrunkOffset};
 pub use resolve::{ResolveParams, ResolveReport, resolve};
 pub use rind::{GroupThickness, RindParams, RindReport, ShellSource, rind};
 pub use sierpinski::{
     SierpinskiParams, SierpinskiReport, VertexKind, sierpinski, sierpinski_preview, vertex_kind,
 };
+pub use simple::Mended;
 pub use slice::{Keep, SliceParams, slice, slice_both};
-pub use subdivide::{Scheme, SubdivideParams, subdivide};
+pub use subdivide::{Scheme, SubdivideParams, SubdivideReport, subdivide};
 pub use truncate::{Disjoint, OpContext, Scope};
 pub use truncate_edge::{TruncateEdgeParams, truncate_edges};
 pub use truncate_face::{TruncateFaceParams, truncate_faces};

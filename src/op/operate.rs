@@ -101,8 +101,8 @@ impl Operate for PlanarizeParams {
 
 impl Operate for SubdivideParams {
     fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
-        let mesh = subdivide(mesh, self, context)?;
-        Ok(OperatorOutput { mesh, made: None, notes: Vec::new(), is_clean: true })
+        let (mesh, report) = subdivide(mesh, self, context)?;
+        Ok(OperatorOutput { mesh, made: None, notes: report.notes(), is_clean: true })
     }
 }
 
@@ -119,12 +119,12 @@ impl Operate for SierpinskiParams {
 
 impl Operate for RindParams {
     fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
-        let (mesh, made, report) = rind(mesh, self, context)?;
+        let (mesh, report) = rind(mesh, self, context)?;
         Ok(OperatorOutput {
             mesh,
-            made: Some(made),
             notes: report.notes(),
-            is_clean: report.crossing.is_empty(),
+            is_clean: report.crossing.is_empty() && report.pairs.is_empty(),
+            made: Some(report.made),
         })
     }
 }
@@ -136,19 +136,19 @@ impl Operate for MengerParams {
             mesh,
             made: None,
             notes: report.notes(),
-            is_clean: report.crossing.is_empty(),
+            is_clean: report.crossing.is_empty() && report.pairs.is_empty(),
         })
     }
 }
 
 impl Operate for HandleParams {
     fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
-        let (mesh, made, report) = handle(mesh, self, context)?;
+        let (mesh, report) = handle(mesh, self, context)?;
         Ok(OperatorOutput {
             mesh,
-            made: Some(made),
             notes: report.notes(),
-            is_clean: report.crossing.is_empty(),
+            is_clean: report.crossing.is_empty() && report.pairs.is_empty(),
+            made: Some(report.made),
         })
     }
 

@@ -1,6 +1,8 @@
 //! What a chain of cuts made and removed.
 
 use super::cut::{Cutter, Lineage};
+use crate::code::Code;
+use crate::measure::{CrossingKind, CrossingPair};
 use crate::mesh::{FaceId, Mesh, VertexId};
 use crate::select::NewElements;
 
@@ -8,6 +10,41 @@ use crate::select::NewElements;
 pub(super) fn first_few<T: ToString>(list: &[T], most: usize) -> String {
     let shown: Vec<String> = list.iter().take(most).map(T::to_string).collect();
     shown.join(", ") + if list.len() > most { ", …" } else { "" }
+}
+
+/// An offset that was made smaller so that cuts are disjoint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ShrunkOffset {
+    /// The element, by its number in the mesh of its round.
+    pub element: usize,
+    /// The offset that was used.
+    pub offset: f64,
+}
+
+/// As many pairs of faces as a report may hold; more say nothing new.
+pub(super) const MOST_PAIRS: usize = 1000;
+
+/// A note on faces that go through each other; `None` without any.
+pub(super) fn crossing_note(pairs: &[CrossingPair], code: Code) -> Option<String> {
+    let named: Vec<String> = pairs
+        .iter()
+        .map(|pair| {
+            let word = match pair.kind {
+                CrossingKind::Through => "with",
+                CrossingKind::Overlap => "on",
+            };
+            format!("{} {word} {}", pair.first, pair.second)
+        })
+        .collect();
+    let many = if pairs.len() < MOST_PAIRS { "" } else { "at least " };
+    (!pairs.is_empty()).then(|| {
+        format!(
+            "faces of the result go through each other or cover each other, {many}{} pairs: {} \
+            ({code})",
+            pairs.len(),
+            first_few(&named, 8)
+        )
+    })
 }
 
 /// What a chain of cuts did. Ids of things that were made are those of the resulting mesh.
@@ -25,9 +62,10 @@ pub struct CutReport {
     /// their round: it removed a vertex that was not its own, or something that another cut had
     /// made.
     pub overcut: Vec<usize>,
-    /// The elements whose offset was made smaller so that the cuts are disjoint, by their number in
-    /// the mesh of their round, and the offset that was used.
-    pub shrunk: Vec<(usize, f64)>,
+    /// The elements whose offset was made smaller so that the cuts are disjoint.
+    pub shrunk: Vec<ShrunkOffset>,
+    /// How many cavities went with the shell that local cuts took from around them.
+    pub cavities_gone: usize,
     /// What was made, for the selections `made` and `strip` of the next step.
     pub made: NewElements,
     /// Vertices of the result where other than three edges meet.
@@ -65,7 +103,7 @@ impl CutReport {
                 first_few(&self.overcut, 12)
             ));
         }
-        if let Some(least) = self.shrunk.iter().map(|s| s.1).min_by(f64::total_cmp) {
+        if let Some(least) = self.shrunk.iter().map(|s| s.offset).min_by(f64::total_cmp) {
             let count = self.shrunk.len();
             notes.push(format!(
                 "{count} offsets were made smaller to keep the cuts apart, the least to {least:.4}"
@@ -76,6 +114,9 @@ impl CutReport {
                 "{} vertices have other than three edges",
                 self.not_three_valent.len()
             ));
+        }
+        if self.cavities_gone > 0 {
+            notes.push(format!("{} cavities went with the shell around them", self.cavities_gone));
         }
         if self.components > 1 {
             notes.push(format!("the model now has {} parts", self.components));
@@ -127,12 +168,7 @@ impl RoundMarks {
 
 /// Closes the gaps in the mesh and fills in what only the result can tell.
 pub(super) fn finish(mut mesh: Mesh, mut report: CutReport) -> (Mesh, CutReport) {
-    let map = mesh.compact();
-    let made = &mut report.made;
-    made.vertices = made.vertices.iter().filter_map(|&v| map.vertex(v)).collect();
-    made.edges = made.edges.iter().filter_map(|&e| map.edge(e)).collect();
-    made.strip = made.strip.iter().filter_map(|&e| map.edge(e)).collect();
-    made.faces = made.faces.iter().filter_map(|&f| map.face(f)).collect();
+    report.made.compact(&mut mesh);
     report.not_three_valent = mesh.vertices().filter(|&v| mesh.valence(v) != 3).collect();
     report.components = mesh.components().len();
     (mesh, report)

@@ -325,7 +325,7 @@ fn disjoint_cuts_shrink_only_what_meets() {
             );
             assert!(report.overcut.is_empty() && report.not_three_valent.is_empty());
             assert_eq!(report.shrunk.is_empty(), offset < 0.5);
-            assert!(report.shrunk.iter().all(|&(_, t)| t < 0.5 && t > 0.3));
+            assert!(report.shrunk.iter().all(|s| s.offset < 0.5 && s.offset > 0.3));
         }
     }
     // One short edge above and below: only the vertices at its ends give way.
@@ -334,7 +334,7 @@ fn disjoint_cuts_shrink_only_what_meets() {
         TruncateVertexParams { disjoint: Disjoint::Yes, ..TruncateVertexParams::new(all(), 0.3) };
     let (cut, report) = truncate_vertices(&mesh, &params, &context).expect("a cut");
     assert_eq!(counts(&cut), (30, 45, 17));
-    let shrunk: Vec<usize> = report.shrunk.iter().map(|s| s.0).collect();
+    let shrunk: Vec<usize> = report.shrunk.iter().map(|s| s.element).collect();
     assert_eq!(shrunk, [3, 4, 8, 9]);
 }
 

@@ -6,8 +6,10 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 
 use super::OpError;
+use super::cavity::Cavities;
 use super::cut::{Cutter, Lineage, Reach, SlicingPlane};
-use super::report::{CutReport, RoundMarks, finish};
+use super::report::{CutReport, RoundMarks, ShrunkOffset, finish};
+use super::size::check_size;
 use crate::geom::Plane;
 use crate::mesh::{Mesh, VertexId};
 use crate::progress::{Progress, Silent};
@@ -105,6 +107,23 @@ pub(super) struct Settings {
     pub scope: Scope,
     pub repeat: u32,
     pub disjoint: Disjoint,
+    pub growth: Growth,
+}
+
+/// How a mesh grows with the rounds.
+pub(super) struct Growth {
+    /// The edges that the first round adds.
+    pub first: usize,
+    /// How many elements each element leaves for the next round.
+    pub multiplies: f64,
+}
+
+impl Growth {
+    /// The edges after so many rounds.
+    fn edges(&self, mesh: &Mesh, rounds: u32) -> f64 {
+        let added = |round: u32| self.first as f64 * self.multiplies.powi(round as i32);
+        mesh.edge_count() as f64 + (0..rounds).map(added).sum::<f64>()
+    }
 }
 
 /// The offset of each element of a round.
@@ -116,6 +135,11 @@ pub(super) struct Offsets {
 impl Offsets {
     pub(super) fn of(&self, element: usize) -> f64 {
         self.shrunk.get(&element).copied().unwrap_or(self.usual)
+    }
+
+    /// The offsets that were made smaller, by element.
+    fn used(self) -> impl Iterator<Item = ShrunkOffset> {
+        self.shrunk.into_iter().map(|(element, offset)| ShrunkOffset { element, offset })
     }
 
     fn shrink(&mut self, elements: &[usize]) {
@@ -149,6 +173,8 @@ pub(super) fn truncate(
     choose: impl Fn(&Cutter, Option<&NewElements>, &Offsets) -> Result<Vec<Element>, OpError>,
 ) -> Result<(Mesh, CutReport), OpError> {
     check_ranges(settings.offset, settings.repeat)?;
+    check_size("rounds", settings.repeat, |rounds| settings.growth.edges(mesh, rounds))?;
+    let cavities = (settings.scope == Scope::Local).then(|| Cavities::of(mesh));
     let mut cutter = Cutter::new(mesh.clone());
     let mut report =
         CutReport { is_beyond_far_ends: settings.offset > 1.0, ..CutReport::default() };
@@ -177,11 +203,14 @@ pub(super) fn truncate(
         report.missed += done.missed;
         report.lids += done.lids;
         report.overcut.extend(done.overcut);
-        report.shrunk.extend(offsets.shrunk);
+        report.shrunk.extend(offsets.used());
         report.made = done.marks.collect(&cutter);
     }
     report.overcut.sort_unstable();
     report.overcut.dedup();
+    if let Some(cavities) = cavities {
+        report.cavities_gone = cavities.settle(&mut cutter)?;
+    }
     Ok(finish(cutter.into_mesh(), report))
 }
 

@@ -9,7 +9,7 @@
 use serde::Deserialize;
 
 use super::cut::Cutter;
-use super::truncate::{Element, Offsets, Settings, edge_point, truncate};
+use super::truncate::{Element, Growth, Offsets, Settings, edge_point, truncate};
 use super::truncate_vertex::{default_offset, default_repeat};
 use super::{CutReport, Disjoint, OpContext, OpError, Scope};
 use crate::geom::Plane;
@@ -80,7 +80,10 @@ pub fn truncate_edges(
     }
     let chosen = params.select.edges(&context.select(mesh))?;
     let TruncateEdgeParams { offset, scope, repeat, disjoint, .. } = *params;
-    let settings = Settings { offset, scope, repeat, disjoint };
+    // Each edge leaves the two long sides of its strip.
+    let first = chosen.iter().flat_map(|&e| mesh.edge_vertices(e)).map(|v| mesh.valence(v)).sum();
+    let growth = Growth { first, multiplies: 2.0 };
+    let settings = Settings { offset, scope, repeat, disjoint, growth };
     truncate(
         mesh,
         &settings,

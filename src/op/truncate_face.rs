@@ -8,7 +8,7 @@
 use serde::Deserialize;
 
 use super::cut::Cutter;
-use super::truncate::{Element, Offsets, Settings, edge_point, truncate};
+use super::truncate::{Element, Growth, Offsets, Settings, edge_point, truncate};
 use super::truncate_vertex::{default_offset, default_repeat};
 use super::{CutReport, Disjoint, OpContext, OpError, Scope};
 use crate::geom::Plane;
@@ -69,7 +69,10 @@ pub fn truncate_faces(
 ) -> Result<(Mesh, CutReport), OpError> {
     let chosen = params.select.faces(&context.select(mesh))?;
     let TruncateFaceParams { offset, scope, repeat, disjoint, .. } = *params;
-    let settings = Settings { offset, scope, repeat, disjoint };
+    // Each face leaves its cap.
+    let first = chosen.iter().map(|&f| mesh.sides(f)).sum();
+    let growth = Growth { first, multiplies: 1.0 };
+    let settings = Settings { offset, scope, repeat, disjoint, growth };
     truncate(
         mesh,
         &settings,

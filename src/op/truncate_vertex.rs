@@ -18,7 +18,7 @@
 use serde::Deserialize;
 
 use super::cut::Cutter;
-use super::truncate::{Element, Offsets, Settings, edge_point, truncate};
+use super::truncate::{Element, Growth, Offsets, Settings, edge_point, truncate};
 use super::{CutReport, Disjoint, OpContext, OpError, Scope};
 use crate::geom::Plane;
 use crate::mesh::{Mesh, VertexId};
@@ -87,7 +87,10 @@ pub fn truncate_vertices(
 ) -> Result<(Mesh, CutReport), OpError> {
     let chosen = params.select.vertices(&context.select(mesh))?;
     let TruncateVertexParams { offset, scope, repeat, disjoint, .. } = *params;
-    let settings = Settings { offset, scope, repeat, disjoint };
+    // Each vertex leaves one at each of its edges, three as a rule.
+    let first = chosen.iter().map(|&v| mesh.valence(v)).sum();
+    let growth = Growth { first, multiplies: 3.0 };
+    let settings = Settings { offset, scope, repeat, disjoint, growth };
     truncate(
         mesh,
         &settings,

@@ -40,7 +40,7 @@ pub enum PanelError {
     #[error(
         "the faces of edge {edge} lie on each other (dihedral angle {degrees:.3}°), so no plate of \
         any thickness fits between \
-         them; move a vertex, or use a butt joint (--edges 0-10:butt)"
+         them; move a vertex, or give the edge a butt joint (as `0-10:butt`)"
     )]
     KnifeEdge {
         /// The edge.

@@ -7,8 +7,9 @@ use super::{OperatorStep, Recipe, Step, StepError};
 use crate::check::{CheckParams, Report, check};
 use crate::io::{ReadMesh, read_mesh};
 use crate::make::{
-    DformParams, FabricateParams, Fabrication, MakeError, PanelFiles, Panelled, ShowParams,
-    carve_dform, fabricate, nest_files, operate, panel_model, solid_of_planes, with_material,
+    DformParams, FabricateParams, FabricateSettings, Fabrication, MakeError, PanelFiles,
+    PanelSettings, Panelled, ShowParams, carve_dform, fabricate, nest_files, operate, panel_model,
+    solid_of_planes, with_material,
 };
 use crate::mesh::{Mesh, SplitVertex};
 use crate::op::{HullParams, HullStep, OpContext, OpError, hull};
@@ -185,7 +186,7 @@ impl Job {
         self.notes.extend(carved.notes);
         self.mesh = Some(carved.mesh);
         let folds = FabricateParams {
-            folds: Selection::of_ids(carved.folds.iter().map(|e| e.index() as u32)),
+            folds: Selection::of_edges(carved.folds.iter().copied()),
             ..FabricateParams::default()
         };
         self.made = Some(carved.made);
@@ -201,7 +202,12 @@ impl Job {
         progress: &dyn Progress,
     ) -> Result<(), MakeError> {
         let source = MeshSource { scale: 1.0, split_vertices: &[] };
-        let panelled = panel_model(self.mesh()?, (params, files, sheet), &source, progress)?;
+        let panelled = panel_model(
+            self.mesh()?,
+            &PanelSettings { panels: params, files, sheet },
+            &source,
+            progress,
+        )?;
         self.notes.extend(panelled.notes());
         (self.panelled, self.fabrication) = (Some((panelled, sheet.clone())), None);
         Ok(())
@@ -221,7 +227,7 @@ impl Job {
         let fabrication = fabricate(
             self.mesh()?,
             self.made.as_ref(),
-            (unfold, &choice, sheet),
+            &FabricateSettings { unfold, choice: &choice, sheet },
             &source,
             progress,
         )?;

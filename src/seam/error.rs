@@ -26,8 +26,8 @@ pub enum SeamError {
     /// A vertex has another valence than 3.
     #[error(
         "vertex {vertex} has valence {valence}, and so {count} vertices in all have another \
-        valence than 3; cut them \
-         (`cut vertex --select '!valence=3'`) to make the mesh 3-valent"
+        valence than 3; cut the \
+        vertices that are `!valence=3` to make the mesh 3-valent"
     )]
     Valence {
         /// The lowest such vertex.

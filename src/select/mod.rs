@@ -60,6 +60,17 @@ pub struct NewElements {
     pub faces: Vec<FaceId>,
 }
 
+impl NewElements {
+    /// Closes the gaps in the ids of a mesh, and follows the ids to their new numbers.
+    pub(crate) fn compact(&mut self, mesh: &mut Mesh) {
+        let map = mesh.compact();
+        self.vertices = self.vertices.iter().filter_map(|&v| map.vertex(v)).collect();
+        self.edges = self.edges.iter().filter_map(|&e| map.edge(e)).collect();
+        self.strip = self.strip.iter().filter_map(|&e| map.edge(e)).collect();
+        self.faces = self.faces.iter().filter_map(|&f| map.face(f)).collect();
+    }
+}
+
 impl<'a> Context<'a> {
     /// A mesh on which no step was done yet.
     pub fn of(mesh: &'a Mesh) -> Self {
@@ -73,8 +84,23 @@ impl Selection {
         Self(Expr::Atom(Atom::All))
     }
 
-    /// The elements with these ids, given in any order. `None` when there are none.
-    pub fn of_ids(ids: impl IntoIterator<Item = u32>) -> Option<Self> {
+    /// These vertices, given in any order. `None` when there are none.
+    pub fn of_vertices(ids: impl IntoIterator<Item = VertexId>) -> Option<Self> {
+        Self::of_ids(ids.into_iter().map(|v| v.index() as u32))
+    }
+
+    /// These edges, given in any order. `None` when there are none.
+    pub fn of_edges(ids: impl IntoIterator<Item = EdgeId>) -> Option<Self> {
+        Self::of_ids(ids.into_iter().map(|e| e.index() as u32))
+    }
+
+    /// These faces, given in any order. `None` when there are none.
+    pub fn of_faces(ids: impl IntoIterator<Item = FaceId>) -> Option<Self> {
+        Self::of_ids(ids.into_iter().map(|f| f.index() as u32))
+    }
+
+    /// The elements with these ids, of whatever kind the operator asks for.
+    fn of_ids(ids: impl IntoIterator<Item = u32>) -> Option<Self> {
         let mut runs: Vec<(u32, u32)> = Vec::new();
         for id in ids {
             match runs.last_mut() {

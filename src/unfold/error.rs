@@ -59,8 +59,8 @@ pub enum UnfoldError {
     #[error(
         "no net of {asked} piece(s) without overlap was found, only one of {found} (components: \
         {components}); tried were \
-         {starts} first nets, {moves} moves of branches and {joins} joins of pieces; raise --effort, try another --seed, \
-         or take --pieces auto"
+         {starts} first nets, {moves} moves of branches and {joins} joins of pieces; raise the \
+         effort, try another seed, or let the number of pieces be automatic"
     )]
     MorePieces {
         /// Pieces asked for.
@@ -83,7 +83,7 @@ pub enum UnfoldError {
     #[error(
         "no two-piece seam lies flat without overlap: {overlapping} seams were laid out and \
         overlap, and what was learnt \
-         from them leaves no other ({proof}); take --pieces auto"
+         from them leaves no other ({proof}); let the number of pieces be automatic"
     )]
     NoFlatTwoPieces {
         /// Seams that were laid out.

@@ -69,12 +69,16 @@ pub fn write_mesh(path: &Path, mesh: &Mesh, options: &WriteOptions) -> Result<()
 /// rounds to single precision and cuts faces into triangles.
 ///
 /// # Errors
+/// [`IoError::NotForFiles`] for a mesh that would not be read again;
 /// [`IoError::TooFarForStl`] when a coordinate does not fit.
 pub fn mesh_bytes(
     format: MeshFormat,
     mesh: &Mesh,
     options: &WriteOptions,
 ) -> Result<Vec<u8>, IoError> {
+    if let Some(&fault) = mesh.file_faults().first() {
+        return Err(IoError::NotForFiles { fault });
+    }
     Ok(match format {
         MeshFormat::Obj => obj::write(mesh, options),
         MeshFormat::Ply => ply::write(mesh, options),

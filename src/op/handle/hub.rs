@@ -63,7 +63,7 @@ pub(super) fn hub(
     mesh: &Mesh,
     params: &HandleParams,
     context: &OpContext<'_>,
-) -> Result<(Mesh, NewElements, HandleReport), OpError> {
+) -> Result<(Mesh, HandleReport), OpError> {
     let refuse = |reason| OpError::NoHandle { from: params.from.face, to: params.to.face, reason };
     let corners: Vec<FaceCorner> =
         [params.from, params.to].into_iter().chain(params.also.iter().copied()).collect();
@@ -101,20 +101,21 @@ pub(super) fn hub(
         context.progress.report("joining faces", i, ends.len());
         let from = joined.corner(end.corner);
         let to = FaceCorner { face: port.index() as u32, vertex: None };
-        let tube =
+        let joined_by =
             Join { from, to, segments: params.segments, twist: params.twist.radians(), course };
-        let (next, new, told) = join(&made_mesh, &tube, context)?;
+        let (next, tube) = join(&made_mesh, &joined_by, context)?;
         made_mesh = next;
-        made.faces.extend(new.faces);
-        made.vertices.extend(new.vertices);
-        report.crossing.extend(told.crossing);
-        report.halved += told.halved;
+        made.faces.extend(tube.made.faces);
+        made.vertices.extend(tube.made.vertices);
+        report.crossing.extend(tube.crossing);
+        report.halved += tube.halved;
     }
     report.crossing.sort_unstable();
     report.crossing.dedup();
     made.faces.sort_unstable();
     made.vertices.sort_unstable();
-    Ok((made_mesh, made, report))
+    report.made = made;
+    Ok((made_mesh, report))
 }
 
 impl End {

@@ -33,10 +33,13 @@ mod tests;
 
 use glam::DVec3;
 
-use super::report::first_few;
+use super::report::{MOST_PAIRS, crossing_note, first_few};
+use super::simple::{Mended, keep_simple};
+use super::size::check_size;
 use super::{OpContext, OpError, OpFinding};
 use crate::code::Coded;
-use crate::mesh::{FaceId, HalfEdgeId, Mesh, VertexId};
+use crate::measure::{CrossingPair, crossings};
+use crate::mesh::{FaceId, FaceMap, HalfEdgeId, Mesh, VertexId};
 use crate::select::NewElements;
 
 pub use params::{FaceCorner, HandleAxis, HandleParams, Weights};
@@ -52,6 +55,8 @@ const MOST_SEGMENTS: u32 = 10_000;
 /// What a handle came out as.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct HandleReport {
+    /// What was made: the tube.
+    pub made: NewElements,
     /// How many sides of the face with fewer were halved.
     pub halved: usize,
     /// The mean angle by which the tube turns around its axis, in degrees.
@@ -62,6 +67,10 @@ pub struct HandleReport {
     /// Segments, counted from 1, whose two sections pass through each other; with a hub, of any of
     /// its tubes.
     pub crossing: Vec<usize>,
+    /// Faces that go through each other, one of them of the tube; a thousand pairs at most.
+    pub pairs: Vec<CrossingPair>,
+    /// What had to be mended so that files can hold the result.
+    pub mended: Mended,
 }
 
 impl HandleReport {
@@ -88,11 +97,13 @@ impl HandleReport {
                 OpFinding::HandleCrosses.code()
             ));
         }
+        notes.extend(crossing_note(&self.pairs, OpFinding::HandleCrosses.code()));
+        notes.extend(self.mended.notes());
         notes
     }
 }
 
-/// Makes a handle. Returns the mesh, what was made (the tube), and a report.
+/// Makes a handle.
 ///
 /// # Errors
 /// [`OpError::CountOutOfRange`] for the segments; [`OpError::NoSuchElement`]; [`OpError::NoArea`];
@@ -102,7 +113,7 @@ pub fn handle(
     mesh: &Mesh,
     params: &HandleParams,
     context: &OpContext<'_>,
-) -> Result<(Mesh, NewElements, HandleReport), OpError> {
+) -> Result<(Mesh, HandleReport), OpError> {
     if !(1..=MOST_SEGMENTS).contains(&params.segments) {
         return Err(OpError::CountOutOfRange {
             what: "segments",
@@ -123,8 +134,14 @@ pub fn handle(
         (None, Some(weights)) => Course::Weighed(weights.0.map(crate::units::Length::mm)),
         (None, None) => Course::Free { sign: 1.0 },
     };
+    let faces = 2 + params.also.len();
+    let sides = mesh.faces().map(|f| mesh.sides(f)).max().unwrap_or(0);
+    let ring = (2 * faces * sides) as f64;
+    let edges = |segments: u32| mesh.edge_count() as f64 + ring * f64::from(segments);
+    check_size("segments", params.segments, edges)?;
     if !params.also.is_empty() {
-        return hub::hub(mesh, params, context);
+        let (made_mesh, report) = hub::hub(mesh, params, context)?;
+        return finish(mesh, made_mesh, report);
     }
     let tube = Join {
         from: params.from,
@@ -133,7 +150,23 @@ pub fn handle(
         twist: params.twist.radians(),
         course,
     };
-    join(mesh, &tube, context)
+    let (made_mesh, report) = join(mesh, &tube, context)?;
+    finish(mesh, made_mesh, report)
+}
+
+/// Makes the result one that files can hold, and finds where the tube goes through something.
+fn finish(
+    before: &Mesh,
+    mut made_mesh: Mesh,
+    mut report: HandleReport,
+) -> Result<(Mesh, HandleReport), OpError> {
+    let advice = "take more segments, or other faces";
+    report.mended = keep_simple(before, &mut made_mesh, &mut report.made, advice)?;
+    let mut is_new = FaceMap::filled(made_mesh.face_slots(), false);
+    report.made.faces.iter().for_each(|&f| is_new[f] = true);
+    report.pairs = crossings(&made_mesh, MOST_PAIRS);
+    report.pairs.retain(|pair| is_new[pair.first] || is_new[pair.second]);
+    Ok((made_mesh, report))
 }
 
 /// Where the axis of a tube runs.
@@ -168,7 +201,7 @@ fn join(
     mesh: &Mesh,
     params: &Join<'_>,
     context: &OpContext<'_>,
-) -> Result<(Mesh, NewElements, HandleReport), OpError> {
+) -> Result<(Mesh, HandleReport), OpError> {
     if context.progress.is_cancelled() {
         return Err(OpError::Cancelled);
     }
@@ -220,8 +253,14 @@ fn join(
     };
     (report.twist_degrees, report.crossing) = (plan.twist.to_degrees(), plan.crossing);
     tube.shift_end(plan.shift);
-    let made = tube.build(&plan.sections);
-    Ok((tube.mesh, made, report))
+    if params.segments <= 2 && tube.returns_to_a_corner() {
+        return Err(refuse(
+            "they share a corner, to which a tube of two segments would lead out and back on the \
+            same line; use at least three segments",
+        ));
+    }
+    report.made = tube.build(&plan.sections);
+    Ok((tube.mesh, report))
 }
 
 /// The half-edge of a face at its wanted corner.
@@ -315,6 +354,12 @@ impl Tube {
         std::iter::successors(Some(start), step)
             .take(self.mesh.sides(self.mesh.face(start)))
             .collect()
+    }
+
+    /// Whether a corner of the tube's beginning is the corner of its end that it leads to.
+    fn returns_to_a_corner(&self) -> bool {
+        let origins = |end: usize| self.corners(end).into_iter().map(|h| self.mesh.origin(h));
+        origins(0).zip(origins(1)).any(|(from, to)| from == to)
     }
 
     fn loop_of(&self, end: usize) -> Vec<DVec3> {

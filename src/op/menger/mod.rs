@@ -32,15 +32,17 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Deserializer, de};
 
-use super::report::first_few;
+use super::report::{MOST_PAIRS, crossing_note, first_few};
+use super::simple::{Mended, keep_simple};
+use super::size::check_size;
 use super::{OpContext, OpError, OpFinding};
 use crate::code::Coded;
+use crate::measure::{CrossingPair, crossings};
 use crate::mesh::Mesh;
+use crate::select::NewElements;
 use crate::units::{Angle, Length, UnitError, parse_number};
 
-/// The most faces that may be made; more would not fit into the store with its edges.
-const MOST_FACES: usize = 1 << 27;
-/// The most rounds that may be asked for; the number of faces ends it much sooner.
+/// The most rounds that may be asked for; the size of the result ends it much sooner.
 const MOST_ROUNDS: u32 = 16;
 
 /// How to make a Menger sponge. One definition for the library, the command line and the recipe.
@@ -141,18 +143,31 @@ impl Default for MengerParams {
     }
 }
 
+/// A round in which frames or tunnels do not fit.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RoundCrossing {
+    /// The round, counted from 1.
+    pub round: u32,
+    /// The faces whose frame or tunnel does not fit, in ids of the mesh before the round.
+    pub faces: Vec<usize>,
+}
+
 /// What the rounds met with.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct MengerReport {
-    /// For each round that had any: its number, and faces whose frame or tunnel does not fit, in
-    /// ids of the mesh before that round.
-    pub crossing: Vec<(u32, Vec<usize>)>,
+    /// The rounds in which frames or tunnels do not fit.
+    pub crossing: Vec<RoundCrossing>,
+    /// Faces of the result that go through each other, as tunnels do that meet in a thin wall; a
+    /// thousand pairs at most.
+    pub pairs: Vec<CrossingPair>,
+    /// What had to be mended so that files can hold the result.
+    pub mended: Mended,
 }
 
 impl MengerReport {
     /// The report in words.
     pub fn notes(&self) -> Vec<String> {
-        let note = |(round, faces): &(u32, Vec<usize>)| {
+        let note = |RoundCrossing { round, faces }: &RoundCrossing| {
             format!(
                 "round {round}: the thickness is too large at {} faces ({}), so the sponge crosses \
                 itself there; take less ({})",
@@ -161,7 +176,10 @@ impl MengerReport {
                 OpFinding::SpongeCrosses.code()
             )
         };
-        self.crossing.iter().map(note).collect()
+        let mut notes = self.mended.notes();
+        notes.extend(self.crossing.iter().map(note));
+        notes.extend(crossing_note(&self.pairs, OpFinding::SpongeCrosses.code()));
+        notes
     }
 }
 
@@ -170,7 +188,7 @@ impl MengerReport {
 /// # Errors
 /// [`OpError::RepeatOutOfRange`]; [`OpError::ShareOutOfRange`]; [`OpError::DepthTooSmall`];
 /// [`OpError::AngleOutOfRange`]; [`OpError::NotClosed`]; [`OpError::NoArea`];
-/// [`OpError::TooManyFaces`] before a round that would not fit; [`OpError::Cancelled`]; with
+/// [`OpError::DoesNotFit`] before the first round; [`OpError::Cancelled`]; with
 /// `exact` [`OpError::NotABox`], and [`OpError::Exclude`] for another thickness than 1/3.
 pub fn menger(
     mesh: &Mesh,
@@ -178,6 +196,8 @@ pub fn menger(
     context: &OpContext<'_>,
 ) -> Result<(Mesh, MengerReport), OpError> {
     check(mesh, params)?;
+    let edges = mesh.edge_count() as f64;
+    check_size("rounds", params.rounds, |rounds| growth(params.exact, edges, rounds))?;
     if params.exact {
         return Ok((exact::exact(mesh, params.rounds, context)?, MengerReport::default()));
     }
@@ -189,17 +209,24 @@ pub fn menger(
         }
         context.progress.report("digging tunnels", round as usize - 1, params.rounds as usize);
         let coarse = fine.as_ref().unwrap_or(mesh);
-        let faces = coarse.edge_count().saturating_mul(8) + coarse.vertex_count();
-        if faces > MOST_FACES {
-            return Err(OpError::TooManyFaces { round, faces, limit: MOST_FACES });
-        }
         let (next, crossing) = round::round(coarse, params.thickness, params.collapse.radians())?;
         if !crossing.is_empty() {
-            report.crossing.push((round, crossing));
+            report.crossing.push(RoundCrossing { round, faces: crossing });
         }
         fine = Some(next);
     }
-    Ok((fine.expect("there is at least one round"), report))
+    let mut sponge = fine.expect("there is at least one round");
+    let advice = "take another thickness, or other faces that meet at a right angle";
+    report.mended = keep_simple(mesh, &mut sponge, &mut NewElements::default(), advice)?;
+    report.pairs = crossings(&sponge, MOST_PAIRS);
+    Ok((sponge, report))
+}
+
+/// The edges after so many rounds: 15 for each one and 3 more where it is concave, or those of the
+/// smaller copies.
+fn growth(is_exact: bool, edges: f64, rounds: u32) -> f64 {
+    let factor: f64 = if is_exact { 20.0 } else { 15.0 };
+    edges * factor.powi(rounds as i32)
 }
 
 fn check(mesh: &Mesh, params: &MengerParams) -> Result<(), OpError> {

@@ -136,7 +136,7 @@ fn what_does_not_fit_is_told_or_refused() {
     let tetrahedron = shape::tetrahedron(1.0);
     let (_, report) = menger(&tetrahedron, &share(0.3, 1), &OpContext::default())
         .expect("a sponge that crosses itself");
-    assert_eq!(report.crossing, [(1, vec![0, 1, 2, 3])]);
+    assert_eq!(report.crossing, [RoundCrossing { round: 1, faces: vec![0, 1, 2, 3] }]);
     assert!(report.notes()[0].contains("too large"));
     let refuse = |mesh: &Mesh, p: MengerParams| {
         menger(mesh, &p, &OpContext::default()).expect_err("refused")
@@ -168,5 +168,5 @@ fn self_loops_have_no_frame_of_their_own() {
     assert_eq!((genus(&sponge), report.crossing.len()), (41, 0));
     let (_, report) = menger(&gasket, &share(0.25, 1), &OpContext::default())
         .expect("a sponge that crosses itself");
-    assert_eq!(report.crossing, [(1, (0..32).collect())]);
+    assert_eq!(report.crossing, [RoundCrossing { round: 1, faces: (0..32).collect() }]);
 }

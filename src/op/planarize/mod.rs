@@ -26,8 +26,8 @@ use super::{OpContext, OpError, OpFinding};
 use crate::check::{Limits, Profile, short};
 use crate::code::Coded;
 use crate::geom::{RoundingBound, fit_plane};
-use crate::measure::{planarity, self_contact};
-use crate::mesh::{FaceId, Mesh, VertexId};
+use crate::measure::{corner_angle, planarity, self_contact};
+use crate::mesh::{FaceId, HalfEdgeId, Mesh, VertexId};
 use crate::select::Selection;
 
 /// The most rounds that may be asked for.
@@ -130,7 +130,23 @@ pub struct PlanarizeReport {
     pub farthest: Option<VertexId>,
     /// Faces whose sides cross or touch each other now and did not before.
     pub crossing: Vec<FaceId>,
+    /// Corners that were no needles before and are now.
+    pub needles: Vec<Needle>,
 }
+
+/// A corner of a face so sharp that no plate can be made of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Needle {
+    /// The face.
+    pub face: FaceId,
+    /// The vertex at the corner.
+    pub vertex: VertexId,
+    /// Its angle, in degrees.
+    pub degrees: f64,
+}
+
+/// A corner with a smaller angle is a needle, in degrees; one as near to a full turn is a slit.
+const SHARPEST: f64 = 0.1;
 
 impl PlanarizeReport {
     /// What the user should know, in words.
@@ -161,12 +177,25 @@ impl PlanarizeReport {
                 OpFinding::FacesCross.code()
             ));
         }
+        if let Some(worst) = self.needles.first() {
+            notes.push(format!(
+                "{} corners became sharper than {SHARPEST}°, the first in face {} at vertex {} \
+                ({:.2e}°): no plate can be made of them; take a looser profile or more fairness, or \
+                merge the two ends of the short side there ({})",
+                self.needles.len(),
+                worst.face,
+                worst.vertex,
+                worst.degrees,
+                OpFinding::NeedleCorners.code()
+            ));
+        }
         notes
     }
 
-    /// Whether the profile is reached and no face crosses itself that did not before.
+    /// Whether the profile is reached, and no face crosses itself or has a needle that did not
+    /// before.
     pub fn is_clean(&self) -> bool {
-        self.is_planar && self.crossing.is_empty()
+        self.is_planar && self.crossing.is_empty() && self.needles.is_empty()
     }
 }
 
@@ -202,7 +231,23 @@ pub fn planarize(
     let crosses =
         |f: &FaceId| self_contact(&made, *f).is_some() && self_contact(mesh, *f).is_none();
     report.crossing = made.faces().filter(crosses).collect();
+    report.needles = needles(mesh, &made);
     Ok((made, report))
+}
+
+/// The needles of a mesh at corners that were none before, in the order of faces.
+fn needles(before: &Mesh, after: &Mesh) -> Vec<Needle> {
+    let angle = |mesh: &Mesh, h: HalfEdgeId| corner_angle(mesh, h).map(f64::to_degrees);
+    let is_needle = |degrees: f64| degrees < SHARPEST || degrees > 360.0 - SHARPEST;
+    let corners = after.faces().flat_map(|f| after.face_half_edges(f));
+    corners
+        .filter_map(|h| {
+            let degrees = angle(after, h).filter(|&degrees| is_needle(degrees))?;
+            let was_one = angle(before, h).is_none_or(is_needle);
+            let (face, vertex) = (after.face(h), after.origin(h));
+            (!was_one).then_some(Needle { face, vertex, degrees })
+        })
+        .collect()
 }
 
 fn check_numbers(params: &PlanarizeParams) -> Result<(), OpError> {
@@ -393,6 +438,7 @@ impl Work<'_> {
             },
             farthest: farthest.map(|i| self.start[i].0),
             crossing: Vec::new(),
+            needles: Vec::new(),
         };
         (self.mesh, report)
     }

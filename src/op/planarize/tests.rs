@@ -174,8 +174,9 @@ fn faces_that_the_movement_made_cross_are_named() {
     let (gasket, _) =
         sierpinski(&crate::shape::tetrahedron(200.0), &SierpinskiParams { rounds: 1 }, &context)
             .expect("a round on a tetrahedron");
-    let smoothed = subdivide(&gasket, &SubdivideParams::new(Scheme::CatmullClark, 2), &context)
-        .expect("two rounds");
+    let (smoothed, _) =
+        subdivide(&gasket, &SubdivideParams::new(Scheme::CatmullClark, 2), &context)
+            .expect("two rounds");
     let crosses = |mesh: &Mesh| -> Vec<FaceId> {
         mesh.faces().filter(|&f| self_contact(mesh, f).is_some()).collect()
     };

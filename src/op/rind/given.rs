@@ -27,7 +27,7 @@ pub(super) fn open(
     mesh: &Mesh,
     openings: &FaceMap<Opening>,
     thickness: f64,
-) -> Result<(Mesh, NewElements, RindReport), OpError> {
+) -> Result<(Mesh, RindReport), OpError> {
     let pairs = pairs(mesh, openings, thickness)?;
     let mut made_mesh = mesh.clone();
     let mut was_there = EdgeMap::filled(mesh.edge_slots(), false);
@@ -61,13 +61,14 @@ pub(super) fn open(
         + (made_mesh.face_count() + made_mesh.hole_count()) as i64;
     let genus = usize::try_from(components as i64 - euler / 2).unwrap_or_default();
     let report = RindReport {
+        made,
         openings: pairs.len(),
         walls_removed,
         components,
         genus,
         ..RindReport::default()
     };
-    Ok((made_mesh, made, report))
+    Ok((made_mesh, report))
 }
 
 fn pairs(mesh: &Mesh, openings: &FaceMap<Opening>, thickness: f64) -> Result<Vec<Pair>, OpError> {

@@ -35,12 +35,15 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Deserializer, de};
 
-use super::report::first_few;
+use super::report::{MOST_PAIRS, crossing_note, first_few};
+use super::simple::{Mended, keep_simple};
+use super::size::check_size;
 use super::{OpContext, OpError, OpFinding};
 use crate::check::short;
 use crate::code::Coded;
 use crate::geom::RoundingBound;
-use crate::mesh::{FaceId, FaceMap, Mesh};
+use crate::measure::{CrossingKind, CrossingPair, crossings};
+use crate::mesh::{FaceId, FaceMap, Mesh, VertexId};
 use crate::select::{NewElements, Selection};
 use crate::units::Length;
 
@@ -128,6 +131,8 @@ enum Opening {
 /// What a rind came out as.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct RindReport {
+    /// What was made: the second skin and the walls.
+    pub made: NewElements,
     /// How many faces were opened; rims count.
     pub openings: usize,
     /// How many walls without thickness were taken away.
@@ -142,6 +147,11 @@ pub struct RindReport {
     /// Faces, in ids of the mesh before, that the second skin comes nearer to than their thickness,
     /// or whose sides turn round.
     pub crossing: Vec<usize>,
+    /// Faces of the result that go through each other, as skins of different parts do; a thousand
+    /// pairs at most. The two sides of walls without thickness are not among them.
+    pub pairs: Vec<CrossingPair>,
+    /// What had to be mended so that files can hold the result.
+    pub mended: Mended,
 }
 
 impl RindReport {
@@ -167,11 +177,13 @@ impl RindReport {
                 OpFinding::ShellCrosses.code()
             ));
         }
+        notes.extend(crossing_note(&self.pairs, OpFinding::ShellCrosses.code()));
+        notes.extend(self.mended.notes());
         notes
     }
 }
 
-/// Makes a rind. Returns the mesh, what was made (the second skin and the walls), and a report.
+/// Makes a rind.
 ///
 /// # Errors
 /// [`OpError::Select`] for an empty selection; [`OpError::DepthTooSmall`] when a thickness is
@@ -183,7 +195,9 @@ pub fn rind(
     mesh: &Mesh,
     params: &RindParams,
     context: &OpContext<'_>,
-) -> Result<(Mesh, NewElements, RindReport), OpError> {
+) -> Result<(Mesh, RindReport), OpError> {
+    let skins = 3.0 * mesh.edge_count() as f64;
+    check_size("skins", 2, |skins_made| f64::from(skins_made) / 2.0 * skins)?;
     let thickness = thicknesses(mesh, params)?;
     let openings = openings(mesh, params, context)?;
     if mesh.faces().all(|f| openings[f] != Opening::None) {
@@ -196,7 +210,8 @@ pub fn rind(
                 second: "a thickness for a group",
             });
         }
-        return given::open(mesh, &openings, params.thickness.mm().abs());
+        let (opened, report) = given::open(mesh, &openings, params.thickness.mm().abs())?;
+        return finish(mesh, opened, report);
     }
     let skin = offset::offset(mesh, &thickness)?;
     if context.progress.is_cancelled() {
@@ -204,14 +219,35 @@ pub fn rind(
     }
     let shell = shell::Shell::plan(mesh, &openings);
     let (made_mesh, made) = shell.build(&skin, params.thickness.mm() < 0.0);
-    let mut report = shell.report(&made_mesh);
+    let mut report = RindReport { made, ..shell.report(&made_mesh) };
     // What is below the rounding of the construction is no residual.
     report.residual_mm = mesh.vertices().map(|v| skin.residuals[v]).fold(0.0, f64::max);
     if report.residual_mm <= bound(mesh) {
         report.residual_mm = 0.0;
     }
     report.crossing = crossing::crossing_faces(mesh, &openings, &thickness, &skin);
-    Ok((made_mesh, made, report))
+    finish(mesh, made_mesh, report)
+}
+
+/// Makes the result one that files can hold, and finds the faces that go through each other.
+fn finish(
+    before: &Mesh,
+    mut shell: Mesh,
+    mut report: RindReport,
+) -> Result<(Mesh, RindReport), OpError> {
+    let advice = "open faces that touch each other less, or peel instead of punching";
+    report.mended = keep_simple(before, &mut shell, &mut report.made, advice)?;
+    report.pairs = crossings(&shell, MOST_PAIRS);
+    report.pairs.retain(|pair| !is_thin_wall(&shell, pair));
+    Ok((shell, report))
+}
+
+/// Whether two faces are the sides of a wall without thickness, as punching leaves it between
+/// neighbours: quads between the same four vertices.
+fn is_thin_wall(shell: &Mesh, pair: &CrossingPair) -> bool {
+    let others: Vec<VertexId> = shell.face_vertices(pair.second).collect();
+    let common = shell.face_vertices(pair.first).filter(|v| others.contains(v)).count();
+    pair.kind == CrossingKind::Overlap && common >= 4
 }
 
 fn bound(mesh: &Mesh) -> f64 {

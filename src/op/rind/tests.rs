@@ -2,16 +2,16 @@ use super::*;
 use crate::measure::{genus, planarity, volume};
 use crate::shape;
 
-fn run(mesh: &Mesh, params: &RindParams) -> (Mesh, NewElements, RindReport) {
-    let (made, new, report) = rind(mesh, params, &OpContext::default()).expect("a rind");
+fn run(mesh: &Mesh, params: &RindParams) -> (Mesh, RindReport) {
+    let (made, report) = rind(mesh, params, &OpContext::default()).expect("a rind");
     assert!(made.faults().is_empty(), "{:?}", &made.faults()[..made.faults().len().min(4)]);
     assert_eq!((genus(&made), made.components().len()), (report.genus, report.components));
     assert!(made.is_closed() && volume(&made) > 0.0);
-    (made, new, report)
+    (made, report)
 }
 
 fn params(thickness: f64, punch: &[u32], peel: &[u32]) -> RindParams {
-    let chosen = |ids: &[u32]| Selection::of_ids(ids.iter().copied());
+    let chosen = |ids: &[u32]| Selection::of_faces(ids.iter().map(|&f| FaceId::new(f as usize)));
     RindParams {
         thickness: Length::from_mm(thickness),
         thickness_of: Vec::new(),
@@ -54,34 +54,34 @@ fn some_openings(mesh: &Mesh, random: &mut u64) -> [Vec<u32>; 2] {
 fn counts_are_those_that_were_measured_and_volumes_exact() {
     let cube = shape::cube(10.0);
     let [a, b, c] = opposite_and_beside(&cube);
-    let (shell, made, report) = run(&cube, &params(2.0, &[], &[]));
-    assert_eq!((counts(&shell), report.components, made.faces.len()), ([16, 24, 12], 2, 6));
+    let (shell, report) = run(&cube, &params(2.0, &[], &[]));
+    assert_eq!((counts(&shell), report.components, report.made.faces.len()), ([16, 24, 12], 2, 6));
     assert!((volume(&shell) - (1000.0 - 216.0)).abs() < 1e-10);
-    let (shell, ..) = run(&cube, &params(2.0, &[a], &[]));
+    let (shell, _) = run(&cube, &params(2.0, &[a], &[]));
     assert_eq!((counts(&shell), genus(&shell)), ([16, 28, 14], 0));
-    let (shell, ..) = run(&cube, &params(2.0, &[a, b], &[]));
+    let (shell, _) = run(&cube, &params(2.0, &[a, b], &[]));
     assert_eq!((counts(&shell), genus(&shell)), ([16, 32, 16], 1));
     // Neighbours: a wall without thickness that goes when one of them is peeled.
-    let (shell, ..) = run(&cube, &params(2.0, &[a, c], &[]));
+    let (shell, _) = run(&cube, &params(2.0, &[a, c], &[]));
     assert_eq!((counts(&shell), genus(&shell)), ([16, 32, 16], 1));
-    let (shell, _, report) = run(&cube, &params(2.0, &[a], &[c]));
+    let (shell, report) = run(&cube, &params(2.0, &[a], &[c]));
     assert_eq!((counts(&shell), genus(&shell), report.walls_removed), ([16, 28, 14], 0, 1));
     let corner: Vec<u32> = cube
         .vertex_faces(cube.vertices().next().expect("corners"))
         .map(|f| f.index() as u32)
         .collect();
-    let (shell, ..) = run(&cube, &params(2.0, &[], &corner));
+    let (shell, _) = run(&cube, &params(2.0, &[], &corner));
     assert_eq!((counts(&shell), genus(&shell)), ([14, 24, 12], 0));
     // All around: two plates.
     let belt: Vec<u32> = (0..6).filter(|f| ![a, b].contains(f)).collect();
-    let (shell, _, report) = run(&cube, &params(2.0, &[], &belt));
+    let (shell, report) = run(&cube, &params(2.0, &[], &belt));
     assert_eq!((counts(&shell), report.components), ([16, 24, 12], 2));
 }
 
 #[test]
 fn outwards_is_the_larger_shell() {
     let cube = shape::cube(10.0);
-    let (shell, ..) = run(&cube, &params(-1.0, &[0], &[1, 2]));
+    let (shell, _) = run(&cube, &params(-1.0, &[0], &[1, 2]));
     assert_eq!(volume(&run(&cube, &params(-1.0, &[], &[])).0).round(), 1728.0 - 1000.0);
     assert!(volume(&shell) < 728.0);
     let given = shell.vertices().filter(|&v| shell.is_given(v)).count();
@@ -95,7 +95,7 @@ fn every_set_of_openings_leaves_the_genus_that_its_shape_demands() {
     for mesh in &solids {
         for _ in 0..40 {
             let sets = some_openings(mesh, &mut random);
-            let (_, _, report) = run(mesh, &params(0.5, &sets[0], &sets[1]));
+            let (_, report) = run(mesh, &params(0.5, &sets[0], &sets[1]));
             assert!(report.residual_mm == 0.0 && report.crossing.is_empty(), "{report:?}");
             let is_apart = |f: &u32| {
                 let f = FaceId::new(*f as usize);
@@ -113,7 +113,7 @@ fn every_set_of_openings_leaves_the_genus_that_its_shape_demands() {
 #[test]
 fn the_second_skin_is_parallel_and_planar() {
     let ball = shape::soccer_ball(20.0);
-    let (shell, ..) = run(&ball, &params(1.5, &[0], &[]));
+    let (shell, _) = run(&ball, &params(1.5, &[0], &[]));
     for f in shell.faces() {
         assert!(planarity(&shell, f).mm < 1e-11, "{f}");
     }
@@ -122,9 +122,8 @@ fn the_second_skin_is_parallel_and_planar() {
 #[test]
 fn too_much_thickness_is_told_with_the_faces() {
     let cuboid = shape::cuboid(glam::DVec3::new(10.0, 20.0, 30.0));
-    assert!(run(&cuboid, &params(4.9, &[], &[])).2.crossing.is_empty());
-    let (_, _, report) =
-        rind(&cuboid, &params(5.1, &[], &[]), &OpContext::default()).expect("a rind");
+    assert!(run(&cuboid, &params(4.9, &[], &[])).1.crossing.is_empty());
+    let (_, report) = rind(&cuboid, &params(5.1, &[], &[]), &OpContext::default()).expect("a rind");
     assert_eq!(report.crossing.len(), 6);
     // No side turns round, but the dent comes too near to the bottom.
     let points = (0..8).map(|i| {
@@ -135,9 +134,8 @@ fn too_much_thickness_is_told_with_the_faces() {
         [vec![0, 2, 3, 1], vec![0, 1, 5, 4], vec![2, 6, 7, 3], vec![0, 4, 6, 2], vec![1, 3, 7, 5]];
     let dent = [[4, 5, 8], [5, 7, 8], [7, 6, 8], [6, 4, 8]].map(|t| t.to_vec());
     let dented = Mesh::from_faces(points, sides.into_iter().chain(dent)).expect("a dented box");
-    assert!(run(&dented, &params(0.4, &[], &[])).2.crossing.is_empty());
-    let (_, _, report) =
-        rind(&dented, &params(1.0, &[], &[]), &OpContext::default()).expect("a rind");
+    assert!(run(&dented, &params(0.4, &[], &[])).1.crossing.is_empty());
+    let (_, report) = rind(&dented, &params(1.0, &[], &[]), &OpContext::default()).expect("a rind");
     assert!(report.crossing.contains(&0), "{report:?}");
 }
 
@@ -147,7 +145,7 @@ fn a_group_can_have_a_thickness_of_its_own() {
     cube.set_group(FaceId::new(3), "lid");
     let mut thick = params(1.0, &[], &[]);
     thick.thickness_of = vec!["lid=3mm".parse().expect("a group's thickness")];
-    let (shell, ..) = run(&cube, &thick);
+    let (shell, _) = run(&cube, &thick);
     assert!((volume(&shell) - (1000.0 - 8.0 * 8.0 * 6.0)).abs() < 1e-10);
     thick.thickness_of = vec!["bottom=3mm".parse().expect("a group's thickness")];
     assert!(matches!(rind(&cube, &thick, &OpContext::default()), Err(OpError::NoSuchGroup { .. })));
@@ -163,7 +161,7 @@ fn an_open_sheet_becomes_a_slab() {
     let points =
         [(0.0, 0.0), (4.0, 0.0), (4.0, 3.0), (0.0, 3.0)].map(|(x, y)| glam::DVec3::new(x, y, 0.0));
     let sheet = Mesh::from_faces(points, [[0, 1, 2, 3]]).expect("a rectangle");
-    let (slab, _, report) = run(&sheet, &params(0.5, &[], &[]));
+    let (slab, report) = run(&sheet, &params(0.5, &[], &[]));
     assert!((volume(&slab) - 6.0).abs() < 1e-12);
     assert_eq!((counts(&slab), report.genus), ([8, 12, 6], 0));
 }
@@ -183,19 +181,19 @@ fn what_cannot_be_is_refused() {
 fn a_given_shell_is_opened_as_a_new_one_would_be() {
     let mut random = 99_u64;
     for mesh in &platonic() {
-        let (shell, ..) = run(mesh, &params(0.5, &[], &[]));
+        let (shell, _) = run(mesh, &params(0.5, &[], &[]));
         for _ in 0..30 {
             let sets = some_openings(mesh, &mut random);
             if sets.iter().all(Vec::is_empty) {
                 continue;
             }
-            let (wanted, _, at_once) = run(mesh, &params(0.5, &sets[0], &sets[1]));
+            let (wanted, at_once) = run(mesh, &params(0.5, &sets[0], &sets[1]));
             // Some faces are named on the first skin, the others by what lies behind them.
             let behind = |f: u32| 2 * f + f % 2;
             let named = sets.map(|set| set.into_iter().map(behind).collect::<Vec<u32>>());
             let mut given = params(0.6, &named[0], &named[1]);
             given.shell = ShellSource::Given;
-            let (opened, _, report) = run(&shell, &given);
+            let (opened, report) = run(&shell, &given);
             assert_eq!(counts(&opened), counts(&wanted), "{named:?}");
             assert_eq!(
                 (report.openings, report.walls_removed),
@@ -216,6 +214,6 @@ fn a_face_without_a_partner_is_refused() {
     assert!(refused.to_string().contains("twice the thickness"), "{refused}");
     // Through the whole cube: walls without thickness between the sides are left.
     given.thickness = Length::from_mm(5.0);
-    let (ring, _, report) = rind(&cube, &given, &OpContext::default()).expect("a ring");
+    let (ring, report) = rind(&cube, &given, &OpContext::default()).expect("a ring");
     assert_eq!((ring.faults().len(), genus(&ring), report.openings), (0, 1, 1));
 }

@@ -19,7 +19,8 @@
 //! Needs: nothing. Keeps: components, positions of old vertices, groups (the triangles at the
 //! corners of a face inherit its group). Planarity: corner triangles are planar, bases of pyramids
 //! are for valence 3, others by luck. Degenerate cases: at the rim of an open mesh no loop is made,
-//! the openings on either side of it join; faces of loops only stay.
+//! and the pyramids of rim vertices have no base, so that the rim runs through their openings; faces
+//! of loops only stay.
 
 mod vertex_kind;
 
@@ -28,14 +29,15 @@ mod tests;
 
 use serde::Deserialize;
 
+use super::simple::dissolve_lines;
+use super::size::{ask, check_size};
 use super::{OpContext, OpError};
 use crate::mesh::{EdgeId, FaceId, HalfEdgeId, HalfEdgeMap, Mesh, VertexId, WalkBuilder};
+use crate::progress::Progress;
 
 pub use vertex_kind::{VertexKind, vertex_kind};
 
-/// The most faces that may be made; more would not fit into the store with its edges.
-const MOST_FACES: usize = 1 << 27;
-/// The most rounds that may be asked for; the number of faces ends it much sooner.
+/// The most rounds that may be asked for; the size of the result ends it much sooner.
 const MOST_ROUNDS: u32 = 32;
 
 /// How to make a Sierpinski polyhedron. One definition for the library, the command line and the
@@ -59,6 +61,8 @@ pub struct SierpinskiReport {
     pub kinds: [usize; 6],
     /// The self-loops of the result.
     pub loops: usize,
+    /// How many faces were left out because their corners lie on one line.
+    pub flat_faces: usize,
 }
 
 impl SierpinskiReport {
@@ -69,6 +73,12 @@ impl SierpinskiReport {
             "{} self-loops of length zero hold the pyramids together; files leave them out",
             self.loops
         ));
+        if self.flat_faces > 0 {
+            notes.push(format!(
+                "{} corners of straight angles made faces without area, which were left out",
+                self.flat_faces
+            ));
+        }
         notes
     }
 }
@@ -76,7 +86,7 @@ impl SierpinskiReport {
 /// Makes a Sierpinski polyhedron. Positions count as constructed; planes are not carried along.
 ///
 /// # Errors
-/// [`OpError::RepeatOutOfRange`]; [`OpError::TooManyFaces`] before a round that would not fit;
+/// [`OpError::RepeatOutOfRange`]; [`OpError::DoesNotFit`] before the first round;
 /// [`OpError::Cancelled`].
 pub fn sierpinski(
     mesh: &Mesh,
@@ -87,6 +97,9 @@ pub fn sierpinski(
         return Err(OpError::RepeatOutOfRange { repeat: params.rounds, limit: MOST_ROUNDS });
     }
     let kinds = count_kinds(mesh);
+    // Four halves of each edge's sides and a loop, and a loop stays one.
+    let edges = |rounds: u32| 5.0 / 3.0 * mesh.edge_count() as f64 * 4.0_f64.powi(rounds as i32);
+    check_size("rounds", params.rounds, edges)?;
     let mut fine: Option<Mesh> = None;
     for round in 0..params.rounds {
         if context.progress.is_cancelled() {
@@ -94,15 +107,26 @@ pub fn sierpinski(
         }
         context.progress.report("removing middles", round as usize, params.rounds as usize);
         let coarse = fine.as_ref().unwrap_or(mesh);
-        let faces = coarse.edge_count().saturating_mul(4);
-        if faces > MOST_FACES {
-            return Err(OpError::TooManyFaces { round: round + 1, faces, limit: MOST_FACES });
-        }
-        fine = Some(once(coarse));
+        fine = Some(once(coarse, context.progress)?);
     }
-    let fine = fine.expect("there is at least one round");
+    let mut fine = fine.expect("there is at least one round");
+    let flat_faces = dissolve_flat_faces(mesh, &mut fine);
     let loops = fine.edges().filter(|e| is_loop(&fine, e.half_edge())).count();
-    Ok((fine, SierpinskiReport { kinds, loops }))
+    Ok((fine, SierpinskiReport { kinds, loops, flat_faces }))
+}
+
+/// Takes out the faces whose corners lie on one line, where the mesh before had none: corners of
+/// straight angles leave them. Returns how many.
+fn dissolve_flat_faces(mesh: &Mesh, fine: &mut Mesh) -> usize {
+    if !mesh.file_faults().is_empty() {
+        return 0;
+    }
+    let faults = fine.file_faults();
+    let count = dissolve_lines(fine, &faults);
+    if count > 0 {
+        fine.compact();
+    }
+    count
 }
 
 /// The kinds of the vertices of a mesh in words, and what to expect of each; known before the first
@@ -157,13 +181,14 @@ struct Links<'a> {
     ring: HalfEdgeMap<HalfEdgeId>,
 }
 
-fn once(coarse: &Mesh) -> Mesh {
+fn once(coarse: &Mesh, progress: &dyn Progress) -> Result<Mesh, OpError> {
     let (v, e) = (coarse.vertex_count(), coarse.edge_count());
     let mut fine = WalkBuilder::with_capacity(v + e, 5 * e, 3 * e);
-    let links = Links::make(coarse, &mut fine);
+    let links = Links::make(coarse, &mut fine, progress)?;
     let mut inherited = Vec::new();
     let mut bases = Bases::new(&links);
-    for f in coarse.faces() {
+    for (turn, f) in coarse.faces().enumerate() {
+        ask(progress, turn)?;
         let faces = links.corners(f, &mut fine);
         if let Some(name) = coarse.group(f) {
             inherited.push((faces, name));
@@ -176,11 +201,15 @@ fn once(coarse: &Mesh) -> Mesh {
     for (faces, name) in inherited {
         faces.for_each(|f| fine.set_group(FaceId::new(f), name));
     }
-    fine
+    Ok(fine)
 }
 
 impl<'a> Links<'a> {
-    fn make(coarse: &'a Mesh, fine: &mut WalkBuilder) -> Self {
+    fn make(
+        coarse: &'a Mesh,
+        fine: &mut WalkBuilder,
+        progress: &dyn Progress,
+    ) -> Result<Self, OpError> {
         let none = || HalfEdgeMap::filled(coarse.half_edge_slots(), HalfEdgeId(u32::MAX));
         let mut links = Self { coarse, second: none(), cut: none(), ring: none() };
         let mut kept = vec![VertexId::new(0); coarse.vertex_slots()];
@@ -188,7 +217,8 @@ impl<'a> Links<'a> {
         let mut middles = vec![None; coarse.edge_slots()];
         // Face by face, so that what lies near each other has numbers near each other, and the next
         // round finds it in the cache.
-        for f in coarse.faces() {
+        for (turn, f) in coarse.faces().enumerate() {
+            ask(progress, turn)?;
             for h in coarse.face_half_edges(f) {
                 if middles[h.edge().index()].is_none() {
                     middles[h.edge().index()] = Some(links.halve(h.edge(), &kept, fine));
@@ -203,7 +233,7 @@ impl<'a> Links<'a> {
         for e in coarse.edges().filter(|e| middles[e.index()].is_none()) {
             links.halve(e, &kept, fine);
         }
-        links
+        Ok(links)
     }
 
     /// Divides an edge in the middle, with a loop there; a loop stays as it is. Returns the middle,
@@ -273,17 +303,19 @@ impl<'a> Bases<'a> {
         for start in coarse.face_half_edges(f).filter(|&h| !is_loop(coarse, h)) {
             self.walk.clear();
             let mut h = start;
+            let mut is_open = false;
             while !std::mem::replace(&mut self.is_done[h], true) {
                 let next = next_straight(coarse, h);
                 self.walk.push(self.links.cut[h]);
                 h = if coarse.is_rim(next.edge()) {
+                    is_open = true;
                     next
                 } else {
                     self.walk.push(self.links.ring[next]);
                     next.twin()
                 };
             }
-            if !self.walk.is_empty() {
+            if !self.walk.is_empty() && !is_open {
                 fine.face(self.walk.iter().copied());
             }
         }

@@ -58,7 +58,7 @@ fn a_tetrahedron_keeps_half_of_its_volume_in_each_round() {
 #[test]
 fn a_smoothed_one_stays_connected() {
     let (fine, _) = run(&shape::tetrahedron(1.0), 2);
-    let smooth =
+    let (smooth, _) =
         subdivide(&fine, &SubdivideParams::new(Scheme::DooSabin, 2), &OpContext::default())
             .expect("it fits");
     assert!(smooth.faults().is_empty());

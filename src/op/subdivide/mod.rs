@@ -28,12 +28,14 @@ mod tests;
 
 use serde::Deserialize;
 
+use super::simple::{Mended, keep_simple};
+use super::size::{Counts, ask, check_size};
 use super::{OpContext, OpError};
 use crate::mesh::{FaceId, Mesh};
+use crate::progress::Progress;
+use crate::select::NewElements;
 
-/// The most faces that a subdivision may make; more would not fit into the store with its edges.
-const MOST_FACES: usize = 1 << 27;
-/// The most rounds that may be asked for; the number of faces ends it much sooner.
+/// The most rounds that may be asked for; the size of the result ends it much sooner.
 const MOST_ROUNDS: u32 = 32;
 
 /// How a mesh is made finer.
@@ -58,6 +60,23 @@ pub enum Scheme {
     Dual,
     /// Every face divided into triangles between its own corners.
     Triangulate,
+}
+
+impl Scheme {
+    /// The counts after a round on a closed mesh, as in the table above. A triangulation makes its
+    /// diagonals once.
+    fn refined(self, Counts { vertices, edges, faces }: Counts) -> Counts {
+        let [vertices, edges, faces] = match self {
+            Self::DooSabin => [2.0 * edges, 4.0 * edges, vertices + edges + faces],
+            Self::CatmullClark => [vertices + edges + faces, 4.0 * edges, 2.0 * edges],
+            Self::Loop => [vertices + edges, 4.0 * edges, faces + 2.0 * edges],
+            Self::Simplest => [edges, 2.0 * edges, vertices + faces],
+            Self::Honeycomb | Self::Truncation => [2.0 * edges, 3.0 * edges, vertices + faces],
+            Self::Dual => [faces, edges, vertices],
+            Self::Triangulate => [vertices, 3.0 * vertices.max(edges - faces), edges],
+        };
+        Counts { vertices, edges, faces }
+    }
 }
 
 /// How to subdivide. One definition for the library, the command line and the recipe.
@@ -90,18 +109,36 @@ impl SubdivideParams {
     }
 }
 
+/// What a subdivision did besides.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct SubdivideReport {
+    /// What had to be mended so that files can hold the result; nothing on a mesh without 2-valent
+    /// vertices of which two faces have at most one edge in common.
+    pub mended: Mended,
+}
+
+impl SubdivideReport {
+    /// The report in words.
+    pub fn notes(&self) -> Vec<String> {
+        self.mended.notes()
+    }
+}
+
 /// Subdivides a mesh. Positions count as constructed; planes are not carried along.
 ///
 /// # Errors
 /// [`OpError::RepeatOutOfRange`]; [`OpError::ShareOutOfRange`] for the offset of a truncation,
-/// [`OpError::Requires`] for an offset with another scheme; [`OpError::TooManyFaces`] before a
-/// round that would not fit; [`OpError::Cancelled`].
+/// [`OpError::Requires`] for an offset with another scheme; [`OpError::DoesNotFit`] before the
+/// first round; [`OpError::NotSimple`]; [`OpError::Cancelled`].
 pub fn subdivide(
     mesh: &Mesh,
     params: &SubdivideParams,
     context: &OpContext<'_>,
-) -> Result<Mesh, OpError> {
+) -> Result<(Mesh, SubdivideReport), OpError> {
     let offset = check_params(params)?;
+    let counts = Counts::of(mesh);
+    let edges = |rounds| counts.after(rounds, |counts| params.scheme.refined(counts)).edges;
+    check_size("rounds", params.rounds, edges)?;
     let mut fine: Option<Mesh> = None;
     for round in 0..params.rounds {
         if context.progress.is_cancelled() {
@@ -109,18 +146,12 @@ pub fn subdivide(
         }
         context.progress.report("subdividing", round as usize, params.rounds as usize);
         let coarse = fine.as_ref().unwrap_or(mesh);
-        let edges = coarse.edge_count();
-        let faces = coarse.face_count() + coarse.vertex_count() + edges;
-        if faces.saturating_mul(2) > MOST_FACES {
-            return Err(OpError::TooManyFaces {
-                round: round + 1,
-                faces: faces.saturating_mul(2),
-                limit: MOST_FACES,
-            });
-        }
-        fine = Some(once(coarse, params.scheme, offset));
+        fine = Some(once(coarse, params.scheme, offset, context.progress)?);
     }
-    Ok(fine.expect("there is at least one round"))
+    let mut fine = fine.expect("there is at least one round");
+    let advice = "give the model three edges at every vertex first, or take another scheme";
+    let mended = keep_simple(mesh, &mut fine, &mut NewElements::default(), advice)?;
+    Ok((fine, SubdivideReport { mended }))
 }
 
 fn check_params(params: &SubdivideParams) -> Result<f64, OpError> {
@@ -138,16 +169,21 @@ fn check_params(params: &SubdivideParams) -> Result<f64, OpError> {
     }
 }
 
-fn once(mesh: &Mesh, scheme: Scheme, offset: f64) -> Mesh {
+fn once(
+    mesh: &Mesh,
+    scheme: Scheme,
+    offset: f64,
+    progress: &dyn Progress,
+) -> Result<Mesh, OpError> {
     match scheme {
-        Scheme::DooSabin => corner_schemes::doo_sabin(mesh),
-        Scheme::Honeycomb => corner_schemes::honeycomb(mesh),
-        Scheme::Truncation => corner_schemes::truncation(mesh, offset),
-        Scheme::Simplest => corner_schemes::simplest(mesh),
-        Scheme::Dual => corner_schemes::dual(mesh),
-        Scheme::CatmullClark => split_schemes::catmull_clark(mesh),
-        Scheme::Loop => split_schemes::loop_scheme(mesh),
-        Scheme::Triangulate => split_schemes::triangulated(mesh),
+        Scheme::DooSabin => corner_schemes::doo_sabin(mesh, progress),
+        Scheme::Honeycomb => corner_schemes::honeycomb(mesh, progress),
+        Scheme::Truncation => corner_schemes::truncation(mesh, offset, progress),
+        Scheme::Simplest => corner_schemes::simplest(mesh, progress),
+        Scheme::Dual => corner_schemes::dual(mesh, progress),
+        Scheme::CatmullClark => split_schemes::catmull_clark(mesh, progress),
+        Scheme::Loop => split_schemes::loop_scheme(mesh, progress),
+        Scheme::Triangulate => split_schemes::triangulated(mesh, progress),
     }
 }
 

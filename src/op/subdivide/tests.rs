@@ -16,7 +16,7 @@ const SCHEMES: [Scheme; 8] = [
 ];
 
 fn run(mesh: &Mesh, scheme: Scheme, rounds: u32) -> Mesh {
-    let fine = subdivide(mesh, &SubdivideParams::new(scheme, rounds), &OpContext::default())
+    let (fine, _) = subdivide(mesh, &SubdivideParams::new(scheme, rounds), &OpContext::default())
         .expect("it fits");
     assert!(
         fine.faults().is_empty(),

@@ -1,6 +1,7 @@
 //! Planes, frames, exact-sign predicates, plane fits and flat polygons; knows no mesh.
 
 mod bending;
+mod box_tree;
 mod fit;
 mod frame;
 pub mod hull;
@@ -16,6 +17,7 @@ mod triangulate;
 mod triple;
 
 pub use bending::bending_patterns;
+pub use box_tree::{AxisBox, BoxTree};
 pub use fit::fit_plane;
 pub use frame::Frame;
 pub use meet::{meet_planes, meet_planes_near};

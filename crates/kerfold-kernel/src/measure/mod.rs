@@ -2,6 +2,7 @@
 
 mod contact;
 mod convexity;
+mod crossing;
 mod edge;
 mod extent;
 #[cfg(test)]
@@ -10,10 +11,12 @@ mod planarity;
 mod summary;
 mod topology;
 mod vertex;
+mod winding;
 
 pub use contact::self_contact;
 pub use convexity::convexity_of;
 pub use convexity::{Convexity, concave_edges, convexity};
+pub use crossing::{CrossingKind, CrossingPair, crossings};
 pub use edge::{dihedral_angle, edge_length, fold_angle};
 pub use extent::{face_area, face_centroid, face_diameter, size, surface_area, volume};
 pub use planarity::{Planarity, planarity, plane_deviation, polygon_planarity};
@@ -24,3 +27,4 @@ pub use topology::{
 };
 pub use vertex::conical_residual_of;
 pub use vertex::{angle_deficit, conical_residual, corner_angle};
+pub use winding::winding_number;

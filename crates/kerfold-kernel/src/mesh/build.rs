@@ -64,7 +64,7 @@ pub enum BuildError {
     /// Two corners of a face that follow each other lie at one point.
     #[error(
         "face {face} has an edge of length zero: vertices {a} and {b} both lie at {position}; weld \
-        them (--weld 0)"
+        them"
     )]
     ZeroLengthEdge {
         /// The face.
@@ -237,19 +237,12 @@ impl MeshBuilder {
             }
             used[a as usize] = true;
         }
-        if self.is_collinear(corners) { Err(BuildError::DegenerateFace { face }) } else { Ok(()) }
-    }
-
-    /// Whether all corners lie exactly on one line, seen from the first edge along all three axes.
-    fn is_collinear(&self, corners: &[u32]) -> bool {
-        let p = |i: usize| self.positions[corners[i] as usize];
-        let flat =
-            |q: DVec3| [q.truncate(), glam::DVec2::new(q.y, q.z), glam::DVec2::new(q.z, q.x)];
-        let (a, b) = (flat(p(0)), flat(p(1)));
-        (2..corners.len()).all(|i| {
-            let c = flat(p(i));
-            (0..3).all(|axis| crate::geom::predicate::orient2d(a[axis], b[axis], c[axis]) == 0.0)
-        })
+        let place = |i: usize| self.positions[corners[i] as usize];
+        if is_collinear(corners.len(), place) {
+            Err(BuildError::DegenerateFace { face })
+        } else {
+            Ok(())
+        }
     }
 
     /// Numbers the edges in the order in which the faces first run along them.
@@ -290,7 +283,18 @@ impl MeshBuilder {
     }
 }
 
-fn first_repeated(corners: &[u32]) -> Option<u32> {
+/// Whether all corners of a face lie exactly on one line, seen from the first edge along all three
+/// axes.
+pub(super) fn is_collinear(count: usize, place: impl Fn(usize) -> DVec3) -> bool {
+    let flat = |q: DVec3| [q.truncate(), glam::DVec2::new(q.y, q.z), glam::DVec2::new(q.z, q.x)];
+    let (a, b) = (flat(place(0)), flat(place(1)));
+    (2..count).all(|i| {
+        let c = flat(place(i));
+        (0..3).all(|axis| crate::geom::predicate::orient2d(a[axis], b[axis], c[axis]) == 0.0)
+    })
+}
+
+pub(super) fn first_repeated(corners: &[u32]) -> Option<u32> {
     if corners.len() <= 16 {
         return (1..corners.len())
             .find(|&i| corners[..i].contains(&corners[i]))

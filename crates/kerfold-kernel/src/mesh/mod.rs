@@ -2,6 +2,7 @@
 
 mod build;
 mod faults;
+mod file_faults;
 mod id;
 mod operators;
 mod store;
@@ -10,6 +11,7 @@ mod walks;
 
 pub use build::{BuildError, MeshBuilder, SplitVertex};
 pub use faults::{Fault, assert_sound};
+pub use file_faults::FileFault;
 pub use id::{
     EdgeId, EdgeMap, FaceId, FaceMap, HalfEdgeId, HalfEdgeMap, Id, SideTable, VertexId, VertexMap,
 };

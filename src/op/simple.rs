@@ -1,0 +1,199 @@
+//! Makes a result one that files can hold: what lies at one point becomes one vertex, faces
+//! without area go into their neighbours, and of several edges between two vertices all but one get
+//! a vertex in between.
+
+use super::OpError;
+use crate::mesh::{EdgeId, FaceId, FileFault, HalfEdgeId, Mesh};
+use crate::select::NewElements;
+
+/// Mending one fault may bring another to light: a split edge beside a 2-gon makes a face without
+/// area. More passes than this no chain of them has needed.
+const MOST_PASSES: usize = 8;
+
+/// What was done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Mended {
+    /// Edges without length of which both ends became one vertex.
+    pub collapsed: usize,
+    /// Faces without area, or with two sides, that went into a neighbour.
+    pub dissolved: usize,
+    /// Edges that got a vertex in between, since another one joins the same two vertices.
+    pub split: usize,
+}
+
+impl Mended {
+    /// What the user should know, in words.
+    pub fn notes(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        let mut note = |count: usize, one: &str, many: &str| {
+            if count > 0 {
+                notes.push(format!("{count} {}", if count == 1 { one } else { many }));
+            }
+        };
+        note(
+            self.collapsed,
+            "edge had no length: its ends became one vertex",
+            "edges had no length: their ends became one vertex each",
+        );
+        note(
+            self.dissolved,
+            "face without area went into its neighbour",
+            "faces without area went into their neighbours",
+        );
+        note(
+            self.split,
+            "edge got a vertex in between, since another one joins the same two vertices",
+            "edges got a vertex in between, since others join the same two vertices",
+        );
+        notes
+    }
+
+    fn add(&mut self, other: Self) {
+        self.collapsed += other.collapsed;
+        self.dissolved += other.dissolved;
+        self.split += other.split;
+    }
+
+    fn is_nothing(self) -> bool {
+        self == Self::default()
+    }
+}
+
+/// Makes a result as simple as the mesh was that it was made of. Meshes with self-loops, 2-gons and
+/// their like are on the way to something else, and may stay so.
+///
+/// # Errors
+/// [`OpError::NotSimple`] with the first fault that could not be mended.
+pub(super) fn keep_simple(
+    before: &Mesh,
+    result: &mut Mesh,
+    made: &mut NewElements,
+    advice: &'static str,
+) -> Result<Mended, OpError> {
+    if !is_simple(before) {
+        return Ok(Mended::default());
+    }
+    let mended = make_simple(result, made);
+    match result.file_faults().first() {
+        Some(&fault) => Err(OpError::NotSimple { fault, advice }),
+        None => Ok(mended),
+    }
+}
+
+fn is_simple(mesh: &Mesh) -> bool {
+    let is_small = |f: FaceId| mesh.face_half_edges(f).take(3).count() < 3;
+    let is_loop = |e: EdgeId| {
+        let [a, b] = mesh.edge_vertices(e);
+        a == b
+    };
+    !mesh.faces().any(is_small) && !mesh.edges().any(is_loop) && mesh.file_faults().is_empty()
+}
+
+/// Mends what can be mended. Ids stay without gaps, and `made`
+/// follows them.
+fn make_simple(mesh: &mut Mesh, made: &mut NewElements) -> Mended {
+    let mut mended = Mended::default();
+    for _ in 0..MOST_PASSES {
+        let mut pass = Mended { dissolved: dissolve_two_gons(mesh), ..Mended::default() };
+        let faults = mesh.file_faults();
+        pass.collapsed = collapse_points(mesh, &faults);
+        if pass.collapsed == 0 {
+            pass.dissolved += dissolve_lines(mesh, &faults);
+        }
+        if pass.collapsed == 0 && pass.dissolved == 0 {
+            pass.split = split_parallels(mesh, &faults);
+        }
+        mended.add(pass);
+        if pass.is_nothing() {
+            break;
+        }
+    }
+    if !mended.is_nothing() {
+        made.compact(mesh);
+    }
+    mended
+}
+
+/// Takes 2-gons out: the two edges become one.
+fn dissolve_two_gons(mesh: &mut Mesh) -> usize {
+    let gons: Vec<FaceId> = mesh.faces().filter(|&f| is_two_gon(mesh, f)).collect();
+    let mut count = 0;
+    for f in gons {
+        // Another one beside it may have taken it along.
+        if !mesh.has_face(f) || !is_two_gon(mesh, f) {
+            continue;
+        }
+        let sides: Vec<HalfEdgeId> = mesh.face_half_edges(f).collect();
+        let [a, b] = sides[..] else { continue };
+        // Two faces of two sides are all that there is of their component.
+        let beside = mesh.face(a.twin());
+        if beside == f || beside == mesh.face(b.twin()) {
+            continue;
+        }
+        let is_seam = mesh.is_seam(a.edge()) || mesh.is_seam(b.edge());
+        mesh.delete_edge_of(a);
+        mesh.set_seam(b.edge(), is_seam);
+        count += 1;
+    }
+    count
+}
+
+fn is_two_gon(mesh: &Mesh, f: FaceId) -> bool {
+    let mut sides = mesh.face_half_edges(f);
+    let (Some(a), Some(b), None) = (sides.next(), sides.next(), sides.next()) else { return false };
+    a.edge() != b.edge() && mesh.origin(a) != mesh.origin(b)
+}
+
+/// Makes both ends of each edge without length one vertex.
+fn collapse_points(mesh: &mut Mesh, faults: &[FileFault]) -> usize {
+    let mut count = 0;
+    for fault in faults {
+        let &FileFault::ZeroLengthEdge(e) = fault else { continue };
+        // A loop that an earlier collapse has made holds the surface together.
+        if mesh.has_edge(e) && mesh.contract_edge(e).is_ok() {
+            count += 1;
+        }
+    }
+    count
+}
+
+/// Deletes the longest side of each face whose corners lie on a line: the others become sides of
+/// the neighbour, or of the hole, and lie where that side lay.
+pub(super) fn dissolve_lines(mesh: &mut Mesh, faults: &[FileFault]) -> usize {
+    let mut count = 0;
+    for fault in faults {
+        let &FileFault::NoArea(f) = fault else { continue };
+        if !mesh.has_face(f) {
+            continue;
+        }
+        let length = |h: &HalfEdgeId| {
+            let [a, b] = mesh.edge_positions(h.edge());
+            a.distance_squared(b)
+        };
+        let longest = mesh.face_half_edges(f).max_by(|a, b| length(a).total_cmp(&length(b)));
+        if let Some(h) = longest.filter(|h| mesh.face(h.twin()) != f) {
+            mesh.delete_edge_of(h);
+            count += 1;
+        }
+    }
+    count
+}
+
+/// Splits all but the first of the edges between two vertices, each at a place of its own.
+fn split_parallels(mesh: &mut Mesh, faults: &[FileFault]) -> usize {
+    let pairs: Vec<(EdgeId, EdgeId)> = faults
+        .iter()
+        .filter_map(|fault| match *fault {
+            FileFault::ParallelEdges(first, other) => Some((first, other)),
+            _ => None,
+        })
+        .collect();
+    for group in pairs.chunk_by(|a, b| a.0 == b.0) {
+        for (i, &(_, e)) in group.iter().enumerate() {
+            let share = (i + 1) as f64 / (group.len() + 1) as f64;
+            let [a, b] = mesh.edge_positions(e);
+            mesh.split_edge(e, a.lerp(b, share));
+        }
+    }
+    pairs.len()
+}

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 
 use glam::DVec2;
 
-use super::super::letter::segments_meet;
 use super::super::verify::distance_to_segment;
+use crate::geom::polygon::segments_meet;
 use crate::net::{FlatFace, Net, Segment};
 
 /// One closed boundary with the material on its left.

@@ -11,11 +11,10 @@
 
 use glam::DVec2;
 
-use super::super::letter::segments_meet;
 use super::boundary::{Boundaries, Contour};
 use super::params::Fingers;
 use super::{JointFallback, JointReport};
-use crate::geom::polygon::signed_area;
+use crate::geom::polygon::{segments_meet, signed_area};
 use crate::net::{Net, Segment};
 
 /// Dihedral angles that fingers can hold, in degrees.

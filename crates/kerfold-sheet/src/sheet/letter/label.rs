@@ -10,9 +10,7 @@ use std::collections::BTreeMap;
 use glam::DVec2;
 
 use super::glyph::lettering;
-use crate::geom::polygon::{
-    Location, bounds, centroid, locate, on_segment, segments_cross, signed_area,
-};
+use crate::geom::polygon::{Location, borders_meet, bounds, centroid, locate, signed_area};
 use crate::net::{FlatFace, Piece, Segment};
 use crate::sheet::error::SheetError;
 use crate::sheet::verify::{distance_to_contour, edges};
@@ -40,7 +38,7 @@ const FACES_TRIED: usize = 8;
 
 /// A text in the piece's frame.
 #[derive(Debug, Clone)]
-pub(crate) struct Label {
+pub(super) struct Label {
     pub strokes: Vec<Vec<DVec2>>,
     /// The box of the strokes with free space around, counter-clockwise.
     pub frame: [DVec2; 4],
@@ -48,15 +46,15 @@ pub(crate) struct Label {
 }
 
 /// What is already lettered on the faces of a piece, by their index.
-pub(crate) type Taken = BTreeMap<usize, Vec<[DVec2; 4]>>;
+pub(super) type Taken = BTreeMap<usize, Vec<[DVec2; 4]>>;
 
 /// Contours of joints that lettering must keep clear of: the cut of a piece where it differs from
 /// its faces, and slits.
-pub(crate) type Obstacles<'a> = &'a [Vec<DVec2>];
+pub(super) type Obstacles<'a> = &'a [Vec<DVec2>];
 
 /// The name of a piece, as large as fits beside what is taken, reading along `upright` where
 /// possible and else along a face's longest edge; with the index of the face that holds it.
-pub(crate) fn name_label(
+pub(super) fn name_label(
     piece: &Piece,
     upright: DVec2,
     taken: &Taken,
@@ -112,7 +110,7 @@ fn largest_name(
 /// The number of a seam inside `face`, parallel to its edge, to be read from the middle of the
 /// face: its head is at the edge. `edge` are the mesh's vertices at the two ends of `segment`.
 /// Keeps clear of the frames in `taken`.
-pub(crate) fn number_label(
+pub(super) fn number_label(
     text: &str,
     face: &FlatFace,
     edge: [usize; 2],
@@ -126,7 +124,7 @@ pub(crate) fn number_label(
 }
 
 /// As [`number_label`] across the edge, for narrow faces: it reads away from the edge.
-pub(crate) fn number_across(
+pub(super) fn number_across(
     text: &str,
     face: &FlatFace,
     edge: [usize; 2],
@@ -242,7 +240,7 @@ fn is_free(polygon: &[DVec2], label: &Label, taken: &[[DVec2; 4]]) -> bool {
 
 /// Whether a label neither crosses an obstacle nor has one inside, nor lies in a notch or hole that
 /// is cut away.
-pub(crate) fn is_clear(label: &Label, obstacles: Obstacles<'_>) -> bool {
+pub(super) fn is_clear(label: &Label, obstacles: Obstacles<'_>) -> bool {
     obstacles.iter().all(|o| is_on_material(o, label.frame[0]))
         && obstacles.iter().all(|o| {
             !borders_meet(o, &label.frame)
@@ -267,23 +265,10 @@ fn overlap(a: &[DVec2; 4], b: &[DVec2; 4]) -> bool {
         || locate(b, a[0]) != Location::Outside
 }
 
-/// Whether two closed contours touch or cross, exactly.
-pub(crate) fn borders_meet(a: &[DVec2], b: &[DVec2]) -> bool {
-    edges(a).any(|(p, q)| edges(b).any(|(r, s)| segments_meet(p, q, r, s)))
-}
-
-/// Whether two closed segments share a point, exactly.
-pub(crate) fn segments_meet(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
-    segments_cross(a, b, c, d)
-        || on_segment(a, b, c)
-        || on_segment(a, b, d)
-        || on_segment(c, d, a)
-        || on_segment(c, d, b)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geom::polygon::segments_meet;
     use crate::net::PieceId;
     use crate::sheet::testing::{ell, piece, points, ring, square};
 

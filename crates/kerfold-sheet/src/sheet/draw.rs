@@ -30,7 +30,7 @@ pub(crate) fn draw(
     let features = features(net, stretches)?;
     let by_id: BTreeMap<PieceId, (&Piece, &CutShape)> =
         net.pieces.iter().zip(shapes).map(|(p, s)| (p.id, (p, s))).collect();
-    let score = ScorePlan::of(&params.score)?;
+    let score = ScorePlan::of(&params.score, params.stock.kerf.mm())?;
     let tabs = holding_tabs(params)?;
     let mut report = SheetReport::default();
     let mut drawings = Vec::new();
@@ -49,8 +49,8 @@ pub(crate) fn draw(
             let mut obstacles: Vec<Vec<DVec2>> =
                 if cut_is_no_border { shape.contours().cloned().collect() } else { Vec::new() };
             obstacles.extend(hinges.rows.iter().flat_map(|r| &r.slits).map(|slit| slit.to_vec()));
-            let (obstacles, params) = (&obstacles, params.letter);
-            let lettering = PieceLettering { net, piece, here, placed, obstacles, params };
+            let lettering =
+                PieceLettering::new(net, (piece, here, placed), &obstacles, params.letter);
             lettering.draw(&mut drawing, &mut report)?;
         }
         let stock = Stock { size: DVec2::new(sheet.width, sheet.height), ..*stock };
@@ -81,8 +81,7 @@ fn draw_cuts(
     (tabs, width): (usize, f64),
 ) {
     let id = shape.piece;
-    let stroke =
-        |points: &[DVec2], closed| vec![Stroke { points: placed.apply_all(points), closed }];
+    let closed = |points: &[DVec2]| vec![Stroke { points: placed.apply_all(points), closed: true }];
     drawing.add(
         MarkKind::Outline,
         id.to_string(),
@@ -90,10 +89,7 @@ fn draw_cuts(
         with_holding_tabs(&placed.apply_all(&shape.outline), tabs, width),
     );
     for (i, hole) in shape.holes.iter().enumerate() {
-        drawing.add(MarkKind::Hole, format!("{id}-hole-{}", i + 1), Some(id), stroke(hole, true));
-    }
-    for (i, slit) in shape.slits.iter().enumerate() {
-        drawing.add(MarkKind::Slit, format!("{id}-slit-{}", i + 1), Some(id), stroke(slit, false));
+        drawing.add(MarkKind::Hole, format!("{id}-hole-{}", i + 1), Some(id), closed(hole));
     }
 }
 
@@ -131,7 +127,7 @@ fn draw_folds(
         drawing.add(kind, fold.id.to_string(), Some(placed.piece), strokes);
     }
     for row in &hinges.rows {
-        let slit = |s: &[DVec2; 2]| Stroke { points: placed.apply_all(s), closed: false };
+        let slit = |s: &[DVec2; 2]| score.slot(placed.apply(s[0]), placed.apply(s[1]));
         let id = format!("{}-slits-{}", row.fold, row.number);
         drawing.add(MarkKind::Hinge, id, Some(placed.piece), row.slits.iter().map(slit).collect());
     }
@@ -369,7 +365,7 @@ mod tests {
             .iter()
             .map(|m| {
                 (
-                    m.strokes[0].points[0].x,
+                    m.strokes[0].points.iter().map(|p| p.x).sum::<f64>() / 4.0,
                     m.strokes.iter().map(|s| sorted([s.points[0].y, s.points[1].y])).collect(),
                 )
             })

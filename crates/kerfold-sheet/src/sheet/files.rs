@@ -190,7 +190,7 @@ pub type Rgb = [u8; 3];
 pub struct Colours {
     /// Outlines.
     pub cut_outer: Option<Rgb>,
-    /// Holes and slits.
+    /// Holes, perforations and living hinges.
     pub cut_inner: Option<Rgb>,
     /// Folds.
     pub score: Option<Rgb>,

@@ -14,9 +14,10 @@ use super::kerf::CutShape;
 use super::letter::stretches;
 use super::nest::{CommonLine, Laid, StockSheet, candidates, lay, offcut};
 use super::params::{SheetParams, Stock};
+use super::slit::mend;
 use super::verify::verify;
 use crate::geom::polygon::bounds;
-use crate::net::{Net, Piece, PieceId};
+use crate::net::{EdgeLabel, Net, Piece, PieceId};
 use crate::progress::{Progress, Silent};
 
 /// A sheet's number, counted from 0, shown as `S01`.
@@ -118,9 +119,14 @@ pub struct SheetReport {
     pub unscored_folds: usize,
     /// Holes narrower than the kerf, which nothing can cut.
     pub lost_holes: usize,
-    /// Notches narrower than the kerf that no single cut could open from end to end: the flaps hang
-    /// together there.
+    /// Notches narrower than the kerf that could not be opened without dividing the piece: the
+    /// flaps are connected there.
     pub closed_notches: usize,
+    /// Slits, and notches narrower than the kerf, that are cut wider than they are, so that a
+    /// closed path leads in and out again.
+    pub widened_notches: usize,
+    /// Seams whose two sides lie on one another: they are left uncut and fold.
+    pub uncut_seams: Vec<EdgeLabel>,
     /// Folds without room for their angle, where angles were asked for.
     pub unmarked_angles: usize,
     /// Length of the lines that two parts share and that are cut once, in mm.
@@ -185,6 +191,8 @@ pub fn lay_out_watched(
         return Ok(SheetSet::default());
     };
     check_names(net, params)?;
+    let mended = mend(net);
+    let net = mended.as_ref().map_or(net, |m| &m.net);
     let boundaries = Boundaries::new(net);
     let stretches = stretches(net, &boundaries);
     let jointed = join(net, params)?;
@@ -208,6 +216,7 @@ pub fn lay_out_watched(
     }
     report.lost_holes = shapes.iter().map(|s| s.lost_holes).sum();
     report.closed_notches = shapes.iter().map(|s| s.closed_notches).sum();
+    report.widened_notches = shapes.iter().map(|s| s.widened_notches).sum();
     report.narrow_spacing = params.stock.made_of.as_ref().and_then(|material| {
         let [left, web] = [params.stock.spacing.mm() - params.stock.kerf.mm(), material.web.mm()];
         (left < web).then_some([left, web])
@@ -217,7 +226,14 @@ pub fn lay_out_watched(
     layout.score_length = drawings.iter().map(Drawing::score_length).sum();
     verify(&shapes, &layout, params)?;
     report.joints = jointed.map(|j| j.report).unwrap_or_default();
-    Ok(SheetSet { layout, drawings, assembly: assembly(bare, stretches), report })
+    let mut assembly = assembly(bare, stretches);
+    if let Some(mended) = mended {
+        // Seams are named by their index in the net that was given.
+        let seams = assembly.stretches.iter_mut().flat_map(|s| &mut s.seams);
+        seams.for_each(|(s, _)| *s = mended.seams[*s]);
+        report.uncut_seams = mended.uncut;
+    }
+    Ok(SheetSet { layout, drawings, assembly, report })
 }
 
 /// Whether all pieces that the parameters name are there.

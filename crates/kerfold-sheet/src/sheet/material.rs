@@ -53,7 +53,7 @@ pub struct Speeds {
 pub struct MaterialColours {
     /// Outlines.
     pub cut_outer: Option<Hex>,
-    /// Holes and slits.
+    /// Holes, perforations and living hinges.
     pub cut_inner: Option<Hex>,
     /// Folds.
     pub score: Option<Hex>,

@@ -53,6 +53,16 @@ impl Contour {
             .collect()
     }
 
+    /// All that is cut around it, with the edges that it belongs to: the corner before an edge, then
+    /// the edge.
+    pub fn cuts(&self) -> impl Iterator<Item = (usize, Segment)> + '_ {
+        (0..self.len()).flat_map(|i| {
+            let corner = segments(&self.cut_corners[i]);
+            let along = segments(&self.cut_edge(i));
+            corner.into_iter().chain(along).map(move |s| (i, s))
+        })
+    }
+
     /// The cut along one edge, from the end of its first corner to the beginning of its second.
     pub fn cut_edge(&self, i: usize) -> Vec<DVec2> {
         let first = self.cut_corners[i].last().copied();
@@ -112,16 +122,12 @@ impl Boundaries {
 
     /// All that is cut around a piece, edge by edge.
     pub fn cuts(&self, piece: usize) -> impl Iterator<Item = (&Contour, usize, Segment)> {
-        self.of_piece(piece).flat_map(|c| {
-            (0..c.len()).flat_map(move |i| {
-                let cut = c.cut_edge(i);
-                let corner: Vec<Segment> =
-                    c.cut_corners[i].windows(2).map(|w| [w[0], w[1]]).collect();
-                let along: Vec<Segment> = cut.windows(2).map(|w| [w[0], w[1]]).collect();
-                corner.into_iter().chain(along).map(move |s| (c, i, s))
-            })
-        })
+        self.of_piece(piece).flat_map(|c| c.cuts().map(move |(i, s)| (c, i, s)))
     }
+}
+
+fn segments(points: &[DVec2]) -> Vec<Segment> {
+    points.windows(2).map(|w| [w[0], w[1]]).collect()
 }
 
 /// The distance of two closed segments; 0 when they meet.

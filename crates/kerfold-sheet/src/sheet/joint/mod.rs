@@ -4,6 +4,7 @@
 //! smaller, goes to the partner side, or falls back to stitch holes or the bare edge, and the
 //! report says so. The net's own outlines, which `pieces.json` holds, stay as they are.
 
+mod behind;
 mod boundary;
 mod fingers;
 mod flaps;
@@ -11,13 +12,14 @@ mod holes;
 mod params;
 mod slots;
 mod trim;
+mod webs;
 
 use glam::DVec2;
 
 pub(crate) use boundary::Boundaries;
 pub use params::{FlapSide, Joint, JointParams, Substitute};
 pub(crate) use params::{JointPlan, plan};
-use slots::FARTHEST_LIP;
+use slots::FARTHEST_LEAN;
 pub(crate) use trim::on_material;
 
 use super::error::SheetError;

@@ -5,20 +5,14 @@ use serde::Deserialize;
 
 use super::super::error::SheetError;
 use super::super::params::SheetParams;
-use super::FARTHEST_LIP;
+use super::FARTHEST_LEAN;
 use crate::units::{Angle, Length};
 
 /// What holds the two sides of seams together.
 #[derive(Debug, Clone, PartialEq, Default, clap::Args, Deserialize)]
 pub struct JointParams {
     /// What joins the two sides of a seam
-    #[arg(
-        id = "joint",
-        long = "joint",
-        value_name = "JOINT",
-        value_enum,
-        default_value = "none"
-    )]
+    #[arg(id = "joint", long = "joint", value_name = "JOINT", value_enum, default_value = "none")]
     #[serde(default, rename = "joint")]
     pub kind: Joint,
     /// Width of flaps, at least 1mm; of flaps 8mm, with rivets 12mm unless given
@@ -157,13 +151,14 @@ impl JointPlan {
         match self {
             Self::None | Self::Stitch(_) | Self::Fingers(..) => 0.0,
             Self::Flaps(flap) | Self::Rivets(flap, _) => flap.width,
-            Self::Tabs(tabs, _) => FARTHEST_LIP * tabs.thickness,
+            Self::Tabs(tabs, _) => tabs.thickness.max(WEB) + FARTHEST_LEAN * tabs.thickness,
         }
     }
 }
 
-/// Least material around a hole, in mm.
-const WEB: f64 = 0.6;
+/// Least material between a cut of a joint and any other cut, in mm: the millimetre that is wanted
+/// of every web, and a little more, since files hold rounded numbers.
+pub(super) const WEB: f64 = 1.01;
 
 /// Checks the joint's options.
 ///

@@ -52,13 +52,26 @@ pub(super) type Taken = BTreeMap<usize, Vec<[DVec2; 4]>>;
 /// its faces, and slits.
 pub(super) type Obstacles<'a> = &'a [Vec<DVec2>];
 
+/// What of the obstacles of a piece may come near a label in a face: the rest lies beyond the box of
+/// the face, and a label lies inside.
+pub(super) fn obstacles_near(polygon: &[DVec2], obstacles: Obstacles<'_>) -> Vec<Vec<DVec2>> {
+    let Some((low, high)) = bounds(polygon) else { return Vec::new() };
+    // Slits are few, and stay.
+    let is_near = |obstacle: &&Vec<DVec2>| {
+        obstacle.len() <= 2
+            || bounds(*obstacle).is_some_and(|(l, h)| l.cmple(high).all() && low.cmple(h).all())
+    };
+    obstacles.iter().filter(is_near).cloned().collect()
+}
+
 /// The name of a piece, as large as fits beside what is taken, reading along `upright` where
-/// possible and else along a face's longest edge; with the index of the face that holds it.
+/// possible and else along a face's longest edge; with the index of the face that holds it. Obstacles
+/// are those near each of the faces.
 pub(super) fn name_label(
     piece: &Piece,
     upright: DVec2,
     taken: &Taken,
-    obstacles: Obstacles<'_>,
+    obstacles: &[Vec<Vec<DVec2>>],
 ) -> Result<Option<(usize, Label)>, SheetError> {
     let text = piece.id.to_string();
     let mut order: Vec<(f64, usize)> =
@@ -67,6 +80,7 @@ pub(super) fn name_label(
     let mut best: Option<(usize, Label)> = None;
     for &(_, i) in order.iter().take(FACES_TRIED) {
         let polygon = &piece.faces[i].polygon;
+        let obstacles = obstacles.get(i).map_or(&[][..], Vec::as_slice);
         let mut centres = vec![centroid(polygon), inner_point(polygon, &[])];
         if !obstacles.is_empty() {
             centres.push(inner_point(polygon, obstacles));
@@ -311,8 +325,9 @@ mod tests {
         let mut frame = piece(PieceId(0), square(120.0));
         frame.holes = vec![hole.clone()];
         let contours = [square(120.0), hole];
-        let (_, label) =
-            name_label(&frame, DVec2::X, &Taken::new(), &contours).expect("letters").expect("room");
+        let (_, label) = name_label(&frame, DVec2::X, &Taken::new(), &[contours.to_vec()])
+            .expect("letters")
+            .expect("room");
         assert_clear(&frame, &label);
         assert_eq!(label.height, NAME_HEIGHT);
     }

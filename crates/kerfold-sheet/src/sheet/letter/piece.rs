@@ -5,11 +5,13 @@ use std::collections::BTreeMap;
 
 use glam::DVec2;
 
-use super::label::{Label, Taken, is_clear, name_label, number_across, number_label};
+use super::label::{
+    Label, Taken, is_clear, name_label, number_across, number_label, obstacles_near,
+};
 use super::params::{Angles, Labels, LetterParams};
 use super::stretch::Stretch;
 use crate::geom::polygon::{Location, locate};
-use crate::net::{FoldKind, Net, Piece, Seam};
+use crate::net::{FlatFace, FoldKind, Net, Piece, Seam};
 use crate::sheet::drawing::{Drawing, MarkKind, Stroke};
 use crate::sheet::error::SheetError;
 use crate::sheet::features::Features;
@@ -34,18 +36,31 @@ struct Lettered {
 
 /// Letters one piece.
 pub(crate) struct PieceLettering<'a> {
-    pub net: &'a Net,
-    pub piece: &'a Piece,
-    pub here: &'a Features<'a>,
-    pub placed: &'a Placed,
-    pub obstacles: &'a [Vec<DVec2>],
-    pub params: LetterParams,
+    net: &'a Net,
+    piece: &'a Piece,
+    here: &'a Features<'a>,
+    placed: &'a Placed,
+    /// For each face what its labels must keep clear of.
+    obstacles: Vec<Vec<Vec<DVec2>>>,
+    params: LetterParams,
 }
 
 /// Length of the mark at the end of a stretch, and how far from the edge it begins, in mm.
 const MARK: [f64; 2] = [2.0, 0.4];
 
-impl PieceLettering<'_> {
+impl<'a> PieceLettering<'a> {
+    /// Obstacles are contours that labels keep clear of, in the frame of the piece.
+    pub fn new(
+        net: &'a Net,
+        (piece, here, placed): (&'a Piece, &'a Features<'a>, &'a Placed),
+        obstacles: &[Vec<DVec2>],
+        params: LetterParams,
+    ) -> Self {
+        let near = |face: &FlatFace| obstacles_near(&face.polygon, obstacles);
+        let obstacles = piece.faces.iter().map(near).collect();
+        Self { net, piece, here, placed, obstacles, params }
+    }
+
     /// Draws what there is room for, and counts the rest in the report.
     pub fn draw(&self, drawing: &mut Drawing, report: &mut SheetReport) -> Result<(), SheetError> {
         let mut lettered = self.letter(Order::NameFirst)?;
@@ -92,7 +107,7 @@ impl PieceLettering<'_> {
     fn name(&self, lettered: &mut Lettered) -> Result<(), SheetError> {
         let upright = DVec2::from_angle(-self.placed.rotation.to_radians());
         if let Some((face, label)) =
-            name_label(self.piece, upright, &lettered.taken, self.obstacles)?
+            name_label(self.piece, upright, &lettered.taken, &self.obstacles)?
         {
             lettered.put(MarkKind::PieceName, format!("{}-name", self.piece.id), face, label);
             lettered.named = true;
@@ -159,7 +174,8 @@ impl PieceLettering<'_> {
     fn mark(&self, stretch: &Stretch, i: usize, faces: &BTreeMap<usize, usize>) -> Option<Label> {
         let (s, forward) = *stretch.seams.first().filter(|_| stretch.goes_on[0])?;
         let side = &self.net.seams[s].sides[forward ^ i];
-        let face = &self.piece.faces[*faces.get(&side.face)?];
+        let index = *faces.get(&side.face)?;
+        let face = &self.piece.faces[index];
         let [a, b] = face.side(self.net.seams[s].edge, side.segment)?;
         // The beginning of the stretch is where its forward side begins and its partner ends.
         let (at, towards) = if i == 0 { (a, b) } else { (b, a) };
@@ -170,7 +186,7 @@ impl PieceLettering<'_> {
         let inside = line.iter().all(|&p| locate(&face.polygon, p) == Location::Inside);
         let frame = [line[0], line[1], line[1], line[0]];
         let label = Label { strokes: vec![line], frame, height: MARK[0] };
-        (inside && is_clear(&label, self.obstacles)).then_some(label)
+        (inside && is_clear(&label, &self.obstacles[index])).then_some(label)
     }
 
     fn angles(&self, lettered: &mut Lettered) -> Result<(), SheetError> {
@@ -187,7 +203,7 @@ impl PieceLettering<'_> {
                         fold.edge,
                         fold.segment,
                         taken,
-                        self.obstacles,
+                        &self.obstacles[at],
                     )?
                     .map(|label| (at, label)),
                     some => some,
@@ -216,7 +232,7 @@ impl PieceLettering<'_> {
         let taken = taken.get(&at).map_or(&[][..], Vec::as_slice);
         let put = if across { number_across } else { number_label };
         let label =
-            put(text, &self.piece.faces[at], seam.edge, side.segment, taken, self.obstacles)?;
+            put(text, &self.piece.faces[at], seam.edge, side.segment, taken, &self.obstacles[at])?;
         Ok(label.map(|label| (at, label)))
     }
 }

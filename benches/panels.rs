@@ -15,7 +15,9 @@ use kerfold::mesh::Mesh;
 use kerfold::panel::{Hardware, PanelParams, ReferenceSide, panel_net, plates, schedule};
 use kerfold::progress::Silent;
 use kerfold::shape::{hexagonal_facade, random_tangent_polytope};
-use kerfold::sheet::{Labels, NestParams, SheetParams, lay_out};
+use kerfold::sheet::{
+    JointParams, Labels, LetterParams, NestParams, SheetParams, StockParams, lay_out,
+};
 use kerfold::unfold::MeshSource;
 use kerfold::units::Length;
 
@@ -39,10 +41,12 @@ fn facade() {
         ..PanelParams::default()
     };
     let sheet = SheetParams {
-        sheet: "3210x6000".parse().expect("a size"),
-        labels: Labels::Edges,
-        thickness: Some(thickness),
-        // Rows of boxes: nesting has a bench of its own.
+        stock: StockParams {
+            sheet: "3210x6000".parse().expect("a size"),
+            ..StockParams::default()
+        },
+        letter: LetterParams { labels: Labels::Edges, ..LetterParams::default() },
+        joint: JointParams { thickness: Some(thickness), ..JointParams::default() }, // Rows of boxes: nesting has a bench of its own.
         nest: NestParams { nest_effort: 0, ..NestParams::default() },
         ..SheetParams::default()
     };
@@ -52,11 +56,14 @@ fn facade() {
     let listed = schedule(&mesh, &made, &params);
     clock.lap("schedule");
     let net = panel_net(&mesh, &made, 1.0, &[]);
-    let bare = SheetParams { thickness: None, ..sheet.clone() };
+    let bare = SheetParams {
+        joint: JointParams { thickness: None, ..sheet.joint.clone() },
+        ..sheet.clone()
+    };
     let sheets = lay_out(&net, &bare).expect("sheets");
     clock.lap("sheets laid out");
     let bytes: usize =
-        sheets.drawings.iter().map(|d| write_svg(d, bare.preset, "bench").len()).sum();
+        sheets.drawings.iter().map(|d| write_svg(d, bare.files.preset, "bench").len()).sum();
     clock.lap("sheets written");
     let (seconds, megabytes) = (clock.total(), peak_megabytes());
     println!(

@@ -8,7 +8,7 @@ use std::error::Error;
 use kerfold::io::sheet::svg::write_svg;
 use kerfold::progress::Silent;
 use kerfold::shape::{SolidParams, solid};
-use kerfold::sheet::{Joint, SheetParams, lay_out};
+use kerfold::sheet::{Joint, JointParams, SheetParams, StockParams, lay_out};
 use kerfold::unfold::{MeshSource, Seams, UnfoldParams, prove, unfold};
 use kerfold::units::Length;
 
@@ -33,9 +33,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         proof.overlaps,
         proof.refold_mm
     );
-    let sheet =
-        SheetParams { joint: Joint::Flaps, kerf: Length::from_mm(0.15), ..SheetParams::default() };
+    let sheet = SheetParams {
+        joint: JointParams { kind: Joint::Flaps, ..JointParams::default() },
+        stock: StockParams { kerf: Length::from_mm(0.15), ..StockParams::default() },
+        ..SheetParams::default()
+    };
     let set = lay_out(&net, &sheet)?;
-    print!("{}", write_svg(&set.drawings[0], sheet.preset, "two_pieces"));
+    print!("{}", write_svg(&set.drawings[0], sheet.files.preset, "two_pieces"));
     Ok(())
 }

@@ -7,8 +7,8 @@ use kerfold::net::Net;
 use kerfold::progress::Silent;
 use kerfold::shape::{SolidParams, solid};
 use kerfold::sheet::{
-    Angles, Drawing, Joint, LayerKind, MarkKind, SheetParams, SheetSet, SheetSize, lay_out,
-    smallest_box,
+    Angles, Drawing, Joint, JointParams, LayerKind, LetterParams, MarkKind, SheetParams, SheetSet,
+    SheetSize, StockParams, lay_out, smallest_box,
 };
 use kerfold::unfold::{MeshSource, Seams, UnfoldParams, unfold};
 use kerfold::units::Length;
@@ -37,11 +37,17 @@ fn net(name: &str, size: f64, pieces: &str) -> Net {
 
 fn sheets(net: &Net, joint: Joint, kerf: f64) -> SheetSet {
     let params = SheetParams {
-        joint,
-        kerf: Length::from_mm(kerf),
-        thickness: matches!(joint, Joint::Fingers | Joint::Tabs).then(|| Length::from_mm(3.0)),
-        sheet: SheetSize::of_mm(1500.0, 1500.0),
-        angles: Angles::On,
+        joint: JointParams {
+            kind: joint,
+            thickness: matches!(joint, Joint::Fingers | Joint::Tabs).then(|| Length::from_mm(3.0)),
+            ..JointParams::default()
+        },
+        stock: StockParams {
+            kerf: Length::from_mm(kerf),
+            sheet: SheetSize::of_mm(1500.0, 1500.0),
+            ..StockParams::default()
+        },
+        letter: LetterParams { angles: Angles::On, ..LetterParams::default() },
         ..SheetParams::default()
     };
     lay_out(net, &params).unwrap_or_else(|e| panic!("{joint:?} {kerf}: {e}"))
@@ -235,11 +241,27 @@ fn flaps_count_when_a_piece_is_divided_for_the_sheet() {
         let settings = FabricateSettings { unfold: &unfold, choice: &choice, sheet };
         fabricate(&mesh, None, &settings, &source, &Silent).expect("pieces on sheets")
     };
-    let none = made(&SheetParams { sheet: SheetSize::None, ..SheetParams::default() });
+    let none = made(&SheetParams {
+        stock: StockParams { sheet: SheetSize::None, ..StockParams::default() },
+        ..SheetParams::default()
+    });
     let bare = smallest_box(&none.net.pieces[0].outline);
     // A sheet on which the piece fits without flaps and does not with them.
     let sheet = SheetSize::of_mm(bare.width + 12.0, bare.height + 12.0);
-    assert_eq!(made(&SheetParams { sheet, ..SheetParams::default() }).net.pieces.len(), 1);
-    let flapped = made(&SheetParams { sheet, joint: Joint::Flaps, ..SheetParams::default() });
+    assert_eq!(
+        made(&SheetParams {
+            stock: StockParams { sheet, ..StockParams::default() },
+            ..SheetParams::default()
+        })
+        .net
+        .pieces
+        .len(),
+        1
+    );
+    let flapped = made(&SheetParams {
+        stock: StockParams { sheet, ..StockParams::default() },
+        joint: JointParams { kind: Joint::Flaps, ..JointParams::default() },
+        ..SheetParams::default()
+    });
     assert!(flapped.net.pieces.len() > 1 && flapped.divided > 0);
 }

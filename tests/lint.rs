@@ -13,8 +13,8 @@ use kerfold::net::{MeshCounts, Net, Piece, PieceId, Proof};
 use kerfold::progress::Silent;
 use kerfold::recipe::{Job, Recipe};
 use kerfold::sheet::{
-    CommonLine, NestParams, Paper, Preset, ScoreStyle, SheetFormat, SheetParams, SheetSize,
-    kerf_coupon, lay_out,
+    CommonLine, FileParams, NestParams, Paper, Preset, ScoreParams, ScoreStyle, SheetFormat,
+    SheetParams, SheetSize, StockParams, kerf_coupon, lay_out,
 };
 use kerfold::units::Length;
 
@@ -176,8 +176,11 @@ fn assert_shared_lines_pass(shape: &dyn Fn(usize) -> Vec<DVec2>) {
         proof: Proof::default(),
     };
     let nest = NestParams { common_line: CommonLine::On, ..NestParams::default() };
-    let params =
-        SheetParams { nest, sheet: SheetSize::of_mm(240.0, 160.0), ..SheetParams::default() };
+    let params = SheetParams {
+        stock: StockParams { sheet: SheetSize::of_mm(240.0, 160.0), ..StockParams::default() },
+        nest,
+        ..SheetParams::default()
+    };
     let set = lay_out(&net, &params).expect("all fit");
     assert!(set.report.shared_length > 300.0, "{}", set.report.shared_length);
     assert_clean("shared lines", &set.drawings, &params);
@@ -211,25 +214,38 @@ fn every_preset_score_and_coupon_is_clean() {
     let job = Job::run(&recipe, Path::new(""), &Silent).expect("a solid");
     let net = &job.fabrication.as_ref().expect("pieces").0.net;
     let base = SheetParams {
-        kerf: Length::from_mm(0.2),
-        sheet: SheetSize::of_mm(700.0, 500.0),
+        stock: StockParams {
+            kerf: Length::from_mm(0.2),
+            sheet: SheetSize::of_mm(700.0, 500.0),
+            ..StockParams::default()
+        },
         ..SheetParams::default()
     };
     for preset in
         [Preset::Boxes, Preset::Lightburn, Preset::Ponoko, Preset::Glowforge, Preset::Epilog]
     {
-        let params = SheetParams { preset, score: ScoreStyle::Valleys, ..base.clone() };
+        let params = SheetParams {
+            files: FileParams { preset, ..base.files.clone() },
+            score: ScoreParams { style: ScoreStyle::Valleys, ..base.score.clone() },
+            ..base.clone()
+        };
         let set = kerfold::sheet::lay_out(net, &params).expect("fits");
         assert_clean(&format!("{preset:?}"), &set.drawings, &params);
     }
     for score in [ScoreStyle::Dashed, ScoreStyle::Perforated] {
-        let params = SheetParams { score, ..base.clone() };
+        let params = SheetParams {
+            score: ScoreParams { style: score, ..base.score.clone() },
+            ..base.clone()
+        };
         let set = kerfold::sheet::lay_out(net, &params).expect("fits");
         assert_clean(&format!("{score:?}"), &set.drawings, &params);
     }
     let ply = material("ply3", None).expect("bundled");
     let coupon = kerf_coupon(ply.thickness.mm(), &ply.title).expect("a coupon");
-    let params = SheetParams { material: Some("ply3".to_owned()), ..SheetParams::default() };
+    let params = SheetParams {
+        stock: StockParams { material: Some("ply3".to_owned()), ..StockParams::default() },
+        ..SheetParams::default()
+    };
     assert_clean("coupon", &[coupon], &with_material(&params, Path::new("")).expect("bundled"));
 }
 

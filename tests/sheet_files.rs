@@ -8,7 +8,7 @@ use kerfold::io::sheet::pdf::tiles::write_tiles;
 use kerfold::io::sheet::pdf::write_pdf;
 use kerfold::progress::Silent;
 use kerfold::recipe::{Job, Recipe};
-use kerfold::sheet::{Drawing, Paper, PartFiles, Preset, SheetParams};
+use kerfold::sheet::{Drawing, FileParams, Paper, PartFiles, Preset, SheetParams};
 
 const COMMAND: &str = "kerfold unfold \"a&b\".obj --score (x) \u{e4} \u{1}";
 
@@ -116,9 +116,12 @@ fn lbrn2_has_settings_in_working_order_and_closed_cuts() {
 fn files_are_named_by_sheet_part_and_paper_and_twice_the_same() {
     let drawings = [drawing()];
     let params = SheetParams {
-        format: "lbrn2,dxf,svg".parse().expect("formats"),
-        tile: Some(Paper::Letter),
-        part_files: PartFiles::On,
+        files: FileParams {
+            format: "lbrn2,dxf,svg".parse().expect("formats"),
+            tile: Some(Paper::Letter),
+            part_files: PartFiles::On,
+            ..FileParams::default()
+        },
         ..SheetParams::default()
     };
     let files = sheet_files(&drawings, &params, COMMAND).expect("known letters");

@@ -13,7 +13,9 @@ use kerfold::net::{
     EdgeLabel, FlatFace, Fold, FoldKind, MeshCounts, Net, Piece, PieceId, Proof, Seam, SeamSide,
     Segment,
 };
-use kerfold::sheet::{Preset, ScoreStyle, SheetParams, SheetSet, lay_out};
+use kerfold::sheet::{
+    Preset, ScoreParams, ScoreStyle, SheetParams, SheetSet, StockParams, lay_out,
+};
 use kerfold::units::Length;
 
 const PRESETS: [Preset; 6] = [
@@ -99,7 +101,10 @@ fn laid_out(params: &SheetParams) -> SheetSet {
 }
 
 fn with_kerf() -> SheetParams {
-    SheetParams { kerf: Length::from_mm(0.2), ..SheetParams::default() }
+    SheetParams {
+        stock: StockParams { kerf: Length::from_mm(0.2), ..StockParams::default() },
+        ..SheetParams::default()
+    }
 }
 
 /// What differs between a text and a golden file, in a sentence.
@@ -144,7 +149,10 @@ fn the_compare_fails_on_one_changed_byte() {
 fn the_file_keeps_the_contract_under_every_preset() {
     for preset in PRESETS {
         for score in [ScoreStyle::Solid, ScoreStyle::Dashed] {
-            let set = laid_out(&SheetParams { score, ..with_kerf() });
+            let set = laid_out(&SheetParams {
+                score: ScoreParams { style: score, ..with_kerf().score },
+                ..with_kerf()
+            });
             let text = write_svg(&set.drawings[0], preset, COMMAND);
             assert_contract(&text);
         }

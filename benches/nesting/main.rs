@@ -18,7 +18,9 @@ use std::process::{Command, Stdio};
 
 use glam::DVec2;
 use kerfold::net::{MeshCounts, Net, Piece, PieceId, Proof};
-use kerfold::sheet::{Labels, NestParams, SheetParams, SheetSet, SheetSize, lay_out};
+use kerfold::sheet::{
+    Labels, LetterParams, NestParams, SheetParams, SheetSet, SheetSize, StockParams, lay_out,
+};
 use kerfold::units::Length;
 use sets::{Set, area, set};
 
@@ -109,10 +111,13 @@ fn laid(set: &Set, nest: NestParams) -> SheetSet {
         proof: Proof::default(),
     };
     let params = SheetParams {
-        sheet: SheetSize::of_mm(set.sheet.x, set.sheet.y),
-        margin: Length::from_mm(0.0),
-        spacing: Length::from_mm(SPACING),
-        labels: Labels::None,
+        stock: StockParams {
+            sheet: SheetSize::of_mm(set.sheet.x, set.sheet.y),
+            margin: Length::from_mm(0.0),
+            spacing: Length::from_mm(SPACING),
+            ..StockParams::default()
+        },
+        letter: LetterParams { labels: Labels::None, ..LetterParams::default() },
         nest,
         ..SheetParams::default()
     };

@@ -10,7 +10,7 @@ use super::{Console, Outcome};
 use crate::io::output::write_file;
 use crate::io::sheet::files::sheet_bytes;
 use crate::make::{MakeError, MaterialError, material};
-use crate::sheet::{Preset, SheetFormat, SheetParams, kerf_coupon};
+use crate::sheet::{FileParams, Preset, SheetFormat, SheetParams, kerf_coupon};
 use crate::units::Length;
 
 /// Write a coupon that tells the kerf of a material and the slot that holds it
@@ -44,7 +44,10 @@ pub(super) fn run(args: &KerfTestArgs, console: &Console) -> Result<Outcome, Cli
         args.thickness.or(made_of.as_ref().map(|m| m.thickness)).unwrap_or_default().mm();
     let title = made_of.as_ref().map_or("KERF TEST", |m| m.title.as_str());
     let drawing = kerf_coupon(thickness, title).map_err(|e| CliError::Step(e.into()))?;
-    let mut params = SheetParams { preset: args.preset, ..SheetParams::default() };
+    let mut params = SheetParams {
+        files: FileParams { preset: args.preset, ..FileParams::default() },
+        ..SheetParams::default()
+    };
     if let Some(made_of) = made_of {
         params = params.with_material(made_of);
     }

@@ -103,7 +103,7 @@ pub(super) fn summary_text(fabrication: &Fabrication, sheet: &SheetParams) -> St
         );
         text += &format!("{} mm between lines", short(fabrication.sheets.travel_length()));
         if let Some((material, seconds)) =
-            sheet.made_of.as_ref().zip(fabrication.sheets.seconds(sheet))
+            sheet.stock.made_of.as_ref().zip(fabrication.sheets.seconds(sheet))
         {
             text += &format!(
                 ", about {} min on the machine for {}",

@@ -224,8 +224,9 @@ fn strips_reach_every_face(mesh: &Mesh, strip: &[EdgeId]) -> bool {
 /// The room inside the margin of a sheet for a piece with its joints, kerf included; `None` without
 /// sheets.
 fn room(sheet: &SheetParams) -> Option<Room> {
-    let inside =
-        sheet.sheet.mm()? - 2.0 * (sheet.margin.mm() + sheet.joint_reach()) - sheet.kerf.mm();
+    let inside = sheet.stock.sheet.mm()?
+        - 2.0 * (sheet.stock.margin.mm() + sheet.joint_reach())
+        - sheet.stock.kerf.mm();
     Some(Room { longer: inside.max_element(), shorter: inside.min_element() })
 }
 

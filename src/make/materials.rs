@@ -102,8 +102,8 @@ fn read(text: &str, path: &Path) -> Result<BTreeMap<String, Material>, MaterialE
 /// # Errors
 /// [`MaterialError`].
 pub fn with_material(params: &SheetParams, folder: &Path) -> Result<SheetParams, MaterialError> {
-    let file = params.materials.as_ref().map(|path| folder.join(path));
-    match (&params.material, file) {
+    let file = params.stock.materials.as_ref().map(|path| folder.join(path));
+    match (&params.stock.material, file) {
         (None, None) => Ok(params.clone()),
         (None, Some(path)) => Err(MaterialError::NoName { path }),
         (Some(name), file) => Ok(params.with_material(material(name, file.as_deref())?)),
@@ -113,7 +113,7 @@ pub fn with_material(params: &SheetParams, folder: &Path) -> Result<SheetParams,
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sheet::{Joint, LayerKind};
+    use crate::sheet::{Joint, JointParams, LayerKind, StockParams};
     use crate::units::Length;
 
     #[test]
@@ -128,20 +128,30 @@ mod tests {
 
     #[test]
     fn a_material_gives_kerf_thickness_and_speeds_where_nothing_else_is_said() {
-        let params = SheetParams { material: Some("ply3".to_owned()), ..SheetParams::default() };
+        let params = SheetParams {
+            stock: StockParams { material: Some("ply3".to_owned()), ..StockParams::default() },
+            ..SheetParams::default()
+        };
         let made = with_material(&params, Path::new("")).expect("bundled");
-        assert_eq!((made.kerf.mm(), made.thickness), (0.2, None));
+        assert_eq!((made.stock.kerf.mm(), made.joint.thickness), (0.2, None));
         assert_eq!((made.speed(LayerKind::Score), made.speed(LayerKind::Info)), (Some(60.0), None));
-        let params = SheetParams { joint: Joint::Fingers, kerf: Length::from_mm(0.3), ..params };
+        let params = SheetParams {
+            joint: JointParams { kind: Joint::Fingers, ..params.joint },
+            stock: StockParams { kerf: Length::from_mm(0.3), ..params.stock },
+            ..params
+        };
         let made = with_material(&params, Path::new("")).expect("bundled");
-        assert_eq!((made.kerf.mm(), made.thickness.map(Length::mm)), (0.3, Some(3.0)));
+        assert_eq!((made.stock.kerf.mm(), made.joint.thickness.map(Length::mm)), (0.3, Some(3.0)));
     }
 
     #[test]
     fn unknown_names_get_advice_and_bad_tables_a_line() {
         let text = material("plyy3", None).expect_err("unknown").to_string();
         assert!(text.contains("did you mean `ply"), "{text}");
-        let params = SheetParams { materials: Some("mine.toml".into()), ..SheetParams::default() };
+        let params = SheetParams {
+            stock: StockParams { materials: Some("mine.toml".into()), ..StockParams::default() },
+            ..SheetParams::default()
+        };
         assert!(
             with_material(&params, Path::new(""))
                 .expect_err("no name")

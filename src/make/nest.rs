@@ -8,8 +8,9 @@ use serde::Deserialize;
 use super::{Fabrication, MakeError};
 use crate::code::codes;
 use crate::io::order_json::{Order, OrderError};
+use crate::net::{Net, Piece};
 use crate::progress::Progress;
-use crate::sheet::{SheetParams, lay_out_watched};
+use crate::sheet::{PieceKind, SheetParams, lay_out_watched};
 
 /// Which pieces are nested.
 #[derive(Debug, Clone, PartialEq, Eq, clap::Args, Deserialize)]
@@ -81,6 +82,16 @@ codes!(error NestError {
     Order.error,
 });
 
+/// What the pieces of files are, which the files do not say: plates are cut otherwise than along the
+/// border of their only face.
+fn kind_of(net: &Net) -> PieceKind {
+    let is_plate = |piece: &Piece| match piece.faces.as_slice() {
+        [face] => piece.outline != face.polygon || !piece.holes.is_empty(),
+        _ => false,
+    };
+    if net.pieces.iter().any(is_plate) { PieceKind::Panels } else { PieceKind::Faces }
+}
+
 /// Nests the pieces of files, which are looked for from `folder`.
 ///
 /// # Errors
@@ -107,7 +118,7 @@ pub fn nest_files(
     }
     let path = step.pieces.first().cloned().unwrap_or_default();
     let nest = order.params(&sheet.nest).map_err(|error| NestError::Order { path, error })?;
-    let params = SheetParams { nest, ..sheet.clone() };
+    let params = SheetParams { nest, pieces: kind_of(&order.net), ..sheet.clone() };
     let sheets = lay_out_watched(&order.net, &params, progress)?;
     let Order { net, sources, .. } = order;
     Ok(Fabrication { net, sheets, seams: "the pieces were given", divided: 0, sources })

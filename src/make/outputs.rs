@@ -105,7 +105,27 @@ impl Fabrication {
         let closed = report.closed_notches;
         note(
             closed,
-            format!("{closed} notches are narrower than the kerf: flaps hang together there"),
+            format!(
+                "{} narrower than the kerf and not cut: flaps are connected there",
+                counted(closed, "notch is", "notches are")
+            ),
+        );
+        let widened = report.widened_notches;
+        note(
+            widened,
+            format!(
+                "{} too narrow for a closed cut and cut wider",
+                counted(widened, "slit or notch is", "slits and notches are")
+            ),
+        );
+        let uncut = &report.uncut_seams;
+        note(
+            uncut.len(),
+            format!(
+                "{} left uncut, as both sides lie on one another: {}",
+                counted(uncut.len(), "seam is", "seams are"),
+                edge_list(uncut)
+            ),
         );
         note(
             usize::from(report.is_stopped),
@@ -141,7 +161,7 @@ fn joint_notes(joints: &JointReport) -> Vec<String> {
     if joints.flaps > 0 {
         let (narrowed, moved) = (joints.narrowed_flaps, joints.moved_flaps);
         notes.push(format!(
-            "{} flaps; for want of room {narrowed} are narrower and {moved} on the other side",
+            "{} flaps; for lack of room {narrowed} are narrower and {moved} on the other side",
             joints.flaps
         ));
     }
@@ -195,6 +215,11 @@ fn mitre_note(mitred: &[(EdgeLabel, f64)]) -> Option<String> {
     let angles: Vec<String> = by_angle.iter().map(angle).collect();
     (!angles.is_empty())
         .then(|| format!("mitre, off the square edge of either side: {}", angles.join("; ")))
+}
+
+/// A number with the words for one or for several.
+fn counted(count: usize, one: &str, several: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { several })
 }
 
 /// The first names of a list of edges.

@@ -17,7 +17,9 @@ use crate::panel::{
     panel_net, plates, schedule,
 };
 use crate::progress::Progress;
-use crate::sheet::{Joint, Labels, SheetParams, lay_out_watched};
+use crate::sheet::{
+    Joint, JointParams, Labels, LetterParams, PieceKind, SheetParams, lay_out_watched,
+};
 use crate::unfold::MeshSource;
 use crate::units::Length;
 
@@ -132,7 +134,7 @@ pub fn panel_model(
 ) -> Result<Panelled, MakeError> {
     let PanelSettings { panels: params, files, sheet } = *settings;
     let (thickness, hardware) = hardware(params, sheet)?;
-    let density = params.density.or_else(|| sheet.made_of.as_ref()?.density);
+    let density = params.density.or_else(|| sheet.stock.made_of.as_ref()?.density);
     let params = &PanelParams { density, ..params.clone() };
     let plates = plates(mesh, thickness, (params, &hardware), progress)?;
     let schedule = schedule(mesh, &plates, params);
@@ -149,7 +151,7 @@ fn hardware(
     params: &PanelParams,
     sheet: &SheetParams,
 ) -> Result<(Length, Hardware), PanelOptionError> {
-    if sheet.joint != Joint::None {
+    if sheet.joint.kind != Joint::None {
         return Err(PanelOptionError::Joint);
     }
     let has = |kinds: &[EdgeKind]| kinds.iter().any(|&k| params.edges.has(k));
@@ -158,21 +160,21 @@ fn hardware(
     let unused = |option: &'static str, is_given: bool, is_used: bool, by: &'static str| {
         if is_given && !is_used { Err(PanelOptionError::Unused { option, by }) } else { Ok(()) }
     };
-    unused("finger-width", sheet.finger_width.is_some(), has(&[EdgeKind::Finger]), "finger")?;
+    unused("finger-width", sheet.joint.finger_width.is_some(), has(&[EdgeKind::Finger]), "finger")?;
     for (option, value) in [
-        ("hole-spacing", sheet.hole_spacing),
-        ("hole-diameter", sheet.hole_diameter),
-        ("hole-inset", sheet.hole_inset),
+        ("hole-spacing", sheet.joint.hole_spacing),
+        ("hole-diameter", sheet.joint.hole_diameter),
+        ("hole-inset", sheet.joint.hole_inset),
     ] {
         unused(option, value.is_some(), has_holes, "stitch or hinge")?;
     }
-    let of_material = sheet.made_of.as_ref().map(|material| material.thickness);
-    let thickness = sheet.thickness.or(of_material).ok_or(PanelOptionError::NoThickness)?;
+    let of_material = sheet.stock.made_of.as_ref().map(|material| material.thickness);
+    let thickness = sheet.joint.thickness.or(of_material).ok_or(PanelOptionError::NoThickness)?;
     let hardware = Hardware {
-        finger_width: sheet.finger_width,
-        hole_spacing: sheet.hole_spacing,
-        hole_diameter: sheet.hole_diameter,
-        hole_inset: sheet.hole_inset,
+        finger_width: sheet.joint.finger_width,
+        hole_spacing: sheet.joint.hole_spacing,
+        hole_diameter: sheet.joint.hole_diameter,
+        hole_inset: sheet.joint.hole_inset,
     };
     Ok((thickness, hardware))
 }
@@ -180,14 +182,19 @@ fn hardware(
 /// The sheet's parameters without what the plates have taken; seams carry the numbers of the edges,
 /// as the schedule does.
 fn bare(sheet: &SheetParams) -> SheetParams {
-    let labels = if sheet.labels == Labels::All { Labels::Edges } else { sheet.labels };
+    let labels =
+        if sheet.letter.labels == Labels::All { Labels::Edges } else { sheet.letter.labels };
     SheetParams {
-        labels,
-        thickness: None,
-        finger_width: None,
-        hole_spacing: None,
-        hole_diameter: None,
-        hole_inset: None,
+        letter: LetterParams { labels, ..sheet.letter },
+        joint: JointParams {
+            thickness: None,
+            finger_width: None,
+            hole_spacing: None,
+            hole_diameter: None,
+            hole_inset: None,
+            ..sheet.joint.clone()
+        },
+        pieces: PieceKind::Panels,
         ..sheet.clone()
     }
 }

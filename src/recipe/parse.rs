@@ -222,10 +222,22 @@ impl StepFields<'_> {
             // text or none of it.
             let in_value =
                 e.span().filter(|s| !s.is_empty() && s.len() < document.trim_end().len());
-            let place =
-                in_value.and_then(|s| places.iter().find(|(range, _)| range.contains(&s.start)));
+            let place = match in_value {
+                Some(span) => places.iter().find(|(range, _)| range.contains(&span.start)),
+                None => places
+                    .iter()
+                    .find(|(range, _)| fails_alone::<T>(&document[range.clone()], e.message())),
+            };
             let offset = place.map_or(self.span.start, |p| p.1);
             self.source.bad(offset..offset, e.message())
         })
     }
+}
+
+/// Whether one entry alone brings an error about. The fields of flattened structs report errors
+/// without their place, so the entry is looked for. What an empty step brings about, too, is no
+/// fault of an entry.
+fn fails_alone<T: DeserializeOwned>(entry: &str, message: &str) -> bool {
+    let fails = |text: &str| toml::from_str::<T>(text).is_err_and(|e| e.message() == message);
+    fails(entry) && !fails("")
 }

@@ -55,7 +55,7 @@ width = 400
     );
     assert_eq!(recipe.name.as_deref(), Some("All kinds of steps"));
     let Step::Unfold { sheet, .. } = &recipe.steps[5] else { panic!("an unfold step") };
-    assert_eq!(sheet.kerf.mm(), 0.2);
+    assert_eq!(sheet.stock.kerf.mm(), 0.2);
 }
 
 #[test]

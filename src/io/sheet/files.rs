@@ -36,16 +36,16 @@ pub fn sheet_files(
 ) -> Result<Vec<(String, Vec<u8>)>, SheetError> {
     let mut files = Vec::new();
     let mut add = |drawing: &Drawing| {
-        for format in params.format.iter() {
+        for format in params.files.format.iter() {
             let name = format!("{}.{}", drawing.file_stem(), format.extension());
             files.push((name, sheet_bytes(drawing, format, params, command)));
         }
     };
     drawings.iter().for_each(&mut add);
-    if params.part_files == PartFiles::On {
+    if params.files.part_files == PartFiles::On {
         drawings.iter().flat_map(Drawing::parts).for_each(|part| add(&part));
     }
-    if let Some(paper) = params.tile {
+    if let Some(paper) = params.files.tile {
         for drawing in drawings {
             let bytes = write_tiles(drawing, paper, params.style(), command)?;
             files.push((format!("{}-{}.pdf", drawing.file_stem(), paper.name()), bytes));

@@ -76,6 +76,25 @@ pub fn segments_cross(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
     opposite(orient2d(a, b, c), orient2d(a, b, d)) && opposite(orient2d(c, d, a), orient2d(c, d, b))
 }
 
+/// Whether two closed segments share a point, exactly.
+pub fn segments_meet(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
+    segments_cross(a, b, c, d)
+        || on_segment(a, b, c)
+        || on_segment(a, b, d)
+        || on_segment(c, d, a)
+        || on_segment(c, d, b)
+}
+
+/// Whether the borders of two polygons touch or cross, exactly.
+pub fn borders_meet(a: &[DVec2], b: &[DVec2]) -> bool {
+    sides(a).any(|[p, q]| sides(b).any(|[r, s]| segments_meet(p, q, r, s)))
+}
+
+/// The sides of a polygon, from each corner to the next.
+fn sides(corners: &[DVec2]) -> impl Iterator<Item = [DVec2; 2]> + '_ {
+    (0..corners.len()).map(|i| [corners[i], corners[(i + 1) % corners.len()]])
+}
+
 /// The convex hull, counter-clockwise, without collinear corners (Andrew 1979, monotone chain,
 /// exact signs).
 pub fn convex_hull(points: &[DVec2]) -> Vec<DVec2> {

@@ -113,7 +113,9 @@ fn free_stretches([p, q]: [DVec2; 2], drawn: &[[DVec2; 2]], tolerance: f64) -> V
 #[cfg(test)]
 mod tests {
     use super::super::testing::{net_of, points, square};
-    use super::super::{CommonLine, NestParams, SheetError, SheetParams, SheetSet, lay_out};
+    use super::super::{
+        CommonLine, NestParams, SheetError, SheetParams, SheetSet, StockParams, lay_out,
+    };
     use super::*;
     use crate::geom::polygon::signed_area;
     use crate::units::Length;
@@ -187,10 +189,20 @@ mod tests {
     #[test]
     fn a_kerf_and_holding_tabs_are_refused_with_the_reason() {
         let net = net_of(vec![square(40.0); 2]);
-        let error = lay_out(&net, &SheetParams { kerf: Length::from_mm(0.2), ..params() })
-            .expect_err("a kerf");
+        let error = lay_out(
+            &net,
+            &SheetParams {
+                stock: StockParams { kerf: Length::from_mm(0.2), ..params().stock },
+                ..params()
+            },
+        )
+        .expect_err("a kerf");
         assert!(error.to_string().contains("0.1 mm of both parts"), "{error}");
-        let error = lay_out(&net, &SheetParams { hold: 2, ..params() }).expect_err("tabs");
+        let error = lay_out(
+            &net,
+            &SheetParams { stock: StockParams { holding_tabs: 2, ..params().stock }, ..params() },
+        )
+        .expect_err("tabs");
         assert_eq!(error, SheetError::CommonLineOption { option: "hold" });
     }
 

@@ -6,57 +6,18 @@ use glam::DVec2;
 
 use super::drawing::{Drawing, MarkKind, Stroke};
 use super::error::SheetError;
+use super::features::{Features, features};
 use super::joint::{FlapFold, Jointed, on_material};
 use super::kerf::CutShape;
 use super::layout::{Layout, Placed, SheetReport};
-use super::letter::Stretch;
-use super::letter::lettering;
-use super::letter::{Label, Taken, is_clear, name_label, number_across, number_label};
-use super::params::{Angles, Labels, SheetParams, Stock};
-use super::score::{Hinges, ScorePlan, hold};
-use crate::geom::polygon::{Location, bounds, locate};
-use crate::net::{FlatFace, Fold, FoldKind, Net, Piece, PieceId, Seam};
+use super::letter::{PieceLettering, Stretch, lettering};
+use super::params::{PieceKind, SheetParams, Stock};
+use super::score::{Hinges, ScorePlan, with_holding_tabs};
+use crate::geom::polygon::bounds;
+use crate::net::{FoldKind, Net, Piece, PieceId};
 
 /// Sides of the reference square that are tried, in mm.
 const REFERENCE_SIDES: [f64; 3] = [100.0, 10.0, 1.0];
-
-/// What lies on a piece besides its outline.
-#[derive(Default)]
-struct Features<'a> {
-    folds: Vec<&'a Fold>,
-    /// The seams of the piece with the side, 0 or 1, that lies on it.
-    seams: Vec<(&'a Seam, usize)>,
-    /// Stretches of seam with the side, 0 for forwards and 1 for its partner, that lies on the
-    /// piece.
-    stretches: Vec<(&'a Stretch, usize)>,
-}
-
-fn features<'a>(
-    net: &'a Net,
-    stretches: &'a [Stretch],
-) -> Result<BTreeMap<PieceId, Features<'a>>, SheetError> {
-    let mut all: BTreeMap<PieceId, Features<'a>> =
-        net.pieces.iter().map(|p| (p.id, Features::default())).collect();
-    let unknown = |edge: String, piece| SheetError::UnknownPiece { edge, piece };
-    for fold in &net.folds {
-        let here =
-            all.get_mut(&fold.piece).ok_or_else(|| unknown(fold.id.to_string(), fold.piece))?;
-        here.folds.push(fold);
-    }
-    for seam in &net.seams {
-        for (i, side) in seam.sides.iter().enumerate() {
-            let here =
-                all.get_mut(&side.piece).ok_or_else(|| unknown(seam.id.to_string(), side.piece))?;
-            here.seams.push((seam, i));
-        }
-    }
-    for stretch in stretches {
-        for (i, piece) in stretch.pieces.iter().enumerate() {
-            all.entry(*piece).or_default().stretches.push((stretch, i));
-        }
-    }
-    Ok(all)
-}
 
 /// Draws every sheet of a layout.
 pub(crate) fn draw(
@@ -69,10 +30,11 @@ pub(crate) fn draw(
     let features = features(net, stretches)?;
     let by_id: BTreeMap<PieceId, (&Piece, &CutShape)> =
         net.pieces.iter().zip(shapes).map(|(p, s)| (p.id, (p, s))).collect();
-    let score = ScorePlan::of(params)?;
-    let tabs = hold_of(params)?;
+    let score = ScorePlan::of(&params.score, params.stock.kerf.mm())?;
+    let tabs = holding_tabs(params)?;
     let mut report = SheetReport::default();
     let mut drawings = Vec::new();
+    let cut_is_no_border = jointed.is_some() || params.pieces == PieceKind::Panels;
     for sheet in &layout.sheets {
         let mut drawing = Drawing::new(sheet);
         for placed in &sheet.placed {
@@ -84,16 +46,11 @@ pub(crate) fn draw(
             draw_folds(&mut drawing, here, (placed, cut), (&score, &hinges), &mut report);
             let flaps = jointed.iter().flat_map(|j| &j.flap_folds).filter(|f| f.piece == piece.id);
             draw_flap_folds(&mut drawing, flaps, placed, &score);
-            // The cut of a panel is not the border of its face: there are gaps, fingers and holes.
-            let is_face = |f: &FlatFace| piece.outline == f.polygon && piece.holes.is_empty();
-            let is_panel = piece.faces.len() == 1 && !is_face(&piece.faces[0]);
-            let mut obstacles: Vec<Vec<DVec2>> = if jointed.is_some() || is_panel {
-                shape.contours().cloned().collect()
-            } else {
-                Vec::new()
-            };
+            let mut obstacles: Vec<Vec<DVec2>> =
+                if cut_is_no_border { shape.contours().cloned().collect() } else { Vec::new() };
             obstacles.extend(hinges.rows.iter().flat_map(|r| &r.slits).map(|slit| slit.to_vec()));
-            let lettering = Lettering { net, piece, here, placed, obstacles: &obstacles, params };
+            let lettering =
+                PieceLettering::new(net, (piece, here, placed), &obstacles, params.letter);
             lettering.draw(&mut drawing, &mut report)?;
         }
         let stock = Stock { size: DVec2::new(sheet.width, sheet.height), ..*stock };
@@ -105,11 +62,13 @@ pub(crate) fn draw(
 }
 
 /// Number and width in mm of the tabs that hold every part.
-fn hold_of(params: &SheetParams) -> Result<(usize, f64), SheetError> {
-    let width = params.hold_width.map_or(0.5, |w| w.mm());
-    match params.hold {
-        0 if params.hold_width.is_some() => Err(SheetError::HoldOption),
-        0..=100 if width >= 0.05 && width.is_finite() => Ok((params.hold as usize, width)),
+fn holding_tabs(params: &SheetParams) -> Result<(usize, f64), SheetError> {
+    let width = params.stock.holding_tab_width.map_or(0.5, |w| w.mm());
+    match params.stock.holding_tabs {
+        0 if params.stock.holding_tab_width.is_some() => Err(SheetError::HoldOption),
+        0..=100 if width >= 0.05 && width.is_finite() => {
+            Ok((params.stock.holding_tabs as usize, width))
+        }
         0..=100 => Err(SheetError::OutOfRange { name: "hold-width", value: width, least: 0.05 }),
         count => Err(SheetError::TooManyTabs { count }),
     }
@@ -122,19 +81,15 @@ fn draw_cuts(
     (tabs, width): (usize, f64),
 ) {
     let id = shape.piece;
-    let stroke =
-        |points: &[DVec2], closed| vec![Stroke { points: placed.apply_all(points), closed }];
+    let closed = |points: &[DVec2]| vec![Stroke { points: placed.apply_all(points), closed: true }];
     drawing.add(
         MarkKind::Outline,
         id.to_string(),
         Some(id),
-        hold(&placed.apply_all(&shape.outline), tabs, width),
+        with_holding_tabs(&placed.apply_all(&shape.outline), tabs, width),
     );
     for (i, hole) in shape.holes.iter().enumerate() {
-        drawing.add(MarkKind::Hole, format!("{id}-hole-{}", i + 1), Some(id), stroke(hole, true));
-    }
-    for (i, slit) in shape.slits.iter().enumerate() {
-        drawing.add(MarkKind::Slit, format!("{id}-slit-{}", i + 1), Some(id), stroke(slit, false));
+        drawing.add(MarkKind::Hole, format!("{id}-hole-{}", i + 1), Some(id), closed(hole));
     }
 }
 
@@ -172,7 +127,7 @@ fn draw_folds(
         drawing.add(kind, fold.id.to_string(), Some(placed.piece), strokes);
     }
     for row in &hinges.rows {
-        let slit = |s: &[DVec2; 2]| Stroke { points: placed.apply_all(s), closed: false };
+        let slit = |s: &[DVec2; 2]| score.slot(placed.apply(s[0]), placed.apply(s[1]));
         let id = format!("{}-slits-{}", row.fold, row.number);
         drawing.add(MarkKind::Hinge, id, Some(placed.piece), row.slits.iter().map(slit).collect());
     }
@@ -194,218 +149,6 @@ fn draw_flap_folds<'a>(
     }
 }
 
-/// What is lettered first and so gets the best place.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Order {
-    NameFirst,
-    NumbersFirst,
-}
-
-/// The lettering of one piece.
-#[derive(Default)]
-struct Lettered {
-    labels: Vec<(MarkKind, String, Label)>,
-    taken: Taken,
-    named: bool,
-    unnumbered: usize,
-    unmarked_angles: usize,
-}
-
-/// Letters one piece.
-struct Lettering<'a> {
-    net: &'a Net,
-    piece: &'a Piece,
-    here: &'a Features<'a>,
-    placed: &'a Placed,
-    obstacles: &'a [Vec<DVec2>],
-    params: &'a SheetParams,
-}
-
-/// Length of the mark at the end of a stretch, and how far from the edge it begins, in mm.
-const MARK: [f64; 2] = [2.0, 0.4];
-
-impl Lettering<'_> {
-    fn draw(&self, drawing: &mut Drawing, report: &mut SheetReport) -> Result<(), SheetError> {
-        let mut lettered = self.letter(Order::NameFirst)?;
-        if lettered.unnumbered > 0 {
-            // A seam without its number is the greater loss: the name makes room.
-            let other = self.letter(Order::NumbersFirst)?;
-            lettered = if other.unnumbered < lettered.unnumbered { other } else { lettered };
-        }
-        if !lettered.named && self.params.labels != Labels::None {
-            report.unnamed_pieces.push(self.piece.id);
-        }
-        report.unnumbered_sides += lettered.unnumbered;
-        report.unmarked_angles += lettered.unmarked_angles;
-        for (kind, id, label) in lettered.labels {
-            let open = |points: &Vec<DVec2>| Stroke {
-                points: self.placed.apply_all(points),
-                closed: false,
-            };
-            drawing.add(kind, id, Some(self.piece.id), label.strokes.iter().map(open).collect());
-        }
-        Ok(())
-    }
-
-    fn letter(&self, order: Order) -> Result<Lettered, SheetError> {
-        let mut lettered = Lettered::default();
-        let labels = self.params.labels;
-        if order == Order::NameFirst && labels != Labels::None {
-            self.name(&mut lettered)?;
-        }
-        match labels {
-            Labels::All => self.stretches(&mut lettered)?,
-            Labels::Edges => self.edges(&mut lettered)?,
-            Labels::None | Labels::Pieces => {}
-        }
-        if order == Order::NumbersFirst && labels != Labels::None {
-            self.name(&mut lettered)?;
-        }
-        if self.params.angles == Angles::On {
-            self.angles(&mut lettered)?;
-        }
-        Ok(lettered)
-    }
-
-    fn name(&self, lettered: &mut Lettered) -> Result<(), SheetError> {
-        let upright = DVec2::from_angle(-self.placed.rotation.to_radians());
-        if let Some((face, label)) =
-            name_label(self.piece, upright, &lettered.taken, self.obstacles)?
-        {
-            lettered.put(MarkKind::PieceName, format!("{}-name", self.piece.id), face, label);
-            lettered.named = true;
-        }
-        Ok(())
-    }
-
-    fn faces(&self) -> BTreeMap<usize, usize> {
-        self.piece.faces.iter().enumerate().map(|(i, f)| (f.face, i)).collect()
-    }
-
-    fn edges(&self, lettered: &mut Lettered) -> Result<(), SheetError> {
-        let faces = self.faces();
-        for &(seam, i) in &self.here.seams {
-            let text = seam.id.0.to_string();
-            match self.beside(&text, &faces, (seam, i), false, &lettered.taken)? {
-                Some((at, label)) => lettered.put(
-                    MarkKind::SeamNumber,
-                    format!("{}-number-{}", seam.id, i + 1),
-                    at,
-                    label,
-                ),
-                None => lettered.unnumbered += 1,
-            }
-        }
-        Ok(())
-    }
-
-    /// One number for every stretch, as near to its middle as there is room, and marks where only
-    /// they show its ends.
-    fn stretches(&self, lettered: &mut Lettered) -> Result<(), SheetError> {
-        let faces = self.faces();
-        for &(stretch, i) in &self.here.stretches {
-            let text = stretch.number.to_string();
-            let n = stretch.seams.len();
-            let mut order: Vec<usize> = (0..n).collect();
-            order.sort_by_key(|&k| ((2 * k + 1).abs_diff(n), k));
-            let mut found = None;
-            for across in [false, true] {
-                for &k in &order {
-                    let (s, forward) = stretch.seams[k];
-                    let side = (&self.net.seams[s], forward ^ i);
-                    found = match found {
-                        None => self.beside(&text, &faces, side, across, &lettered.taken)?,
-                        some => some,
-                    };
-                }
-            }
-            let (first, forward) = stretch.seams[0];
-            let name =
-                |what: &str| format!("{}-{what}-{}", self.net.seams[first].id, 1 + (forward ^ i));
-            match found {
-                Some((at, label)) => lettered.put(MarkKind::SeamNumber, name("number"), at, label),
-                None => lettered.unnumbered += 1,
-            }
-            if let Some(mark) = self.mark(stretch, i, &faces) {
-                lettered.labels.push((MarkKind::SeamMark, name("mark"), mark));
-            }
-        }
-        Ok(())
-    }
-
-    /// The short line at the beginning of a stretch that another one runs into.
-    fn mark(&self, stretch: &Stretch, i: usize, faces: &BTreeMap<usize, usize>) -> Option<Label> {
-        let (s, forward) = *stretch.seams.first().filter(|_| stretch.goes_on[0])?;
-        let side = &self.net.seams[s].sides[forward ^ i];
-        let face = &self.piece.faces[*faces.get(&side.face)?];
-        let [a, b] = face.side(self.net.seams[s].edge, side.segment)?;
-        // The beginning of the stretch is where its forward side begins and its partner ends.
-        let (at, towards) = if i == 0 { (a, b) } else { (b, a) };
-        // A little beside the corner, where a fold may begin.
-        let at = at + (towards - at).normalize_or_zero() * (0.25_f64).min(0.2 * a.distance(b));
-        let inwards = (b - a).normalize_or_zero().perp();
-        let line = vec![at + inwards * MARK[1], at + inwards * (MARK[1] + MARK[0])];
-        let inside = line.iter().all(|&p| locate(&face.polygon, p) == Location::Inside);
-        let frame = [line[0], line[1], line[1], line[0]];
-        let label = Label { strokes: vec![line], frame, height: MARK[0] };
-        (inside && is_clear(&label, self.obstacles)).then_some(label)
-    }
-
-    fn angles(&self, lettered: &mut Lettered) -> Result<(), SheetError> {
-        let faces = self.faces();
-        for fold in self.here.folds.iter().filter(|f| f.kind != FoldKind::Flat) {
-            let text = format!("{:.0}°", fold.fold_angle);
-            let mut found = None;
-            for at in fold.faces.iter().filter_map(|f| faces.get(f).copied()) {
-                let taken = lettered.taken.get(&at).map_or(&[][..], Vec::as_slice);
-                found = match found {
-                    None => number_label(
-                        &text,
-                        &self.piece.faces[at],
-                        fold.edge,
-                        fold.segment,
-                        taken,
-                        self.obstacles,
-                    )?
-                    .map(|label| (at, label)),
-                    some => some,
-                };
-            }
-            match found {
-                Some((at, label)) => {
-                    lettered.put(MarkKind::FoldAngle, format!("{}-angle", fold.id), at, label)
-                }
-                None => lettered.unmarked_angles += 1,
-            }
-        }
-        Ok(())
-    }
-
-    fn beside(
-        &self,
-        text: &str,
-        faces: &BTreeMap<usize, usize>,
-        (seam, i): (&Seam, usize),
-        across: bool,
-        taken: &Taken,
-    ) -> Result<Option<(usize, Label)>, SheetError> {
-        let side = &seam.sides[i];
-        let Some(&at) = faces.get(&side.face) else { return Ok(None) };
-        let taken = taken.get(&at).map_or(&[][..], Vec::as_slice);
-        let put = if across { number_across } else { number_label };
-        let label =
-            put(text, &self.piece.faces[at], seam.edge, side.segment, taken, self.obstacles)?;
-        Ok(label.map(|label| (at, label)))
-    }
-}
-
-impl Lettered {
-    fn put(&mut self, kind: MarkKind, id: String, face: usize, label: Label) {
-        self.taken.entry(face).or_default().push(label.frame);
-        self.labels.push((kind, id, label));
-    }
-}
-
 /// The reference square, clear of all pieces where there is room and else in the lower left corner;
 /// and a note in the lower margin, where it is high enough.
 fn draw_info(drawing: &mut Drawing, stock: &Stock, params: &SheetParams) -> Result<(), SheetError> {
@@ -421,7 +164,8 @@ fn draw_info(drawing: &mut Drawing, stock: &Stock, params: &SheetParams) -> Resu
         drawing.add(MarkKind::Reference, "reference".to_owned(), None, strokes);
     }
     let short = |value: f64| (value * 1e4).round() / 1e4;
-    let (width, height, kerf) = (short(stock.size.x), short(stock.size.y), short(params.kerf.mm()));
+    let (width, height, kerf) =
+        (short(stock.size.x), short(stock.size.y), short(params.stock.kerf.mm()));
     let text = lettering(
         &format!("{}  {width} X {height} MM  KERF {kerf} MM", drawing.sheet),
         (stock.margin / 2.0).min(3.0),
@@ -466,12 +210,12 @@ mod tests {
     use super::super::drawing::LayerKind;
     use super::super::drawing::Mark;
     use super::super::lay_out;
-    use super::super::letter::segments_meet;
-    use super::super::params::ScoreStyle;
     use super::super::testing::{net_of, random_convex, ring, square, strips, two_pieces};
     use super::super::verify::edges;
+    use super::super::{Labels, LetterParams, ScoreParams, ScoreStyle, StockParams};
     use super::super::{NestParams, Rotation};
     use super::*;
+    use crate::geom::polygon::segments_meet;
     use crate::units::Length;
 
     fn drawn(net: &Net, params: &SheetParams) -> (Drawing, SheetReport) {
@@ -518,7 +262,10 @@ mod tests {
         net.pieces.extend(
             (3..20).map(|i| super::super::testing::piece(PieceId(i), random_convex(i as u64))),
         );
-        let params = SheetParams { kerf: Length::from_mm(0.2), ..SheetParams::default() };
+        let params = SheetParams {
+            stock: StockParams { kerf: Length::from_mm(0.2), ..StockParams::default() },
+            ..SheetParams::default()
+        };
         let (drawing, _) = drawn(&net, &params);
         let lines = lines(&drawing);
         let solid = |l: LayerKind| {
@@ -536,8 +283,13 @@ mod tests {
         for (labels, expected) in
             [(Labels::None, vec![]), (Labels::Pieces, vec!["P01-name", "P02-name"])]
         {
-            let (drawing, _) =
-                drawn(&two_pieces(), &SheetParams { labels, ..SheetParams::default() });
+            let (drawing, _) = drawn(
+                &two_pieces(),
+                &SheetParams {
+                    letter: LetterParams { labels, ..LetterParams::default() },
+                    ..SheetParams::default()
+                },
+            );
             assert_eq!(ids(&drawing, LayerKind::Engrave), expected);
         }
         // Too small even for a number of one digit.
@@ -556,20 +308,38 @@ mod tests {
 
     #[test]
     fn dashed_perforated_and_held_sheets_have_their_lines_on_the_right_layers() {
-        let with = |score| drawn(&two_pieces(), &SheetParams { score, ..SheetParams::default() }).0;
+        let with = |score| {
+            drawn(
+                &two_pieces(),
+                &SheetParams {
+                    score: ScoreParams { style: score, ..ScoreParams::default() },
+                    ..SheetParams::default()
+                },
+            )
+            .0
+        };
         assert!((with(ScoreStyle::Dashed).score_length() - 16.0).abs() < 1e-9);
         let perforated = with(ScoreStyle::Perforated);
         assert_eq!(
             (ids(&perforated, LayerKind::Score).len(), ids(&perforated, LayerKind::CutInner)),
             (0, vec!["E004"])
         );
-        let held = SheetParams { hold: 3, ..SheetParams::default() };
+        let held = SheetParams {
+            stock: StockParams { holding_tabs: 3, ..StockParams::default() },
+            ..SheetParams::default()
+        };
         let (whole, _) = drawn(&two_pieces(), &SheetParams::default());
         let (drawing, _) = drawn(&two_pieces(), &held);
         assert!((whole.cut_length() - drawing.cut_length() - 3.0).abs() < 1e-9);
         let error = lay_out(
             &two_pieces(),
-            &SheetParams { hold_width: Some(Length::from_mm(1.0)), ..Default::default() },
+            &SheetParams {
+                stock: StockParams {
+                    holding_tab_width: Some(Length::from_mm(1.0)),
+                    ..StockParams::default()
+                },
+                ..Default::default()
+            },
         );
         assert_eq!(error, Err(SheetError::HoldOption));
     }
@@ -578,8 +348,11 @@ mod tests {
     fn a_chain_of_narrow_faces_becomes_one_hinge_field() {
         let net = strips(8, 5.0, 80.0);
         let nest = NestParams { rotations: Rotation::Fixed, ..NestParams::default() };
-        let params =
-            SheetParams { hinge: Some(Length::from_mm(6.0)), nest, ..SheetParams::default() };
+        let params = SheetParams {
+            score: ScoreParams { hinge: Some(Length::from_mm(6.0)), ..ScoreParams::default() },
+            nest,
+            ..SheetParams::default()
+        };
         let (drawing, _) = drawn(&net, &params);
         // Six narrow faces between two wide ones: seven folds, none scored, and a row between every
         // two.
@@ -592,7 +365,7 @@ mod tests {
             .iter()
             .map(|m| {
                 (
-                    m.strokes[0].points[0].x,
+                    m.strokes[0].points.iter().map(|p| p.x).sum::<f64>() / 4.0,
                     m.strokes.iter().map(|s| sorted([s.points[0].y, s.points[1].y])).collect(),
                 )
             })
@@ -623,8 +396,11 @@ mod tests {
     fn the_reference_square_shrinks_with_the_sheet() {
         let sizes = [(600.0, 100.0), (60.0, 10.0), (9.0, 1.0)].map(|(sheet, side)| {
             let params = SheetParams {
-                sheet: super::super::SheetSize::of_mm(sheet, sheet),
-                margin: Length::from_mm(1.0),
+                stock: StockParams {
+                    sheet: super::super::SheetSize::of_mm(sheet, sheet),
+                    margin: Length::from_mm(1.0),
+                    ..StockParams::default()
+                },
                 ..SheetParams::default()
             };
             let (drawing, _) = drawn(&net_of(vec![square(5.0)]), &params);

@@ -40,7 +40,7 @@ pub enum LayerKind {
     Engrave,
     /// Folds.
     Score,
-    /// Holes and slits.
+    /// Holes, perforations and living hinges.
     CutInner,
     /// Outlines.
     CutOuter,
@@ -71,7 +71,7 @@ pub enum MarkKind {
     Hinge,
     /// Boundary of a hole.
     Hole,
-    /// An open cut that ends on a closed one.
+    /// A single line of the kerf coupon, open on purpose: its width is what is measured.
     Slit,
     /// Boundary of a piece that lies in a hole of another: cut before it.
     NestedOutline,

@@ -8,8 +8,47 @@ use glam::DVec2;
 use serde::{Deserialize, Deserializer};
 
 use super::drawing::LayerKind;
-use super::params::Preset;
 use crate::code::codes;
+
+/// Which files are written of sheets.
+#[derive(Debug, Clone, PartialEq, Eq, Default, clap::Args, Deserialize)]
+pub struct FileParams {
+    /// Colours and stroke widths of the drawing
+    #[arg(long, value_enum, default_value = "red-cut")]
+    #[serde(default)]
+    pub preset: Preset,
+    /// File formats of the sheets: svg, dxf, pdf, lbrn2, separated by commas
+    #[arg(long, value_name = "LIST", default_value = "svg")]
+    #[serde(default)]
+    pub format: Formats,
+    /// Also print every sheet at true size on several pages of this paper, as one PDF
+    #[arg(long, value_enum, value_name = "PAPER")]
+    #[serde(default)]
+    pub tile: Option<Paper>,
+    /// Whether every part gets files of its own besides the sheets
+    #[arg(long, value_enum, default_value = "off")]
+    #[serde(default)]
+    pub part_files: PartFiles,
+}
+
+/// Colours and stroke widths that a machine's software expects.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Preset {
+    /// Red cuts, blue scores, black engraving.
+    #[default]
+    RedCut,
+    /// The colours of boxes.py.
+    Boxes,
+    /// The palette of LightBurn; the info layer is its tool layer.
+    Lightburn,
+    /// Ponoko: blue cuts, red line engraving.
+    Ponoko,
+    /// Glowforge: one step per colour.
+    Glowforge,
+    /// Epilog, Trotec, ULS: hairlines.
+    Epilog,
+}
 
 /// A format of sheet files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, ValueEnum)]
@@ -151,7 +190,7 @@ pub type Rgb = [u8; 3];
 pub struct Colours {
     /// Outlines.
     pub cut_outer: Option<Rgb>,
-    /// Holes and slits.
+    /// Holes, perforations and living hinges.
     pub cut_inner: Option<Rgb>,
     /// Folds.
     pub score: Option<Rgb>,

@@ -1,15 +1,18 @@
 //! Kerf: outlines grow by half the width of the cut, holes shrink by as much, corners stay sharp.
 //!
 //! Growing is done by `i_overlay` on a grid of 2⁶¹ steps across the piece, which unites what
-//! overlaps: no loops, at narrow notches neither. What growing closes is opened again by a single
-//! cut, see [`super::slit`].
+//! overlaps: no loops, at narrow notches neither. What growing would close is widened before, see
+//! [`super::slit`].
 
 use glam::DVec2;
+use i_overlay::core::fill_rule::FillRule;
+use i_overlay::core::overlay_rule::OverlayRule;
+use i_overlay::float::single::SingleFloatOverlay;
 use i_overlay::mesh::float::outline::offset::OutlineOffset;
 use i_overlay::mesh::float::style::{LineJoin, OutlineStyle};
 
 use super::error::SheetError;
-use super::slit::{notch_slits, take_spikes};
+use super::slit::{channel_area, channels, has_narrow, take_spikes};
 use crate::geom::polygon::{bounds, signed_area};
 use crate::net::{Piece, PieceId};
 
@@ -21,6 +24,9 @@ const SHARPEST_MITRE: f64 = 29.0;
 /// lies less than a 10000th of the offset inside the mitre.
 const STRAIGHTEST_MITRE: f64 = 1.0;
 
+/// Width of a channel for a slit when there is no kerf, in mm.
+const LEAST_CHANNEL: f64 = 0.2;
+
 /// What is cut to get one piece, in the piece's frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CutShape {
@@ -30,12 +36,12 @@ pub struct CutShape {
     pub outline: Vec<DVec2>,
     /// Inner cuts, clockwise.
     pub holes: Vec<Vec<DVec2>>,
-    /// Open inner cuts: slits without width, and the ends of notches narrower than the kerf.
-    pub slits: Vec<Vec<DVec2>>,
     /// Holes that vanish because they are narrower than the kerf.
     pub lost_holes: usize,
-    /// Notches narrower than the kerf that no single cut could open from end to end.
+    /// Notches narrower than the kerf that no channel could open without dividing the piece.
     pub closed_notches: usize,
+    /// Slits, and notches narrower than the kerf, that are cut wider than they are.
+    pub widened_notches: usize,
 }
 
 impl CutShape {
@@ -65,19 +71,26 @@ impl CutShape {
             }
             contours.push(rest);
         }
-        if kerf > 0.0 {
-            return grown(piece.id, &contours, spikes, kerf);
+        let (low, high) = bounds(contours.iter().flatten()).unwrap_or_default();
+        // A kerf below the rounding of the coordinates moves nothing; the grid could not show it
+        // either.
+        let kerf = if kerf > 1e-12 * (high - low).length() { kerf } else { 0.0 };
+        if kerf == 0.0 && spikes.is_empty() {
+            return Ok(Self::of_contours(piece.id, contours));
         }
+        let opened = opened(contours, &spikes, kerf);
+        let mut shape = grown(piece.id, &opened.contours, kerf)?;
+        shape.closed_notches += opened.closed;
+        shape.widened_notches = opened.widened;
+        Ok(shape)
+    }
+
+    /// A shape that is cut along its contours, the outline first.
+    fn of_contours(piece: PieceId, contours: Vec<Vec<DVec2>>) -> Self {
         let mut contours = contours.into_iter();
         let outline = contours.next().unwrap_or_default();
-        Ok(Self {
-            piece: piece.id,
-            outline,
-            holes: contours.collect(),
-            slits: spikes,
-            lost_holes: 0,
-            closed_notches: 0,
-        })
+        let holes = contours.collect();
+        Self { piece, outline, holes, lost_holes: 0, closed_notches: 0, widened_notches: 0 }
     }
 
     /// The area inside the cuts, in mm².
@@ -91,40 +104,85 @@ impl CutShape {
     }
 }
 
-fn grown(
-    piece: PieceId,
-    contours: &[Vec<DVec2>],
-    spikes: Vec<Vec<DVec2>>,
-    kerf: f64,
-) -> Result<CutShape, SheetError> {
+/// Contours whose slits and narrow notches are wide enough to be cut.
+struct Opened {
+    contours: Vec<Vec<DVec2>>,
+    widened: usize,
+    closed: usize,
+}
+
+/// Widens slits and narrow notches to channels that closed paths can follow. A channel that would
+/// divide the piece is left out.
+fn opened(contours: Vec<Vec<DVec2>>, spikes: &[Vec<DVec2>], kerf: f64) -> Opened {
+    let is_open = spikes.is_empty() && !(kerf > 0.0 && contours.iter().any(|c| has_narrow(c)));
+    if is_open {
+        return Opened { contours, widened: 0, closed: 0 };
+    }
+    // A path into a channel and out again is as wide as the kerf; the cut is wider by it.
+    let width = if kerf > 0.0 { 2.0 * kerf } else { LEAST_CHANNEL };
+    let wide: Vec<Vec<DVec2>> = grow(&contours, width / 2.0).into_iter().flatten().collect();
+    let channels = channels(&contours, spikes, (&wide, width), kerf > 0.0);
+    let areas: Vec<Vec<Vec<DVec2>>> =
+        channels.lines.iter().map(|line| channel_area(line, width)).collect();
+    let mut opened = Opened { contours, widened: areas.len(), closed: channels.closed };
+    if areas.is_empty() {
+        return opened;
+    }
+    if let Some(contours) = without(&opened.contours, &areas.concat()) {
+        opened.contours = contours;
+        return opened;
+    }
+    opened.widened = 0;
+    for area in &areas {
+        match without(&opened.contours, area) {
+            Some(contours) => (opened.contours, opened.widened) = (contours, opened.widened + 1),
+            None => opened.closed += 1,
+        }
+    }
+    opened
+}
+
+/// The contours of a shape without an area; nothing when it is not one piece any more.
+fn without(contours: &[Vec<DVec2>], area: &[Vec<DVec2>]) -> Option<Vec<Vec<DVec2>>> {
+    let centre = middle(contours);
+    let (subject, clip) = (numbers(contours, centre), numbers(area, centre));
+    let shapes = subject.overlay_as::<i64>(&clip, OverlayRule::Difference, FillRule::NonZero);
+    let mut shapes = shapes.into_iter();
+    let first = shapes.next().filter(|_| shapes.next().is_none())?;
+    let points = |c: Vec<[f64; 2]>| c.into_iter().map(|p| DVec2::from(p) + centre).collect();
+    Some(first.into_iter().map(points).collect())
+}
+
+/// The middle of the box of contours, from which grids lose the fewest digits.
+fn middle(contours: &[Vec<DVec2>]) -> DVec2 {
     let (low, high) = bounds(contours.iter().flatten()).unwrap_or_default();
-    // A kerf below the rounding of the coordinates moves nothing; the grid could not show it
-    // either.
-    let coarse = 1e-12 * (high - low).length();
-    let shapes = if kerf > coarse {
-        grow(contours, low.midpoint(high), kerf / 2.0)
-    } else {
-        vec![contours.to_vec()]
-    };
+    low.midpoint(high)
+}
+
+fn numbers(contours: &[Vec<DVec2>], centre: DVec2) -> Vec<Vec<[f64; 2]>> {
+    contours.iter().map(|c| c.iter().map(|&p| (p - centre).to_array()).collect()).collect()
+}
+
+/// What is cut around contours with a kerf; the contours themselves without one.
+fn grown(piece: PieceId, contours: &[Vec<DVec2>], kerf: f64) -> Result<CutShape, SheetError> {
+    if kerf == 0.0 {
+        return Ok(CutShape::of_contours(piece, contours.to_vec()));
+    }
+    let shapes = grow(contours, kerf / 2.0);
     let parts = shapes.len();
-    let mut shape = shapes.into_iter().next().unwrap_or_default().into_iter();
-    let outline =
-        shape.next().filter(|_| parts == 1).ok_or(SheetError::KerfSplit { piece, parts })?;
-    let holes: Vec<Vec<DVec2>> = shape.collect();
-    let lost_holes = (contours.len() - 1).saturating_sub(holes.len());
+    let shape = shapes.into_iter().next().filter(|shape| parts == 1 && !shape.is_empty());
+    let shape = shape.ok_or(SheetError::KerfSplit { piece, parts })?;
+    let mut grown = CutShape::of_contours(piece, shape);
+    grown.lost_holes = (contours.len() - 1).saturating_sub(grown.holes.len());
     // A notch that closes at its mouth only leaves a hole more, and its flaps together.
-    let closed_mouths = (holes.len() + 1).saturating_sub(contours.len());
-    let mut grown =
-        CutShape { piece, outline, holes, slits: Vec::new(), lost_holes, closed_notches: 0 };
-    let (slits, closed) = notch_slits(contours, &spikes, &grown, kerf);
-    (grown.slits, grown.closed_notches) = (slits, closed + closed_mouths);
+    grown.closed_notches = (grown.holes.len() + 1).saturating_sub(contours.len());
     Ok(grown)
 }
 
 /// The Minkowski sum with a disc of radius `by`, its arcs drawn as mitres.
-fn grow(contours: &[Vec<DVec2>], centre: DVec2, by: f64) -> Vec<Vec<Vec<DVec2>>> {
-    let shape: Vec<Vec<[f64; 2]>> =
-        contours.iter().map(|c| c.iter().map(|&p| (p - centre).to_array()).collect()).collect();
+fn grow(contours: &[Vec<DVec2>], by: f64) -> Vec<Vec<Vec<DVec2>>> {
+    let centre = middle(contours);
+    let shape = numbers(contours, centre);
     let style = OutlineStyle::new(by)
         .line_join(LineJoin::Miter(SHARPEST_MITRE.to_radians()))
         .miter_min_turn(STRAIGHTEST_MITRE.to_radians());
@@ -234,7 +292,7 @@ mod tests {
         let grown = cut(square(10.0), 0.2);
         assert_eq!(grown.outline.len(), 4);
         assert!((grown.area() - 10.2 * 10.2).abs() < 1e-6, "{}", grown.area());
-        assert!(grown.slits.is_empty());
+        assert_eq!(grown.widened_notches, 0);
     }
 
     #[test]
@@ -333,23 +391,35 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(48))]
         /// Star-shaped outlines with spikes and notches: every corner of the grown contour keeps
-        /// half the kerf, the contour does not cross itself, and the piece lies inside.
+        /// half the kerf from what channels leave of the piece, the contour does not cross itself,
+        /// and that lies inside. It is the piece where no channel had to be cut, and never more.
         #[test]
         fn grown_outlines_keep_their_distance(radii in prop::collection::vec(2.0..60.0_f64, 5..24), kerf in 0.01..2.0_f64) {
             let n = radii.len() as f64;
             let star: Vec<DVec2> = radii.iter().enumerate()
                 .map(|(i, r)| DVec2::from_angle(i as f64 * std::f64::consts::TAU / n) * r).collect();
             let grown = cut(star.clone(), kerf);
+            let left = opened(vec![star.clone()], &[], kerf).contours;
+            let distance = |p: DVec2| {
+                left.iter().map(|c| distance_to_contour(p, c)).fold(f64::INFINITY, f64::min)
+            };
+            if grown.widened_notches == 0 {
+                prop_assert_eq!(&left, &[star.clone()]);
+            }
             for contour in grown.contours() {
                 assert_simple(contour);
                 for (i, &p) in contour.iter().enumerate() {
                     let middle = p.midpoint(contour[(i + 1) % contour.len()]);
-                    prop_assert!(distance_to_contour(p, &star) >= kerf / 2.0 - 1e-6);
-                    prop_assert!(distance_to_contour(middle, &star) >= kerf / 2.0 * 0.999 - 1e-6);
-                    prop_assert!(distance_to_contour(p, &star) <= kerf / 2.0 * 4.05 + 1e-6);
+                    prop_assert!(distance(p) >= kerf / 2.0 - 1e-6);
+                    prop_assert!(distance(middle) >= kerf / 2.0 * 0.999 - 1e-6);
+                    prop_assert!(distance(p) <= kerf / 2.0 * 4.05 + 1e-6);
                 }
             }
-            prop_assert!(star.iter().all(|&p| locate(&grown.outline, p) == Location::Inside));
+            for &p in left.iter().flatten() {
+                prop_assert!(locate(&grown.outline, p) == Location::Inside);
+                let is_of_piece = locate(&star, p) != Location::Outside;
+                prop_assert!(is_of_piece || distance_to_contour(p, &star) < 1e-9);
+            }
         }
     }
 }

@@ -14,9 +14,10 @@ use super::kerf::CutShape;
 use super::letter::stretches;
 use super::nest::{CommonLine, Laid, StockSheet, candidates, lay, offcut};
 use super::params::{SheetParams, Stock};
+use super::slit::mend;
 use super::verify::verify;
 use crate::geom::polygon::bounds;
-use crate::net::{Net, Piece, PieceId};
+use crate::net::{EdgeLabel, Net, Piece, PieceId};
 use crate::progress::{Progress, Silent};
 
 /// A sheet's number, counted from 0, shown as `S01`.
@@ -118,9 +119,14 @@ pub struct SheetReport {
     pub unscored_folds: usize,
     /// Holes narrower than the kerf, which nothing can cut.
     pub lost_holes: usize,
-    /// Notches narrower than the kerf that no single cut could open from end to end: the flaps hang
-    /// together there.
+    /// Notches narrower than the kerf that could not be opened without dividing the piece: the
+    /// flaps are connected there.
     pub closed_notches: usize,
+    /// Slits, and notches narrower than the kerf, that are cut wider than they are, so that a
+    /// closed path leads in and out again.
+    pub widened_notches: usize,
+    /// Seams whose two sides lie on one another: they are left uncut and fold.
+    pub uncut_seams: Vec<EdgeLabel>,
     /// Folds without room for their angle, where angles were asked for.
     pub unmarked_angles: usize,
     /// Length of the lines that two parts share and that are cut once, in mm.
@@ -154,7 +160,7 @@ pub struct SheetSet {
 /// As [`lay_out`], for the parameters and the piece's contours; a piece too large is no error here.
 pub fn fits(piece: &Piece, params: &SheetParams) -> Result<bool, SheetError> {
     let Some(sheets) = params.sheets()? else { return Ok(true) };
-    let shapes = [CutShape::of_piece(piece, params.kerf.mm())?];
+    let shapes = [CutShape::of_piece(piece, params.stock.kerf.mm())?];
     Ok(candidates(&shapes, &sheets, params).iter().all(|c| c.poses.iter().any(Option::is_some)))
 }
 
@@ -180,11 +186,13 @@ pub fn lay_out_watched(
     params: &SheetParams,
     progress: &dyn Progress,
 ) -> Result<SheetSet, SheetError> {
-    params.check_material()?;
+    params.stock.check_material()?;
     let Some(sheets) = params.sheets()? else {
         return Ok(SheetSet::default());
     };
     check_names(net, params)?;
+    let mended = mend(net);
+    let net = mended.as_ref().map_or(net, |m| &m.net);
     let boundaries = Boundaries::new(net);
     let stretches = stretches(net, &boundaries);
     let jointed = join(net, params)?;
@@ -193,7 +201,7 @@ pub fn lay_out_watched(
     let shapes = net
         .pieces
         .iter()
-        .map(|p| CutShape::of_piece(p, params.kerf.mm()))
+        .map(|p| CutShape::of_piece(p, params.stock.kerf.mm()))
         .collect::<Result<Vec<_>, _>>()?;
     let mut layout = place_all(net, &shapes, (params, &sheets), progress)?;
     let usual = &sheets[sheets.len() - 1].stock;
@@ -208,8 +216,9 @@ pub fn lay_out_watched(
     }
     report.lost_holes = shapes.iter().map(|s| s.lost_holes).sum();
     report.closed_notches = shapes.iter().map(|s| s.closed_notches).sum();
-    report.narrow_spacing = params.made_of.as_ref().and_then(|material| {
-        let [left, web] = [params.spacing.mm() - params.kerf.mm(), material.web.mm()];
+    report.widened_notches = shapes.iter().map(|s| s.widened_notches).sum();
+    report.narrow_spacing = params.stock.made_of.as_ref().and_then(|material| {
+        let [left, web] = [params.stock.spacing.mm() - params.stock.kerf.mm(), material.web.mm()];
         (left < web).then_some([left, web])
     });
     report.is_stopped = progress.is_cancelled();
@@ -217,7 +226,14 @@ pub fn lay_out_watched(
     layout.score_length = drawings.iter().map(Drawing::score_length).sum();
     verify(&shapes, &layout, params)?;
     report.joints = jointed.map(|j| j.report).unwrap_or_default();
-    Ok(SheetSet { layout, drawings, assembly: assembly(bare, stretches), report })
+    let mut assembly = assembly(bare, stretches);
+    if let Some(mended) = mended {
+        // Seams are named by their index in the net that was given.
+        let seams = assembly.stretches.iter_mut().flat_map(|s| &mut s.seams);
+        seams.for_each(|(s, _)| *s = mended.seams[*s]);
+        report.uncut_seams = mended.uncut;
+    }
+    Ok(SheetSet { layout, drawings, assembly, report })
 }
 
 /// Whether all pieces that the parameters name are there.
@@ -334,7 +350,7 @@ fn draw_sheet(drawing: &mut Drawing, sheet: &Sheet, stock: &StockSheet) {
 mod tests {
     use super::super::testing::{ell, net_of, random_convex, ring, square};
     use super::super::verify::contour_distance;
-    use super::super::{Labels, NestParams, SheetSize};
+    use super::super::{Labels, LetterParams, NestParams, SheetSize, StockParams};
     use super::*;
     use crate::units::Length;
     use proptest::prelude::*;
@@ -377,7 +393,10 @@ mod tests {
 
     #[test]
     fn the_kerf_counts_when_pieces_are_placed() {
-        let params = SheetParams { kerf: Length::from_mm(0.2), ..SheetParams::default() };
+        let params = SheetParams {
+            stock: StockParams { kerf: Length::from_mm(0.2), ..StockParams::default() },
+            ..SheetParams::default()
+        };
         let net = net_of(vec![square(390.0)]);
         assert!(matches!(lay_out(&net, &params), Err(SheetError::PiecesTooLarge { .. })));
         let set = lay_out(&net_of(vec![square(389.8)]), &params).expect("fits with its kerf");
@@ -402,9 +421,12 @@ mod tests {
         let mut net = net_of(contours);
         net.pieces.push(ring(PieceId(42)));
         let params = SheetParams {
-            sheet: SheetSize::of_mm(300.0, 260.0),
-            kerf: Length::from_mm(0.15),
-            labels: Labels::All,
+            stock: StockParams {
+                sheet: SheetSize::of_mm(300.0, 260.0),
+                kerf: Length::from_mm(0.15),
+                ..StockParams::default()
+            },
+            letter: LetterParams { labels: Labels::All, ..LetterParams::default() },
             ..SheetParams::default()
         };
         let set = lay_out(&net, &params).expect("all fit");
@@ -435,7 +457,10 @@ mod tests {
                 ..NestParams::default()
             };
             let params = SheetParams {
-                sheet: SheetSize::of_mm(300.0, 250.0),
+                stock: StockParams {
+                    sheet: SheetSize::of_mm(300.0, 250.0),
+                    ..StockParams::default()
+                },
                 nest,
                 ..SheetParams::default()
             };
@@ -446,7 +471,10 @@ mod tests {
 
     #[test]
     fn no_sheets_means_nothing_to_draw() {
-        let params = SheetParams { sheet: SheetSize::None, ..SheetParams::default() };
+        let params = SheetParams {
+            stock: StockParams { sheet: SheetSize::None, ..StockParams::default() },
+            ..SheetParams::default()
+        };
         let set = lay_out(&net_of(vec![square(1e6)]), &params).expect("everything fits nowhere");
         assert!(set.layout.sheets.is_empty() && set.drawings.is_empty());
         assert_eq!(
@@ -466,7 +494,10 @@ mod tests {
             vec![DVec2::ZERO, DVec2::X, DVec2::splat(f64::NAN)],
         ] {
             for kerf in [0.0, 0.1] {
-                let params = SheetParams { kerf: Length::from_mm(kerf), ..SheetParams::default() };
+                let params = SheetParams {
+                    stock: StockParams { kerf: Length::from_mm(kerf), ..StockParams::default() },
+                    ..SheetParams::default()
+                };
                 let result = lay_out(&net_of(vec![contour.clone()]), &params);
                 assert!(
                     matches!(result, Err(SheetError::BadContour { contour: 0, .. })),
@@ -490,7 +521,7 @@ mod tests {
             };
             let star = |radii: Vec<f64>| radii.iter().enumerate().map(|(i, &r)| corner(i, radii.len(), r)).collect();
             let [kerf, spacing, margin] = [kerf, spacing, margin].map(Length::from_mm);
-            let params = SheetParams { kerf, spacing, margin, sheet: SheetSize::of_mm(250.0, 200.0), ..Default::default() };
+            let params = SheetParams { stock: StockParams { kerf, spacing, margin, sheet: SheetSize::of_mm(250.0, 200.0), ..StockParams::default() }, ..Default::default() };
             let set = lay_out(&net_of(stars.into_iter().map(star).collect()), &params);
             prop_assert!(set.is_ok(), "{set:?}");
         }

@@ -53,7 +53,7 @@ pub struct Speeds {
 pub struct MaterialColours {
     /// Outlines.
     pub cut_outer: Option<Hex>,
-    /// Holes and slits.
+    /// Holes, perforations and living hinges.
     pub cut_inner: Option<Hex>,
     /// Folds.
     pub score: Option<Hex>,
@@ -136,7 +136,7 @@ impl SheetSet {
 
     /// Estimated seconds on the machine for all sheets, where a material tells its speeds.
     pub fn seconds(&self, params: &SheetParams) -> Option<f64> {
-        let speeds = params.made_of.as_ref()?.speed;
+        let speeds = params.stock.made_of.as_ref()?.speed;
         Some(self.drawings.iter().map(|d| speeds.seconds(d)).sum())
     }
 }
@@ -146,15 +146,17 @@ impl SheetParams {
     /// thickness where the joint needs one and none is given, its colours and speeds.
     pub fn with_material(&self, material: Material) -> Self {
         let mut params = self.clone();
-        if params.kerf.mm() == 0.0 {
-            params.kerf = material.kerf;
+        if params.stock.kerf.mm() == 0.0 {
+            params.stock.kerf = material.kerf;
         }
-        let is_thick =
-            !matches!(params.joint, Joint::None | Joint::Flaps | Joint::Rivets | Joint::Stitch);
-        if is_thick && params.thickness.is_none() {
-            params.thickness = Some(material.thickness);
+        let is_thick = !matches!(
+            params.joint.kind,
+            Joint::None | Joint::Flaps | Joint::Rivets | Joint::Stitch
+        );
+        if is_thick && params.joint.thickness.is_none() {
+            params.joint.thickness = Some(material.thickness);
         }
-        params.made_of = Some(material);
+        params.stock.made_of = Some(material);
         params
     }
 
@@ -166,11 +168,14 @@ impl SheetParams {
                 [cut_outer, cut_inner, score, engrave].map(|c| c.map(|Hex(rgb)| rgb));
             Colours { cut_outer, cut_inner, score, engrave }
         };
-        Style { preset: self.preset, colours: self.made_of.as_ref().map(of).unwrap_or_default() }
+        Style {
+            preset: self.files.preset,
+            colours: self.stock.made_of.as_ref().map(of).unwrap_or_default(),
+        }
     }
 
     /// The speed of an operation in mm/s, where a material tells it.
     pub fn speed(&self, layer: LayerKind) -> Option<f64> {
-        self.made_of.as_ref().and_then(|m| m.speed.of(layer))
+        self.stock.made_of.as_ref().and_then(|m| m.speed.of(layer))
     }
 }

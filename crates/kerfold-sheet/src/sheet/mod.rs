@@ -16,6 +16,7 @@ mod contact;
 mod draw;
 mod drawing;
 mod error;
+mod features;
 mod files;
 mod joint;
 mod kerf;
@@ -36,20 +37,24 @@ pub use assembly::{Assembly, AssemblyStep, assembly_of};
 pub use bounding_box::{OrientedBox, smallest_box};
 pub use drawing::{Drawing, Layer, LayerKind, Mark, MarkKind, Stroke};
 pub use error::{SheetError, TooLarge};
-pub use files::{Colours, Formats, FormatsError, Paper, PartFiles, Pen, Rgb, SheetFormat, Style};
-pub use joint::{FlapSide, Joint, JointFallback, JointReport, Substitute};
+pub use files::{
+    Colours, FileParams, Formats, FormatsError, Paper, PartFiles, Pen, Preset, Rgb, SheetFormat,
+    Style,
+};
+pub use joint::{FlapSide, Joint, JointFallback, JointParams, JointReport, Substitute};
 pub use kerf::CutShape;
 pub use kerf_coupon::kerf_coupon;
 pub use layout::{
     Layout, Placed, Sheet, SheetId, SheetReport, SheetSet, fits, lay_out, lay_out_watched,
 };
-pub use letter::{Lettering, Stretch, lettering};
+pub use letter::{Angles, Labels, LetterParams, Lettering, Stretch, lettering};
 pub use material::{Hex, Material, MaterialColours, Speeds};
 pub use nest::{
     CommonLine, Corners, DefectList, GroupList, Guillotine, NestParams, Rotation, RotationList,
     StockList,
 };
-pub use params::{Angles, Labels, Preset, ScoreStyle, SheetParams, SheetSize};
+pub use params::{PieceKind, SheetParams, SheetSize, StockParams};
+pub use score::{ScoreParams, ScoreStyle};
 pub use verify::{clearance, verify};
 
 #[cfg(test)]

@@ -5,23 +5,57 @@ use std::fmt;
 use std::path::PathBuf;
 use std::str::FromStr;
 
-use clap::ValueEnum;
 use glam::DVec2;
 use serde::{Deserialize, Deserializer};
 
 use super::error::SheetError;
-use super::files::{Formats, Paper, PartFiles};
-use super::joint::{FlapSide, Joint, Substitute, plan};
+use super::files::FileParams;
+use super::joint::{JointParams, plan};
+use super::letter::LetterParams;
 use super::material::Material;
 use super::nest::NestParams;
-use crate::units::{Angle, Length, UnitError, parse_number};
+use super::score::ScoreParams;
+use crate::units::{Length, UnitError, parse_number};
 
 /// Smallest spacing in mm: nearer cut lines would be one line in a file with four decimals.
 const MIN_SPACING: f64 = 0.01;
 
-/// How pieces are placed on sheets and drawn.
-#[derive(Debug, Clone, PartialEq, clap::Args, Deserialize)]
+/// How pieces are placed on sheets, joined, lettered and drawn.
+#[derive(Debug, Clone, PartialEq, Default, clap::Args, Deserialize)]
 pub struct SheetParams {
+    /// What the pieces are cut from, and how.
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub stock: StockParams,
+    /// Where pieces may lie.
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub nest: NestParams,
+    /// What holds the sides of seams together.
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub joint: JointParams,
+    /// How folds are drawn.
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub score: ScoreParams,
+    /// What is engraved.
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub letter: LetterParams,
+    /// Which files are written.
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub files: FileParams,
+    /// What the pieces are. Nobody types it: whoever makes the pieces knows.
+    #[arg(skip)]
+    #[serde(skip)]
+    pub pieces: PieceKind,
+}
+
+/// What pieces are cut from, and how.
+#[derive(Debug, Clone, PartialEq, clap::Args, Deserialize)]
+pub struct StockParams {
     /// Size of a sheet, width x height: 600x400, 24inx12in, A0 to A5, letter, jumbo (glass,
     /// 6000x3210); none for no sheets
     #[arg(long, value_name = "SIZE", default_value = "600x400")]
@@ -52,109 +86,25 @@ pub struct SheetParams {
     #[arg(long, value_name = "LENGTH", default_value = "0mm")]
     #[serde(default)]
     pub kerf: Length,
-    /// Colours and stroke widths of the drawing
-    #[arg(long, value_enum, default_value = "red-cut")]
-    #[serde(default)]
-    pub preset: Preset,
-    /// File formats of the sheets: svg, dxf, pdf, lbrn2, separated by commas
-    #[arg(long, value_name = "LIST", default_value = "svg")]
-    #[serde(default)]
-    pub format: Formats,
-    /// Also print every sheet at true size on several pages of this paper, as one PDF
-    #[arg(long, value_enum, value_name = "PAPER")]
-    #[serde(default)]
-    pub tile: Option<Paper>,
-    /// Whether every part gets files of its own besides the sheets
-    #[arg(long, value_enum, default_value = "off")]
-    #[serde(default)]
-    pub part_files: PartFiles,
-    /// What is engraved: nothing, the names of the pieces, or these and the numbers of the seams
-    #[arg(long, value_enum, default_value = "all")]
-    #[serde(default)]
-    pub labels: Labels,
-    /// How folds are scored
-    #[arg(long, value_enum, default_value = "solid")]
-    #[serde(default)]
-    pub score: ScoreStyle,
-    /// Length of a dash or of a cut of a perforation, at least 0.1mm; 2mm, perforated 3mm unless
-    /// given
-    #[arg(long, value_name = "LENGTH")]
-    #[serde(default)]
-    pub score_dash: Option<Length>,
-    /// Length of the gap or bridge between them, about, at least 0.1mm; 2mm, perforated 1mm unless
-    /// given
-    #[arg(long, value_name = "LENGTH")]
-    #[serde(default)]
-    pub score_gap: Option<Length>,
-    /// How much of a fold is left out at both its ends, where folds run into corners; 0 or more
-    #[arg(long, value_name = "LENGTH", default_value = "0mm")]
-    #[serde(default)]
-    pub score_inset: Length,
-    /// Faces between two folds that are narrower than this become living hinges: staggered slits
-    /// instead of scores
-    #[arg(long, value_name = "LENGTH")]
-    #[serde(default)]
-    pub hinge: Option<Length>,
     /// Holding tabs: at how many places the outline of every part is left uncut, 0 to 100
-    #[arg(long, value_name = "N", default_value = "0")]
-    #[serde(default)]
-    pub hold: u32,
+    #[arg(
+        id = "hold",
+        long = "hold",
+        alias = "holding-tabs",
+        value_name = "N",
+        default_value = "0"
+    )]
+    #[serde(default, rename = "hold")]
+    pub holding_tabs: u32,
     /// Width of a holding tab, at least 0.05mm; 0.5mm unless given
-    #[arg(long, value_name = "LENGTH")]
-    #[serde(default)]
-    pub hold_width: Option<Length>,
-    /// Whether the angles of folds are engraved beside them, in degrees; valleys are negative
-    #[arg(long, value_enum, default_value = "off")]
-    #[serde(default)]
-    pub angles: Angles,
-    /// What joins the two sides of a seam
-    #[arg(long, value_enum, default_value = "none")]
-    #[serde(default)]
-    pub joint: Joint,
-    /// Width of flaps, at least 1mm; of flaps 8mm, with rivets 12mm unless given
-    #[arg(long, value_name = "LENGTH")]
-    #[serde(default)]
-    pub flap_width: Option<Length>,
-    /// Angle at the ends of flaps, 20 to 90 degrees; 60deg unless given. Short seams get steeper
-    /// flaps
-    #[arg(long, value_name = "ANGLE")]
-    #[serde(default)]
-    pub flap_angle: Option<Angle>,
-    /// Which side of a seam gets the flap or the tabs, where it has room; lower unless given
-    #[arg(long, value_enum)]
-    #[serde(default)]
-    pub flap_side: Option<FlapSide>,
-    /// Thickness of the material; needed for fingers and tabs, at least 0.1mm
-    #[arg(long, value_name = "LENGTH")]
-    #[serde(default)]
-    pub thickness: Option<Length>,
-    /// Width of a finger, about, or of a tab; three times the thickness unless given, never less
-    /// than it
-    #[arg(long, value_name = "LENGTH")]
-    #[serde(default)]
-    pub finger_width: Option<Length>,
-    /// What seams get that are too shallow or too narrow for fingers or tabs; stitch unless given
-    #[arg(long, value_enum)]
-    #[serde(default)]
-    pub substitute: Option<Substitute>,
-    /// From one hole to the next along a seam; stitch holes 6mm, rivets 25mm unless given, at least
-    /// twice what thick plates need
-    #[arg(long, value_name = "LENGTH")]
-    #[serde(default)]
-    pub hole_spacing: Option<Length>,
-    /// Diameter of stitch holes (1.5mm unless given) or rivet holes (3.2mm), in plates above 1mm at
-    /// least 1.55 times their thickness and the kerf; more than the kerf
-    #[arg(long, value_name = "LENGTH")]
-    #[serde(default)]
-    pub hole_diameter: Option<Length>,
-    /// From a seam to the middle of its stitch holes; twice their diameter unless given
-    #[arg(long, value_name = "LENGTH")]
-    #[serde(default)]
-    pub hole_inset: Option<Length>,
-    /// Where pieces may lie.
-    #[command(flatten)]
-    #[serde(flatten)]
-    pub nest: NestParams,
+    #[arg(
+        id = "hold_width",
+        long = "hold-width",
+        alias = "holding-tab-width",
+        value_name = "LENGTH"
+    )]
+    #[serde(default, rename = "hold_width")]
+    pub holding_tab_width: Option<Length>,
 }
 
 fn default_sheet() -> SheetSize {
@@ -169,7 +119,7 @@ fn default_spacing() -> Length {
     Length::from_mm(3.0)
 }
 
-impl Default for SheetParams {
+impl Default for StockParams {
     fn default() -> Self {
         Self {
             sheet: default_sheet(),
@@ -179,32 +129,21 @@ impl Default for SheetParams {
             materials: None,
             made_of: None,
             kerf: Length::default(),
-            preset: Preset::default(),
-            format: Formats::default(),
-            tile: None,
-            part_files: PartFiles::default(),
-            labels: Labels::default(),
-            score: ScoreStyle::default(),
-            score_dash: None,
-            score_gap: None,
-            score_inset: Length::default(),
-            hinge: None,
-            hold: 0,
-            hold_width: None,
-            angles: Angles::default(),
-            joint: Joint::default(),
-            flap_width: None,
-            flap_angle: None,
-            flap_side: None,
-            thickness: None,
-            finger_width: None,
-            substitute: None,
-            hole_spacing: None,
-            hole_diameter: None,
-            hole_inset: None,
-            nest: NestParams::default(),
+            holding_tabs: 0,
+            holding_tab_width: None,
         }
     }
+}
+
+/// What the pieces of a net are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum PieceKind {
+    /// Faces that are connected at their folds: the cut of a piece is the border of its faces.
+    #[default]
+    Faces,
+    /// Plates, one for each face: their cuts leave gaps to the borders of the faces and have
+    /// fingers and holes, which lettering keeps clear of.
+    Panels,
 }
 
 /// The stock that pieces are cut from.
@@ -219,68 +158,6 @@ pub enum SheetSize {
         /// Along y, positive.
         height: Length,
     },
-}
-
-/// Colours and stroke widths that a machine's software expects.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Preset {
-    /// Red cuts, blue scores, black engraving.
-    #[default]
-    RedCut,
-    /// The colours of boxes.py.
-    Boxes,
-    /// The palette of LightBurn; the info layer is its tool layer.
-    Lightburn,
-    /// Ponoko: blue cuts, red line engraving.
-    Ponoko,
-    /// Glowforge: one step per colour.
-    Glowforge,
-    /// Epilog, Trotec, ULS: hairlines.
-    Epilog,
-}
-
-/// What is engraved on the pieces.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Labels {
-    /// Nothing.
-    None,
-    /// The name of every piece.
-    Pieces,
-    /// The name of every piece, and on both sides of every stretch of seam its number, with marks
-    /// where it ends.
-    #[default]
-    All,
-    /// The name of every piece, and on both sides of every seam edge the number of the edge in the
-    /// model.
-    Edges,
-}
-
-/// Whether the angles of folds are engraved.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Angles {
-    /// No angles.
-    #[default]
-    Off,
-    /// The angle that the paper turns, beside every fold with room for it.
-    On,
-}
-
-/// How folds are scored.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum ScoreStyle {
-    /// One line per fold.
-    #[default]
-    Solid,
-    /// Dashes of 2 mm with gaps of about 2 mm, beginning and ending with a dash.
-    Dashed,
-    /// Cut through, with bridges, beginning and ending with a bridge.
-    Perforated,
-    /// Mountains solid, valleys dashed.
-    Valleys,
 }
 
 /// Sizes with a name, width and height in mm.
@@ -379,6 +256,14 @@ impl Stock {
 }
 
 impl SheetParams {
+    /// How far joints may stand out beyond the outlines of pieces, in mm; 0 for options that are
+    /// refused later.
+    pub fn joint_reach(&self) -> f64 {
+        plan(self).map_or(0.0, |plan| plan.reach())
+    }
+}
+
+impl StockParams {
     /// Whether a material that is named was looked up.
     pub(crate) fn check_material(&self) -> Result<(), SheetError> {
         match &self.material {
@@ -389,17 +274,11 @@ impl SheetParams {
         }
     }
 
-    /// How far joints may stand out beyond the outlines of pieces, in mm; 0 for options that are
-    /// refused later.
-    pub fn joint_reach(&self) -> f64 {
-        plan(self).map_or(0.0, |plan| plan.reach())
-    }
-
     /// Checks all numbers; nothing for `sheet = none`.
     ///
     /// # Errors
     /// [`SheetError::OutOfRange`] and [`SheetError::MarginTooLarge`] with the numbers.
-    pub(crate) fn stock(&self) -> Result<Option<Stock>, SheetError> {
+    pub(crate) fn checked(&self) -> Result<Option<Stock>, SheetError> {
         for (name, value, least) in [
             ("margin", self.margin, 0.0),
             ("spacing", self.spacing, MIN_SPACING),
@@ -466,7 +345,7 @@ mod tests {
         ];
         let flags = flags.into_iter().chain(["--labels", "pieces", "--score", "dashed"]);
         assert_eq!(<Line as clap::Parser>::parse_from(flags).params, recipe);
-        assert_eq!(recipe.sheet, SheetSize::of_mm(24.0 * 25.4, 12.0 * 25.4));
+        assert_eq!(recipe.stock.sheet, SheetSize::of_mm(24.0 * 25.4, 12.0 * 25.4));
     }
 
     #[test]
@@ -489,16 +368,19 @@ mod tests {
         let with = |change: fn(&mut SheetParams)| {
             let mut params = SheetParams::default();
             change(&mut params);
-            params.stock().map(|_| ()).expect_err("out of range").to_string()
+            params.stock.checked().map(|_| ()).expect_err("out of range").to_string()
         };
-        assert!(with(|p| p.kerf = Length::from_mm(-0.1)).contains("kerf is -0.1 mm"));
-        assert!(with(|p| p.spacing = Length::from_mm(0.0)).contains("at least 0.01 mm"));
+        assert!(with(|p| p.stock.kerf = Length::from_mm(-0.1)).contains("kerf is -0.1 mm"));
+        assert!(with(|p| p.stock.spacing = Length::from_mm(0.0)).contains("at least 0.01 mm"));
         assert!(
-            with(|p| p.margin = Length::from_mm(200.0))
+            with(|p| p.stock.margin = Length::from_mm(200.0))
                 .contains("leaves no room on a 600 × 400 mm sheet")
         );
-        assert!(with(|p| p.margin = Length::from_mm(f64::NAN)).contains("margin is NaN mm"));
-        let none = SheetParams { sheet: SheetSize::None, ..SheetParams::default() };
-        assert_eq!(none.stock().expect("no sheet is fine"), None);
+        assert!(with(|p| p.stock.margin = Length::from_mm(f64::NAN)).contains("margin is NaN mm"));
+        let none = SheetParams {
+            stock: StockParams { sheet: SheetSize::None, ..StockParams::default() },
+            ..SheetParams::default()
+        };
+        assert_eq!(none.stock.checked().expect("no sheet is fine"), None);
     }
 }

@@ -2,12 +2,14 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use clap::ValueEnum;
 use glam::DVec2;
+use serde::Deserialize;
 
 use super::drawing::Stroke;
 use super::error::SheetError;
-use super::params::{ScoreStyle, SheetParams};
 use crate::net::{EdgeLabel, Fold, Piece, Segment};
+use crate::units::Length;
 
 /// Length of a dash and of the gap after it, in mm.
 const DASHED: [f64; 2] = [2.0, 2.0];
@@ -21,6 +23,52 @@ const SLITS: [f64; 2] = [20.0, 3.0];
 /// Rows of slits lie no further apart than this, in mm.
 const ROWS: f64 = 2.5;
 
+/// How folds are drawn.
+#[derive(Debug, Clone, PartialEq, Default, clap::Args, Deserialize)]
+pub struct ScoreParams {
+    /// How folds are scored
+    #[arg(id = "score", long = "score", value_name = "SCORE", value_enum, default_value = "solid")]
+    #[serde(default, rename = "score")]
+    pub style: ScoreStyle,
+    /// Length of a dash or of a cut of a perforation, at least 0.1mm; 2mm, perforated 3mm unless
+    /// given
+    #[arg(id = "score_dash", long = "score-dash", value_name = "LENGTH")]
+    #[serde(default, rename = "score_dash")]
+    pub dash: Option<Length>,
+    /// Length of the gap or bridge between them, about, at least 0.1mm; 2mm, perforated 1mm unless
+    /// given
+    #[arg(id = "score_gap", long = "score-gap", value_name = "LENGTH")]
+    #[serde(default, rename = "score_gap")]
+    pub gap: Option<Length>,
+    /// How much of a fold is left out at both its ends, where folds run into corners; 0 or more
+    #[arg(id = "score_inset", long = "score-inset", value_name = "LENGTH", default_value = "0mm")]
+    #[serde(default, rename = "score_inset")]
+    pub inset: Length,
+    /// Faces between two folds that are narrower than this become living hinges: staggered slits
+    /// instead of scores
+    #[arg(long, value_name = "LENGTH")]
+    #[serde(default)]
+    pub hinge: Option<Length>,
+}
+
+/// How folds are scored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ScoreStyle {
+    /// One line per fold.
+    #[default]
+    Solid,
+    /// Dashes of 2 mm with gaps of about 2 mm, beginning and ending with a dash.
+    Dashed,
+    /// Cut through, with bridges, beginning and ending with a bridge.
+    Perforated,
+    /// Mountains solid, valleys dashed.
+    Valleys,
+}
+
+/// Width of the slots of perforations and hinges when there is no kerf, in mm.
+const LEAST_SLOT: f64 = 0.2;
+
 /// Checked numbers for drawing folds, in mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ScorePlan {
@@ -29,6 +77,7 @@ pub(crate) struct ScorePlan {
     gap: Option<f64>,
     inset: f64,
     hinge: Option<f64>,
+    slot: f64,
 }
 
 /// A row of slits of a hinge field.
@@ -52,32 +101,30 @@ impl ScorePlan {
     /// # Errors
     /// [`SheetError::OutOfRange`] for numbers; [`SheetError::ScoreOption`] for lengths of dashes
     /// without dashes.
-    pub fn of(params: &SheetParams) -> Result<Self, SheetError> {
-        if params.score == ScoreStyle::Solid {
-            for (option, is_given) in [
-                ("score-dash", params.score_dash.is_some()),
-                ("score-gap", params.score_gap.is_some()),
-            ] {
+    pub fn of(params: &ScoreParams, kerf: f64) -> Result<Self, SheetError> {
+        if params.style == ScoreStyle::Solid {
+            for (option, is_given) in
+                [("score-dash", params.dash.is_some()), ("score-gap", params.gap.is_some())]
+            {
                 if is_given {
                     return Err(SheetError::ScoreOption { option });
                 }
             }
         }
         let checked =
-            |name: &'static str, value: Option<crate::units::Length>, least: f64| match value
-                .map(|v| v.mm())
-            {
+            |name: &'static str, value: Option<Length>, least: f64| match value.map(|v| v.mm()) {
                 Some(value) if !(value >= least && value.is_finite()) => {
                     Err(SheetError::OutOfRange { name, value, least })
                 }
                 value => Ok(value),
             };
         Ok(Self {
-            style: params.score,
-            dash: checked("score-dash", params.score_dash, 0.1)?,
-            gap: checked("score-gap", params.score_gap, 0.1)?,
-            inset: checked("score-inset", Some(params.score_inset), 0.0)?.unwrap_or(0.0),
+            style: params.style,
+            dash: checked("score-dash", params.dash, 0.1)?,
+            gap: checked("score-gap", params.gap, 0.1)?,
+            inset: checked("score-inset", Some(params.inset), 0.0)?.unwrap_or(0.0),
             hinge: checked("hinge", params.hinge, 0.1)?,
+            slot: if kerf > 0.0 { kerf } else { LEAST_SLOT },
         })
     }
 
@@ -109,7 +156,16 @@ impl ScorePlan {
             ScoreStyle::Valleys => is_valley,
         };
         let lines = if is_dashed { dashes(a, b, dash, gap) } else { vec![[a, b]] };
-        lines.into_iter().map(|line| Stroke { points: line.to_vec(), closed: false }).collect()
+        let open = |[a, b]: [DVec2; 2]| Stroke { points: vec![a, b], closed: false };
+        let stroke =
+            |[a, b]: [DVec2; 2]| if self.is_cut() { self.slot(a, b) } else { open([a, b]) };
+        lines.into_iter().map(stroke).collect()
+    }
+
+    /// A cut from a to b as a closed path, as wide as the kerf.
+    pub fn slot(&self, a: DVec2, b: DVec2) -> Stroke {
+        let side = (b - a).normalize_or_zero().perp() * (self.slot / 2.0);
+        Stroke { points: vec![a - side, b - side, b + side, a + side], closed: true }
     }
 
     /// The hinge fields of a piece: every chain of faces narrower than the hinge width, with the
@@ -256,7 +312,7 @@ fn slits(a: DVec2, b: DVec2, is_odd: bool) -> Vec<[DVec2; 2]> {
 /// Opens a contour at `count` places, `width` mm wide: bridges that hold a part until it is broken
 /// out. They lie in the middle of edges, spread over the contour; a contour too short for them
 /// stays closed.
-pub(crate) fn hold(contour: &[DVec2], count: usize, width: f64) -> Vec<Stroke> {
+pub(crate) fn with_holding_tabs(contour: &[DVec2], count: usize, width: f64) -> Vec<Stroke> {
     let whole = || vec![Stroke { points: contour.to_vec(), closed: true }];
     let n = contour.len();
     let lengths: Vec<f64> = (0..n).map(|i| contour[i].distance(contour[(i + 1) % n])).collect();
@@ -308,8 +364,8 @@ mod tests {
     use super::*;
     use crate::units::Length;
 
-    fn plan(params: &SheetParams) -> ScorePlan {
-        ScorePlan::of(params).expect("good numbers")
+    fn plan(params: &ScoreParams) -> ScorePlan {
+        ScorePlan::of(params, 0.0).expect("good numbers")
     }
 
     fn lengths(strokes: &[Stroke]) -> Vec<f64> {
@@ -318,7 +374,7 @@ mod tests {
 
     #[test]
     fn dashes_begin_and_end_with_a_dash() {
-        let plan = plan(&SheetParams { score: ScoreStyle::Dashed, ..SheetParams::default() });
+        let plan = plan(&ScoreParams { style: ScoreStyle::Dashed, ..ScoreParams::default() });
         let dashes = plan.strokes(DVec2::ZERO, DVec2::new(30.0, 0.0), false);
         assert_eq!(dashes.len(), 8);
         assert_eq!(dashes[0].points[0], DVec2::ZERO);
@@ -330,11 +386,13 @@ mod tests {
     #[test]
     fn perforations_keep_bridges_at_both_ends_and_insets_free_the_corners() {
         let perforated =
-            plan(&SheetParams { score: ScoreStyle::Perforated, ..SheetParams::default() });
+            plan(&ScoreParams { style: ScoreStyle::Perforated, ..ScoreParams::default() });
         let cuts = perforated.strokes(DVec2::ZERO, DVec2::new(21.0, 0.0), false);
         assert_eq!((cuts[0].points[0].x, cuts[cuts.len() - 1].points[1].x), (1.0, 20.0));
-        assert_eq!(lengths(&cuts), [3.0; 5]);
-        let inset = SheetParams { score_inset: Length::from_mm(2.5), ..SheetParams::default() };
+        // Every cut is a closed path around a slot of 3 mm as wide as the kerf, at least 0.2 mm.
+        assert!(cuts.iter().all(|c| c.closed && c.points.len() == 4));
+        assert!(lengths(&cuts).iter().all(|l| (l - 6.4).abs() < 1e-9) && cuts.len() == 5);
+        let inset = ScoreParams { inset: Length::from_mm(2.5), ..ScoreParams::default() };
         let solid = plan(&inset).strokes(DVec2::ZERO, DVec2::new(21.0, 0.0), false);
         assert_eq!(lengths(&solid), [16.0]);
         assert!(plan(&inset).strokes(DVec2::ZERO, DVec2::new(5.0, 0.0), false).is_empty());
@@ -342,26 +400,33 @@ mod tests {
 
     #[test]
     fn options_that_do_nothing_are_refused() {
-        let params =
-            SheetParams { score_gap: Some(Length::from_mm(1.0)), ..SheetParams::default() };
-        assert!(ScorePlan::of(&params).expect_err("no dashes").to_string().contains("score-gap"));
-        let params = SheetParams { hinge: Some(Length::from_mm(-1.0)), ..SheetParams::default() };
+        let params = ScoreParams { gap: Some(Length::from_mm(1.0)), ..ScoreParams::default() };
         assert!(
-            ScorePlan::of(&params).expect_err("below 0").to_string().contains("hinge is -1 mm")
+            ScorePlan::of(&params, 0.0).expect_err("no dashes").to_string().contains("score-gap")
+        );
+        let params = ScoreParams { hinge: Some(Length::from_mm(-1.0)), ..ScoreParams::default() };
+        assert!(
+            ScorePlan::of(&params, 0.0)
+                .expect_err("below 0")
+                .to_string()
+                .contains("hinge is -1 mm")
         );
     }
 
     #[test]
     fn bridges_hold_a_square_and_take_no_corner() {
-        let held = hold(&square(40.0), 2, 0.5);
+        let held = with_holding_tabs(&square(40.0), 2, 0.5);
         assert_eq!(held.len(), 2);
         let total: f64 = held.iter().map(Stroke::length).sum();
         assert!((total - 159.0).abs() < 1e-9);
         let mut corners: Vec<DVec2> = held.iter().flat_map(|s| &s.points).copied().collect();
         corners.retain(|p| square(40.0).contains(p));
         assert_eq!(corners.len(), 4);
-        assert_eq!(hold(&square(0.5), 4, 0.5), vec![Stroke { points: square(0.5), closed: true }]);
-        assert_eq!(hold(&square(40.0), 1, 0.5).len(), 1);
+        assert_eq!(
+            with_holding_tabs(&square(0.5), 4, 0.5),
+            vec![Stroke { points: square(0.5), closed: true }]
+        );
+        assert_eq!(with_holding_tabs(&square(40.0), 1, 0.5).len(), 1);
     }
 
     #[test]
@@ -385,7 +450,7 @@ mod tests {
     fn wide_faces_make_no_hinge() {
         let net = two_pieces();
         let folds: Vec<&Fold> = net.folds.iter().collect();
-        let params = SheetParams { hinge: Some(Length::from_mm(8.0)), ..SheetParams::default() };
+        let params = ScoreParams { hinge: Some(Length::from_mm(8.0)), ..ScoreParams::default() };
         let hinges = plan(&params).hinges(&net.pieces[0], &folds);
         assert!(hinges.folds.is_empty() && hinges.rows.is_empty());
     }

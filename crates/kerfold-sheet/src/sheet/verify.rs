@@ -190,8 +190,22 @@ fn distance(a: &Laid, b: &Laid) -> f64 {
     if one_covers(a, b) || one_covers(b, a) {
         return 0.0;
     }
-    let pairs = a.contours.iter().flat_map(|c| b.contours.iter().map(move |d| (c, d)));
-    pairs.map(|(c, d)| contour_distance(c, d)).fold(f64::INFINITY, f64::min)
+    let boxes = |laid: &Laid| -> Vec<(DVec2, DVec2)> {
+        laid.contours.iter().map(|c| bounds(c).unwrap_or_default()).collect()
+    };
+    let (own, others) = (boxes(a), boxes(b));
+    let mut least = f64::INFINITY;
+    for (c, &(low, high)) in a.contours.iter().zip(&own) {
+        for (d, &(other_low, other_high)) in b.contours.iter().zip(&others) {
+            // Contours are no nearer than their boxes. The outlines come first, so that this spares
+            // nearly all pairs of holes.
+            let apart = (low - other_high).max(other_low - high).max(DVec2::ZERO).length();
+            if apart < least {
+                least = least.min(contour_distance(c, d));
+            }
+        }
+    }
+    least
 }
 
 /// The least distance between two closed contours; 0 when they cross.
@@ -213,10 +227,15 @@ pub(crate) fn distance_to_contour(p: DVec2, contour: &[DVec2]) -> f64 {
 
 /// The distance from a point to a closed segment.
 pub(crate) fn distance_to_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
+    p.distance(nearest_on_segment(p, a, b))
+}
+
+/// The point of a closed segment that is nearest to another point.
+pub(crate) fn nearest_on_segment(p: DVec2, a: DVec2, b: DVec2) -> DVec2 {
     let along = b - a;
     let squared = along.length_squared();
     let t = if squared > 0.0 { ((p - a).dot(along) / squared).clamp(0.0, 1.0) } else { 0.0 };
-    p.distance(a + along * t)
+    a + along * t
 }
 
 /// The edges of a closed contour.

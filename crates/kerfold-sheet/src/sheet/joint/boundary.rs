@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 
 use glam::DVec2;
 
-use super::super::letter::segments_meet;
 use super::super::verify::distance_to_segment;
+use crate::geom::polygon::segments_meet;
 use crate::net::{FlatFace, Net, Segment};
 
 /// One closed boundary with the material on its left.
@@ -51,6 +51,16 @@ impl Contour {
         (0..self.len())
             .flat_map(|i| self.cut_corners[i].iter().chain(&self.profiles[i]).copied())
             .collect()
+    }
+
+    /// All that is cut around it, with the edges that it belongs to: the corner before an edge, then
+    /// the edge.
+    pub fn cuts(&self) -> impl Iterator<Item = (usize, Segment)> + '_ {
+        (0..self.len()).flat_map(|i| {
+            let corner = segments(&self.cut_corners[i]);
+            let along = segments(&self.cut_edge(i));
+            corner.into_iter().chain(along).map(move |s| (i, s))
+        })
     }
 
     /// The cut along one edge, from the end of its first corner to the beginning of its second.
@@ -112,16 +122,12 @@ impl Boundaries {
 
     /// All that is cut around a piece, edge by edge.
     pub fn cuts(&self, piece: usize) -> impl Iterator<Item = (&Contour, usize, Segment)> {
-        self.of_piece(piece).flat_map(|c| {
-            (0..c.len()).flat_map(move |i| {
-                let cut = c.cut_edge(i);
-                let corner: Vec<Segment> =
-                    c.cut_corners[i].windows(2).map(|w| [w[0], w[1]]).collect();
-                let along: Vec<Segment> = cut.windows(2).map(|w| [w[0], w[1]]).collect();
-                corner.into_iter().chain(along).map(move |s| (c, i, s))
-            })
-        })
+        self.of_piece(piece).flat_map(|c| c.cuts().map(move |(i, s)| (c, i, s)))
     }
+}
+
+fn segments(points: &[DVec2]) -> Vec<Segment> {
+    points.windows(2).map(|w| [w[0], w[1]]).collect()
 }
 
 /// The distance of two closed segments; 0 when they meet.

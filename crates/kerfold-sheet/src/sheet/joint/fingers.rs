@@ -11,11 +11,10 @@
 
 use glam::DVec2;
 
-use super::super::letter::segments_meet;
 use super::boundary::{Boundaries, Contour};
-use super::params::Fingers;
+use super::params::{Fingers, WEB};
+use super::webs::in_the_way;
 use super::{JointFallback, JointReport};
-use crate::geom::polygon::signed_area;
 use crate::net::{Net, Segment};
 
 /// Dihedral angles that fingers can hold, in degrees.
@@ -95,7 +94,9 @@ pub(super) fn add_fingers(
         boundaries.contours.iter_mut().for_each(|c| shape(c, &combs));
         let mut is_clean = true;
         for piece in 0..net.pieces.len() {
-            for s in in_the_way(boundaries, piece, fingers.thickness / 2.0, |s| combs[s].is_ok()) {
+            for s in in_the_way(boundaries, piece, (fingers.thickness / 2.0).max(WEB), |s| {
+                combs[s].is_ok()
+            }) {
                 combs[s] = Err(JointFallback::Narrow);
                 is_clean = false;
             }
@@ -154,59 +155,6 @@ fn profile([a, b]: Segment, comb: &Comb) -> Vec<DVec2> {
         [at + inwards * comb.level(zone - 1), at + inwards * comb.level(zone)]
     };
     (1..comb.zones).flat_map(step).collect()
-}
-
-/// The jointed seams of a piece, those that `is_jointed` names, whose cut comes nearer than `web`
-/// to the cut of an edge that is no neighbour, or meets any.
-pub(super) fn in_the_way(
-    boundaries: &Boundaries,
-    piece: usize,
-    web: f64,
-    is_jointed: impl Fn(usize) -> bool,
-) -> Vec<usize> {
-    let cuts: Vec<_> = boundaries.cuts(piece).collect();
-    let jointed = |(c, i, _): &(&Contour, usize, Segment)| {
-        // The corner before an edge belongs to both.
-        let n = c.len();
-        [*i, (*i + n - 1) % n]
-            .into_iter()
-            .filter_map(|i| c.sides[i].map(|(s, _)| s))
-            .filter(|&s| is_jointed(s))
-            .collect::<Vec<_>>()
-    };
-    let mut found = Vec::new();
-    for (x, a) in cuts.iter().enumerate() {
-        for b in &cuts[..x] {
-            let n = a.0.len();
-            let near = std::ptr::eq(a.0, b.0) && {
-                let d = a.1.abs_diff(b.1);
-                d <= 1 || d + 1 >= n
-            };
-            let [p, q] = a.2;
-            let [r, s] = b.2;
-            let is_close = if near {
-                !(p == s || q == r || p == r || q == s) && segments_meet(p, q, r, s)
-            } else {
-                let (la, lb) = (p.min(q) - DVec2::splat(web), r.min(s));
-                let (ha, hb) = (p.max(q) + DVec2::splat(web), r.max(s));
-                la.cmple(hb).all()
-                    && lb.cmple(ha).all()
-                    && super::boundary::segment_distance(a.2, b.2) < web
-            };
-            if is_close {
-                found.extend(jointed(a));
-                found.extend(jointed(b));
-            }
-        }
-    }
-    for c in boundaries.of_piece(piece) {
-        if signed_area(&c.path()) * signed_area(&c.corners) <= 0.0 {
-            found.extend(c.sides.iter().flatten().map(|&(s, _)| s).filter(|&s| is_jointed(s)));
-        }
-    }
-    found.sort_unstable();
-    found.dedup();
-    found
 }
 
 #[cfg(test)]

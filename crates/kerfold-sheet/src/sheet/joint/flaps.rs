@@ -1,13 +1,15 @@
 //! Flaps: a trapezoid on one side of every seam, that overlaps nothing.
 //!
-//! A flap must keep a gap to everything else on its piece. When it cannot, it is narrowed; before
-//! it gets narrower than half it moves to the partner side; where neither has room for a third of
-//! it, the seam stays bare.
+//! A flap must keep a gap to everything else on its piece, and folded over it must lie behind its
+//! partner ([`Behind`]), so that it sticks out nowhere. Its ends become as steep as that wants. When
+//! it still cannot, it is narrowed; before it gets narrower than half it moves to the partner side;
+//! where neither has room for a third of it, the seam stays bare.
 
 use std::f64::consts::TAU;
 
 use glam::DVec2;
 
+use super::behind::{Behind, Partner};
 use super::boundary::{Boundaries, Place, segment_distance};
 use super::params::{Flap, FlapSide};
 use super::{FlapFold, JointReport};
@@ -64,18 +66,18 @@ pub(super) fn add_flaps(
     report: &mut JointReport,
 ) -> Vec<NewElements> {
     let mut made = Vec::new();
+    let behind = Behind::new(net);
     for s in 0..net.seams.len() {
         let first = first_side(net, boundaries, s, flap.side);
         let found = TRIALS.into_iter().find_map(|(other, share)| {
             let side = first ^ other;
             let place = boundaries.places[s][side]?;
-            let (base, top) = trapezoid(boundaries, place, flap, share)?;
-            is_free(boundaries, place, base, top, kerf).then_some((
-                place,
-                other,
-                share,
-                NewElements { seam: s, side, base, top },
-            ))
+            let partner = behind.partner(s, side);
+            let room = partner.as_ref().map_or([f64::INFINITY; 2], Partner::angles);
+            let (base, top) = trapezoid(boundaries, place, (flap, share), room)?;
+            let fits = is_free(boundaries, place, base, top, kerf)
+                && partner.is_none_or(|partner| partner.hides(base, top));
+            fits.then_some((place, other, share, NewElements { seam: s, side, base, top }))
         });
         let Some((place, other, share, flap)) = found else {
             report.bare_seams.push(net.seams[s].id);
@@ -122,18 +124,21 @@ fn turn(from: DVec2, to: DVec2) -> f64 {
     from.angle_to(to).rem_euclid(TAU)
 }
 
+/// The base and the top of a flap of a share of its width. `behind` are the largest angles at its
+/// ends with which it lies behind its partner.
 fn trapezoid(
     boundaries: &Boundaries,
     place: Place,
-    flap: &Flap,
-    share: f64,
+    (flap, share): (&Flap, f64),
+    behind: [f64; 2],
 ) -> Option<(Segment, Segment)> {
     let [a, b] = boundaries.contours[place.contour].edge(place.edge);
     let [(before, before_waits), (after, after_waits)] = neighbours(boundaries, place);
     let room = [turn(before - a, b - a), turn(a - b, after - b)];
     // A neighbour that may get its own flap leaves half of the notch.
     let limit = |room: f64, waits: bool| if waits { (room - NOTCH) / 2.0 } else { room - NOTCH };
-    let limits = [limit(room[0], before_waits), limit(room[1], after_waits)];
+    let limits =
+        [limit(room[0], before_waits).min(behind[0]), limit(room[1], after_waits).min(behind[1])];
     let (length, along) = (a.distance(b), (b - a).normalize_or_zero());
     let width = flap.width * share;
     for asked in [flap.angle, flap.angle.max(STEEP)] {

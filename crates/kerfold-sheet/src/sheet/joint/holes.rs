@@ -1,5 +1,7 @@
 //! Holes for thread and rivets: at equal places on the two sides of a seam, both or none.
 
+use std::collections::BTreeMap;
+
 use glam::DVec2;
 
 use super::super::letter::Stretch;
@@ -10,23 +12,32 @@ use super::params::Holes;
 use super::slots::Slot;
 use super::{Hole, JointReport};
 use crate::geom::polygon::{Location, locate};
-use crate::net::Net;
+use crate::net::{Net, PieceId, Segment};
 
-/// Holes so far, and what they must keep clear of.
+/// Holes so far, and what they must keep clear of; lists by the index of the piece.
 struct Drill<'a> {
-    net: &'a Net,
     paths: Vec<Vec<Vec<DVec2>>>,
+    folds: Vec<Vec<Segment>>,
     holes: &'a Holes,
-    drilled: Vec<Hole>,
+    drilled: Vec<Vec<Hole>>,
 }
 
 impl<'a> Drill<'a> {
-    fn new(net: &'a Net, boundaries: &Boundaries, holes: &'a Holes, slots: &[Slot]) -> Self {
+    fn new(net: &Net, boundaries: &Boundaries, holes: &'a Holes, slots: &[Slot]) -> Self {
         let mut paths: Vec<Vec<Vec<DVec2>>> = (0..net.pieces.len())
             .map(|i| boundaries.of_piece(i).map(|c| c.path()).collect())
             .collect();
         slots.iter().for_each(|slot| paths[slot.piece].push(slot.contour.clone()));
-        Self { net, paths, holes, drilled: Vec::new() }
+        let mut folds: BTreeMap<PieceId, Vec<Segment>> = BTreeMap::new();
+        for fold in &net.folds {
+            folds.entry(fold.piece).or_default().push(fold.segment);
+        }
+        let folds = net.pieces.iter().map(|p| folds.remove(&p.id).unwrap_or_default()).collect();
+        Self { paths, folds, holes, drilled: vec![Vec::new(); net.pieces.len()] }
+    }
+
+    fn all(self) -> Vec<Hole> {
+        self.drilled.into_iter().flatten().collect()
     }
 
     fn is_free(&self, hole: &Hole) -> bool {
@@ -36,20 +47,12 @@ impl<'a> Drill<'a> {
             .iter()
             .enumerate()
             .all(|(i, c)| (locate(c, hole.centre) == Location::Inside) == (i == 0));
-        let id = self.net.pieces[hole.piece].id;
+        let others = &self.drilled[hole.piece];
+        let folds = &self.folds[hole.piece];
         inside
             && paths.iter().all(|c| distance_to_contour(hole.centre, c) >= least)
-            && self
-                .drilled
-                .iter()
-                .filter(|h| h.piece == hole.piece)
-                .all(|h| h.centre.distance(hole.centre) >= hole.radius + least)
-            && self
-                .net
-                .folds
-                .iter()
-                .filter(|f| f.piece == id)
-                .all(|f| distance_to_segment(hole.centre, f.segment[0], f.segment[1]) >= least)
+            && others.iter().all(|h| h.centre.distance(hole.centre) >= hole.radius + least)
+            && folds.iter().all(|&[a, b]| distance_to_segment(hole.centre, a, b) >= least)
     }
 
     /// Drills both or none.
@@ -59,7 +62,7 @@ impl<'a> Drill<'a> {
             a.piece != b.piece || a.centre.distance(b.centre) >= 2.0 * a.radius + self.holes.web;
         let is_free = apart && pair.iter().all(|h| self.is_free(h));
         if is_free {
-            self.drilled.extend(pair);
+            pair.into_iter().for_each(|hole| self.drilled[hole.piece].push(hole));
         }
         is_free
     }
@@ -96,7 +99,7 @@ pub(super) fn stitch(
             }
         }
     }
-    drill.drilled
+    drill.all()
 }
 
 /// `t` runs along the side `side`; its partner runs the other way.
@@ -126,6 +129,12 @@ pub(super) fn rivet(
     report: &mut JointReport,
 ) -> Vec<Hole> {
     let mut drill = Drill::new(net, boundaries, holes, &[]);
+    // Flaps are folded, too: their paths lead around them and not along their bases.
+    for flap in flaps {
+        if let Some(own) = boundaries.places[flap.seam][flap.side] {
+            drill.folds[boundaries.contours[own.contour].piece].push(flap.base);
+        }
+    }
     for flap in flaps {
         let [own, partner] = [flap.side, 1 - flap.side].map(|k| boundaries.places[flap.seam][k]);
         let (Some(own), Some(partner)) = (own, partner) else { continue };
@@ -157,5 +166,5 @@ pub(super) fn rivet(
             }
         }
     }
-    drill.drilled
+    drill.all()
 }

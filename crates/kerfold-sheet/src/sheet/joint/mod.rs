@@ -4,6 +4,7 @@
 //! smaller, goes to the partner side, or falls back to stitch holes or the bare edge, and the
 //! report says so. The net's own outlines, which `pieces.json` holds, stay as they are.
 
+mod behind;
 mod boundary;
 mod fingers;
 mod flaps;
@@ -11,13 +12,14 @@ mod holes;
 mod params;
 mod slots;
 mod trim;
+mod webs;
 
 use glam::DVec2;
 
 pub(crate) use boundary::Boundaries;
-pub use params::{FlapSide, Joint, Substitute};
+pub use params::{FlapSide, Joint, JointParams, Substitute};
 pub(crate) use params::{JointPlan, plan};
-use slots::FARTHEST_LIP;
+use slots::FARTHEST_LEAN;
 pub(crate) use trim::on_material;
 
 use super::error::SheetError;
@@ -106,7 +108,7 @@ pub(crate) fn join(net: &Net, params: &SheetParams) -> Result<Option<Jointed>, S
     let mut drilled = Vec::new();
     let mut slots = Vec::new();
     let all: Vec<usize> = (0..net.seams.len()).collect();
-    let kerf = params.kerf.mm();
+    let kerf = params.stock.kerf.mm();
     match plan {
         JointPlan::None => {}
         JointPlan::Flaps(flap) => {
@@ -186,17 +188,21 @@ impl Hole {
 
 #[cfg(test)]
 mod tests {
-    use super::super::letter::segments_meet;
     use super::super::testing::{random_convex, twins, two_pieces};
-    use super::super::{SheetParams, lay_out};
+    use super::super::{LetterParams, SheetParams, StockParams, lay_out};
     use super::*;
+    use crate::geom::polygon::{borders_meet, segments_meet};
     use crate::units::Length;
     use proptest::prelude::*;
 
     fn with(joint: Joint) -> SheetParams {
         SheetParams {
-            joint,
-            thickness: matches!(joint, Joint::Fingers | Joint::Tabs).then(|| Length::from_mm(3.0)),
+            joint: JointParams {
+                kind: joint,
+                thickness: matches!(joint, Joint::Fingers | Joint::Tabs)
+                    .then(|| Length::from_mm(3.0)),
+                ..JointParams::default()
+            },
             ..Default::default()
         }
     }
@@ -221,14 +227,19 @@ mod tests {
     #[test]
     fn options_of_another_joint_and_missing_ones_are_refused() {
         let net = two_pieces();
-        let params =
-            SheetParams { flap_width: Some(Length::from_mm(5.0)), ..SheetParams::default() };
+        let params = SheetParams {
+            joint: JointParams { flap_width: Some(Length::from_mm(5.0)), ..JointParams::default() },
+            ..SheetParams::default()
+        };
         let text = lay_out(&net, &params).expect_err("no flaps").to_string();
         assert_eq!(
             text,
             "joint none does not use flap-width; leave it out or choose another joint"
         );
-        let params = SheetParams { joint: Joint::Fingers, ..SheetParams::default() };
+        let params = SheetParams {
+            joint: JointParams { kind: Joint::Fingers, ..JointParams::default() },
+            ..SheetParams::default()
+        };
         let text = lay_out(&net, &params).expect_err("no thickness").to_string();
         assert_eq!(text, "joint fingers needs the thickness; give it, for example 3mm");
     }
@@ -259,9 +270,15 @@ mod tests {
         let net = two_pieces();
         for kerf in [0.0, 0.2] {
             let params = SheetParams {
-                kerf: Length::from_mm(kerf),
-                finger_width: Some(Length::from_mm(4.0)),
-                labels: super::super::Labels::None,
+                stock: StockParams { kerf: Length::from_mm(kerf), ..with(Joint::Tabs).stock },
+                joint: JointParams {
+                    finger_width: Some(Length::from_mm(4.0)),
+                    ..with(Joint::Tabs).joint
+                },
+                letter: LetterParams {
+                    labels: super::super::Labels::None,
+                    ..with(Joint::Tabs).letter
+                },
                 ..with(Joint::Tabs)
             };
             let set = lay_out(&net, &params).expect("two small pieces");
@@ -301,7 +318,10 @@ mod tests {
                     && stitched.hole_pairs > 0
             );
             assert_eq!(stitched.fallbacks.len(), net.seams.len());
-            let params = SheetParams { substitute: Some(Substitute::Mitre), ..with(joint) };
+            let params = SheetParams {
+                joint: JointParams { substitute: Some(Substitute::Mitre), ..with(joint).joint },
+                ..with(joint)
+            };
             let jointed = join(&net, &params).expect("good numbers").expect("a joint");
             assert_eq!(
                 (jointed.report.mitred.len(), jointed.report.hole_pairs),
@@ -309,7 +329,10 @@ mod tests {
             );
             assert!(jointed.report.mitred.iter().all(|m| m.1 == 15.0));
             assert_eq!(jointed.net, net);
-            let both = SheetParams { hole_spacing: Some(Length::from_mm(8.0)), ..params };
+            let both = SheetParams {
+                joint: JointParams { hole_spacing: Some(Length::from_mm(8.0)), ..params.joint },
+                ..params
+            };
             assert!(
                 join(&net, &both)
                     .map(|_| ())
@@ -325,7 +348,7 @@ mod tests {
         #[test]
         fn flaps_overlap_nothing(radii in prop::collection::vec(15.0..80.0_f64, 4..24), kerf in 0.0..0.4_f64) {
             let net = twins(star(&radii), 60.0);
-            let params = SheetParams { kerf: Length::from_mm(kerf), ..with(Joint::Flaps) };
+            let params = SheetParams { stock: StockParams { kerf: Length::from_mm(kerf), ..with(Joint::Flaps).stock }, ..with(Joint::Flaps) };
             let jointed = join(&net, &params).expect("good numbers").expect("flaps");
             jointed.net.pieces.iter().for_each(|p| assert_simple(&p.outline));
             prop_assert_eq!(jointed.report.flaps + jointed.report.bare_seams.len(), radii.len());
@@ -351,7 +374,7 @@ mod tests {
                     use crate::geom::polygon::{Location, locate};
                     prop_assert!(hole.iter().all(|&p| locate(&piece.outline, p) == Location::Inside));
                     for other in piece.holes[..i].iter().chain([&piece.outline]) {
-                        prop_assert!(!super::super::letter::borders_meet(hole, other));
+                        prop_assert!(!borders_meet(hole, other));
                     }
                 }
             }

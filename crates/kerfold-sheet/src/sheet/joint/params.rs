@@ -5,8 +5,57 @@ use serde::Deserialize;
 
 use super::super::error::SheetError;
 use super::super::params::SheetParams;
-use super::FARTHEST_LIP;
+use super::FARTHEST_LEAN;
 use crate::units::{Angle, Length};
+
+/// What holds the two sides of seams together.
+#[derive(Debug, Clone, PartialEq, Default, clap::Args, Deserialize)]
+pub struct JointParams {
+    /// What joins the two sides of a seam
+    #[arg(id = "joint", long = "joint", value_name = "JOINT", value_enum, default_value = "none")]
+    #[serde(default, rename = "joint")]
+    pub kind: Joint,
+    /// Width of flaps, at least 1mm; of flaps 8mm, with rivets 12mm unless given
+    #[arg(long, value_name = "LENGTH")]
+    #[serde(default)]
+    pub flap_width: Option<Length>,
+    /// Angle at the ends of flaps, 20 to 90 degrees; 60deg unless given. Short seams get steeper
+    /// flaps
+    #[arg(long, value_name = "ANGLE")]
+    #[serde(default)]
+    pub flap_angle: Option<Angle>,
+    /// Which side of a seam gets the flap or the tabs, where it has room; lower unless given
+    #[arg(long, value_enum)]
+    #[serde(default)]
+    pub flap_side: Option<FlapSide>,
+    /// Thickness of the material; needed for fingers and tabs, at least 0.1mm
+    #[arg(long, value_name = "LENGTH")]
+    #[serde(default)]
+    pub thickness: Option<Length>,
+    /// Width of a finger, about, or of a tab; three times the thickness unless given, never less
+    /// than it
+    #[arg(long, value_name = "LENGTH")]
+    #[serde(default)]
+    pub finger_width: Option<Length>,
+    /// What seams get that are too shallow or too narrow for fingers or tabs; stitch unless given
+    #[arg(long, value_enum)]
+    #[serde(default)]
+    pub substitute: Option<Substitute>,
+    /// From one hole to the next along a seam; stitch holes 6mm, rivets 25mm unless given, at least
+    /// twice what thick plates need
+    #[arg(long, value_name = "LENGTH")]
+    #[serde(default)]
+    pub hole_spacing: Option<Length>,
+    /// Diameter of stitch holes (1.5mm unless given) or rivet holes (3.2mm), in plates above 1mm at
+    /// least 1.55 times their thickness and the kerf; more than the kerf
+    #[arg(long, value_name = "LENGTH")]
+    #[serde(default)]
+    pub hole_diameter: Option<Length>,
+    /// From a seam to the middle of its stitch holes; twice their diameter unless given
+    #[arg(long, value_name = "LENGTH")]
+    #[serde(default)]
+    pub hole_inset: Option<Length>,
+}
 
 /// What joins the two sides of a seam.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Deserialize)]
@@ -102,13 +151,14 @@ impl JointPlan {
         match self {
             Self::None | Self::Stitch(_) | Self::Fingers(..) => 0.0,
             Self::Flaps(flap) | Self::Rivets(flap, _) => flap.width,
-            Self::Tabs(tabs, _) => FARTHEST_LIP * tabs.thickness,
+            Self::Tabs(tabs, _) => tabs.thickness.max(WEB) + FARTHEST_LEAN * tabs.thickness,
         }
     }
 }
 
-/// Least material around a hole, in mm.
-const WEB: f64 = 0.6;
+/// Least material between a cut of a joint and any other cut, in mm: the millimetre that is wanted
+/// of every web, and a little more, since files hold rounded numbers.
+pub(super) const WEB: f64 = 1.01;
 
 /// Checks the joint's options.
 ///
@@ -117,26 +167,27 @@ const WEB: f64 = 0.6;
 /// [`SheetError::OutOfRange`] for its numbers.
 pub(crate) fn plan(params: &SheetParams) -> Result<JointPlan, SheetError> {
     use Joint::{Fingers as F, Flaps, None as N, Rivets, Stitch, Tabs as T};
-    let joint = params.joint;
-    let is_mitred = params.substitute == Some(Substitute::Mitre);
+    let asked = &params.joint;
+    let joint = asked.kind;
+    let is_mitred = asked.substitute == Some(Substitute::Mitre);
     let given = [
-        ("flap-width", params.flap_width.is_some(), &[Flaps, Rivets][..]),
-        ("flap-angle", params.flap_angle.is_some(), &[Flaps, Rivets]),
-        ("flap-side", params.flap_side.is_some(), &[Flaps, Rivets, T]),
-        ("thickness", params.thickness.is_some(), &[F, T]),
-        ("finger-width", params.finger_width.is_some(), &[F, T]),
-        ("substitute", params.substitute.is_some(), &[F, T]),
+        ("flap-width", asked.flap_width.is_some(), &[Flaps, Rivets][..]),
+        ("flap-angle", asked.flap_angle.is_some(), &[Flaps, Rivets]),
+        ("flap-side", asked.flap_side.is_some(), &[Flaps, Rivets, T]),
+        ("thickness", asked.thickness.is_some(), &[F, T]),
+        ("finger-width", asked.finger_width.is_some(), &[F, T]),
+        ("substitute", asked.substitute.is_some(), &[F, T]),
         (
             "hole-spacing",
-            params.hole_spacing.is_some(),
+            asked.hole_spacing.is_some(),
             if is_mitred { &[][..] } else { &[Stitch, Rivets, F, T] },
         ),
         (
             "hole-diameter",
-            params.hole_diameter.is_some(),
+            asked.hole_diameter.is_some(),
             if is_mitred { &[] } else { &[Stitch, Rivets, F, T] },
         ),
-        ("hole-inset", params.hole_inset.is_some(), if is_mitred { &[] } else { &[Stitch, F, T] }),
+        ("hole-inset", asked.hole_inset.is_some(), if is_mitred { &[] } else { &[Stitch, F, T] }),
     ];
     if let Some((option, ..)) =
         given.into_iter().find(|(_, given, of)| *given && !of.contains(&joint))
@@ -150,14 +201,14 @@ pub(crate) fn plan(params: &SheetParams) -> Result<JointPlan, SheetError> {
         Stitch => JointPlan::Stitch(holes(params, [6.0, 1.5])?),
         F | T => {
             let missing = SheetError::JointOption { option: "thickness", joint, is_missing: true };
-            let thickness = length("thickness", Some(params.thickness.ok_or(missing)?), 0.0, 0.1)?;
-            let width = length("finger-width", params.finger_width, 3.0 * thickness, thickness)?;
+            let thickness = length("thickness", Some(asked.thickness.ok_or(missing)?), 0.0, 0.1)?;
+            let width = length("finger-width", asked.finger_width, 3.0 * thickness, thickness)?;
             let holes = if is_mitred { None } else { Some(holes(params, [6.0, 1.5])?) };
             if joint == F {
                 JointPlan::Fingers(Fingers { thickness, width }, holes)
             } else {
                 JointPlan::Tabs(
-                    Tabs { thickness, width, side: params.flap_side.unwrap_or_default() },
+                    Tabs { thickness, width, side: asked.flap_side.unwrap_or_default() },
                     holes,
                 )
             }
@@ -181,32 +232,32 @@ fn length(
 }
 
 fn flap(params: &SheetParams, width: f64) -> Result<Flap, SheetError> {
-    let width = length("flap-width", params.flap_width, width, 1.0)?;
-    let angle = params.flap_angle.map_or(60.0, Angle::degrees);
+    let width = length("flap-width", params.joint.flap_width, width, 1.0)?;
+    let angle = params.joint.flap_angle.map_or(60.0, Angle::degrees);
     if !(20.0..=90.0).contains(&angle) {
         return Err(SheetError::FlapAngle { degrees: angle });
     }
-    Ok(Flap { width, angle: angle.to_radians(), side: params.flap_side.unwrap_or_default() })
+    Ok(Flap { width, angle: angle.to_radians(), side: params.joint.flap_side.unwrap_or_default() })
 }
 
 /// Up to this thickness, in mm, card is pierced rather than cut, and holes stay small.
 const THIN: f64 = 1.0;
 
 fn holes(params: &SheetParams, [spacing, diameter]: [f64; 2]) -> Result<Holes, SheetError> {
-    let kerf = params.kerf.mm();
+    let kerf = params.stock.kerf.mm();
+    let made_of = params.stock.made_of.as_ref();
     // What the material wants, where it is known.
-    let web = params.made_of.as_ref().map_or(WEB, |m| m.web.mm().max(WEB)) + kerf;
+    let web = made_of.map_or(WEB, |m| m.web.mm().max(WEB)) + kerf;
     // Holes narrower than one and a half times the plate burn out. A little more, since the corners
     // of a drawn circle lie on it.
-    let thickness =
-        params.thickness.or(params.made_of.as_ref().map(|m| m.thickness)).map_or(0.0, Length::mm);
+    let thickness = params.joint.thickness.or(made_of.map(|m| m.thickness)).map_or(0.0, Length::mm);
     let least = if thickness > THIN { 1.55 * thickness + kerf } else { 0.0 };
     let (diameter, spacing) = (diameter.max(least), spacing.max(2.0 * least));
-    let diameter = length("hole-diameter", params.hole_diameter, diameter, kerf + 0.1)?;
-    let spacing = length("hole-spacing", params.hole_spacing, spacing, diameter + web)?;
+    let diameter = length("hole-diameter", params.joint.hole_diameter, diameter, kerf + 0.1)?;
+    let spacing = length("hole-spacing", params.joint.hole_spacing, spacing, diameter + web)?;
     let inset = length(
         "hole-inset",
-        params.hole_inset,
+        params.joint.hole_inset,
         (2.0 * diameter).max(diameter / 2.0 + web),
         diameter / 2.0 + web,
     )?;

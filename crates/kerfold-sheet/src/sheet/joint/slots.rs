@@ -17,8 +17,9 @@ use glam::DVec2;
 
 use super::super::verify::edges;
 use super::boundary::{Boundaries, Contour, Place, segment_distance};
-use super::fingers::{corner, depths, in_the_way};
-use super::params::{FlapSide, Tabs};
+use super::fingers::{corner, depths};
+use super::params::{FlapSide, Tabs, WEB};
+use super::webs::in_the_way;
 use super::{JointFallback, JointReport};
 use crate::geom::polygon::{Location, locate};
 use crate::net::{Net, Segment};
@@ -27,9 +28,12 @@ use crate::net::{Net, Segment};
 /// both ends in multiples of the least one.
 const TRIALS: [(usize, f64); 4] = [(0, 1.0), (0, 2.0), (1, 1.0), (1, 2.0)];
 
-/// How far a lip may stand out, in thicknesses: its web, and the lean of a slot at the flattest
+/// How far a lip may stand out besides its web, in thicknesses: the lean of a slot at the flattest
 /// angle, 1.19.
-pub(super) const FARTHEST_LIP: f64 = 2.2;
+pub(super) const FARTHEST_LEAN: f64 = 1.2;
+
+/// Length of a slot relative to its width, unless tabs are asked for that are narrower.
+const SLOT_LENGTH: f64 = 2.05;
 
 /// Tabs along one edge and the slots for them.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,18 +63,20 @@ impl Row {
     ) -> Result<Self, JointFallback> {
         let (short, deep) = depths(fold_angle, tabs.thickness)?;
         let dihedral = (180.0 - fold_angle).to_radians();
-        let web = tabs.thickness;
+        let web = tabs.thickness.max(WEB);
         // At the ends a third plate needs its room, about as deep as this one.
         let free = length - 2.0 * ends * (deep + web);
         let width = tabs.width.min(free);
-        if width < tabs.thickness || width.is_nan() {
+        let lean = tabs.thickness * dihedral.cos() / dihedral.sin();
+        let slot = [lean.min(0.0), tabs.thickness / dihedral.sin() + lean.max(0.0)];
+        // A slot is longer than wide, or it burns out as a small hole does.
+        let least = (SLOT_LENGTH * (slot[1] - slot[0])).min(tabs.width).max(tabs.thickness);
+        if width < least || width.is_nan() {
             return Err(JointFallback::Short);
         }
         let count = ((free - width) / (2.0 * width)).floor().max(0.0) as usize + 1;
         let first = (length - width * (2 * count - 1) as f64) / 2.0;
         let starts = (0..count).map(|i| first + 2.0 * width * i as f64).collect();
-        let lean = tabs.thickness * dihedral.cos() / dihedral.sin();
-        let slot = [lean.min(0.0), tabs.thickness / dihedral.sin() + lean.max(0.0)];
         Ok(Self { side, starts, width, short, deep, slot, web })
     }
 
@@ -125,6 +131,7 @@ pub(super) fn add_tabs(
     tabs: &Tabs,
     report: &mut JointReport,
 ) -> (Vec<Slot>, Vec<usize>) {
+    let web = (tabs.thickness / 2.0).max(WEB);
     let mut trials = vec![0; net.seams.len()];
     let mut rows: Vec<Result<Row, JointFallback>> = (0..net.seams.len())
         .map(|s| next_row(net, boundaries, tabs, s, &mut trials[s], JointFallback::Narrow))
@@ -135,8 +142,7 @@ pub(super) fn add_tabs(
         boundaries.contours.iter_mut().for_each(|c| shape(c, &rows));
         let mut blocked = Vec::new();
         for piece in 0..net.pieces.len() {
-            blocked
-                .extend(in_the_way(boundaries, piece, tabs.thickness / 2.0, |s| rows[s].is_ok()));
+            blocked.extend(in_the_way(boundaries, piece, web, |s| rows[s].is_ok()));
             blocked.extend(slots_in_the_way(net, boundaries, piece, &rows));
         }
         blocked.sort_unstable();

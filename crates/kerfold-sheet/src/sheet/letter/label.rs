@@ -10,9 +10,7 @@ use std::collections::BTreeMap;
 use glam::DVec2;
 
 use super::glyph::lettering;
-use crate::geom::polygon::{
-    Location, bounds, centroid, locate, on_segment, segments_cross, signed_area,
-};
+use crate::geom::polygon::{Location, borders_meet, bounds, centroid, locate, signed_area};
 use crate::net::{FlatFace, Piece, Segment};
 use crate::sheet::error::SheetError;
 use crate::sheet::verify::{distance_to_contour, edges};
@@ -40,7 +38,7 @@ const FACES_TRIED: usize = 8;
 
 /// A text in the piece's frame.
 #[derive(Debug, Clone)]
-pub(crate) struct Label {
+pub(super) struct Label {
     pub strokes: Vec<Vec<DVec2>>,
     /// The box of the strokes with free space around, counter-clockwise.
     pub frame: [DVec2; 4],
@@ -48,19 +46,32 @@ pub(crate) struct Label {
 }
 
 /// What is already lettered on the faces of a piece, by their index.
-pub(crate) type Taken = BTreeMap<usize, Vec<[DVec2; 4]>>;
+pub(super) type Taken = BTreeMap<usize, Vec<[DVec2; 4]>>;
 
 /// Contours of joints that lettering must keep clear of: the cut of a piece where it differs from
 /// its faces, and slits.
-pub(crate) type Obstacles<'a> = &'a [Vec<DVec2>];
+pub(super) type Obstacles<'a> = &'a [Vec<DVec2>];
+
+/// What of the obstacles of a piece may come near a label in a face: the rest lies beyond the box of
+/// the face, and a label lies inside.
+pub(super) fn obstacles_near(polygon: &[DVec2], obstacles: Obstacles<'_>) -> Vec<Vec<DVec2>> {
+    let Some((low, high)) = bounds(polygon) else { return Vec::new() };
+    // Slits are few, and stay.
+    let is_near = |obstacle: &&Vec<DVec2>| {
+        obstacle.len() <= 2
+            || bounds(*obstacle).is_some_and(|(l, h)| l.cmple(high).all() && low.cmple(h).all())
+    };
+    obstacles.iter().filter(is_near).cloned().collect()
+}
 
 /// The name of a piece, as large as fits beside what is taken, reading along `upright` where
-/// possible and else along a face's longest edge; with the index of the face that holds it.
-pub(crate) fn name_label(
+/// possible and else along a face's longest edge; with the index of the face that holds it. Obstacles
+/// are those near each of the faces.
+pub(super) fn name_label(
     piece: &Piece,
     upright: DVec2,
     taken: &Taken,
-    obstacles: Obstacles<'_>,
+    obstacles: &[Vec<Vec<DVec2>>],
 ) -> Result<Option<(usize, Label)>, SheetError> {
     let text = piece.id.to_string();
     let mut order: Vec<(f64, usize)> =
@@ -69,6 +80,7 @@ pub(crate) fn name_label(
     let mut best: Option<(usize, Label)> = None;
     for &(_, i) in order.iter().take(FACES_TRIED) {
         let polygon = &piece.faces[i].polygon;
+        let obstacles = obstacles.get(i).map_or(&[][..], Vec::as_slice);
         let mut centres = vec![centroid(polygon), inner_point(polygon, &[])];
         if !obstacles.is_empty() {
             centres.push(inner_point(polygon, obstacles));
@@ -112,7 +124,7 @@ fn largest_name(
 /// The number of a seam inside `face`, parallel to its edge, to be read from the middle of the
 /// face: its head is at the edge. `edge` are the mesh's vertices at the two ends of `segment`.
 /// Keeps clear of the frames in `taken`.
-pub(crate) fn number_label(
+pub(super) fn number_label(
     text: &str,
     face: &FlatFace,
     edge: [usize; 2],
@@ -126,7 +138,7 @@ pub(crate) fn number_label(
 }
 
 /// As [`number_label`] across the edge, for narrow faces: it reads away from the edge.
-pub(crate) fn number_across(
+pub(super) fn number_across(
     text: &str,
     face: &FlatFace,
     edge: [usize; 2],
@@ -242,7 +254,7 @@ fn is_free(polygon: &[DVec2], label: &Label, taken: &[[DVec2; 4]]) -> bool {
 
 /// Whether a label neither crosses an obstacle nor has one inside, nor lies in a notch or hole that
 /// is cut away.
-pub(crate) fn is_clear(label: &Label, obstacles: Obstacles<'_>) -> bool {
+pub(super) fn is_clear(label: &Label, obstacles: Obstacles<'_>) -> bool {
     obstacles.iter().all(|o| is_on_material(o, label.frame[0]))
         && obstacles.iter().all(|o| {
             !borders_meet(o, &label.frame)
@@ -267,23 +279,10 @@ fn overlap(a: &[DVec2; 4], b: &[DVec2; 4]) -> bool {
         || locate(b, a[0]) != Location::Outside
 }
 
-/// Whether two closed contours touch or cross, exactly.
-pub(crate) fn borders_meet(a: &[DVec2], b: &[DVec2]) -> bool {
-    edges(a).any(|(p, q)| edges(b).any(|(r, s)| segments_meet(p, q, r, s)))
-}
-
-/// Whether two closed segments share a point, exactly.
-pub(crate) fn segments_meet(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
-    segments_cross(a, b, c, d)
-        || on_segment(a, b, c)
-        || on_segment(a, b, d)
-        || on_segment(c, d, a)
-        || on_segment(c, d, b)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geom::polygon::segments_meet;
     use crate::net::PieceId;
     use crate::sheet::testing::{ell, piece, points, ring, square};
 
@@ -326,8 +325,9 @@ mod tests {
         let mut frame = piece(PieceId(0), square(120.0));
         frame.holes = vec![hole.clone()];
         let contours = [square(120.0), hole];
-        let (_, label) =
-            name_label(&frame, DVec2::X, &Taken::new(), &contours).expect("letters").expect("room");
+        let (_, label) = name_label(&frame, DVec2::X, &Taken::new(), &[contours.to_vec()])
+            .expect("letters")
+            .expect("room");
         assert_clear(&frame, &label);
         assert_eq!(label.height, NAME_HEIGHT);
     }

@@ -2,14 +2,12 @@
 
 mod glyph;
 mod label;
+mod params;
+mod piece;
 mod stretch;
 
 pub use glyph::{Lettering, lettering};
+pub use params::{Angles, Labels, LetterParams};
+pub(super) use piece::PieceLettering;
 pub use stretch::Stretch;
-
-#[cfg(test)]
-pub(super) use label::borders_meet;
-pub(super) use label::{
-    Label, Taken, is_clear, name_label, number_across, number_label, segments_meet,
-};
 pub(super) use stretch::stretches;

@@ -40,6 +40,21 @@ pub(crate) struct Candidate<'a> {
     pub poses: Vec<Option<OrientedBox>>,
 }
 
+impl Candidate<'_> {
+    /// The greatest extent along an axis: no circle with a smaller diameter holds the piece.
+    fn extent(&self) -> f64 {
+        bounds(&self.hull).map_or(0.0, |(low, high)| (high - low).max_element())
+    }
+}
+
+/// The holes of a shape that a piece of the extent `smallest` may lie in. Others are no place for
+/// anything: a piece with hundreds of them, for thread or rivets, would fall into thousands of
+/// parts.
+fn roomy_holes(shape: &CutShape, smallest: f64) -> Vec<Vec<DVec2>> {
+    let diagonal = |hole: &[DVec2]| bounds(hole).map_or(0.0, |(low, high)| high.distance(low));
+    shape.holes.iter().filter(|hole| diagonal(hole) >= smallest).cloned().collect()
+}
+
 /// Finds out on which sheets pieces fit.
 pub(crate) fn candidates<'a>(
     shapes: &'a [CutShape],
@@ -97,8 +112,9 @@ pub(crate) fn lay(
     let group = |piece: PieceId| {
         params.nest.together.0.iter().position(|g| g.len() > 1 && g.contains(&piece))
     };
+    let smallest = candidates.iter().map(Candidate::extent).fold(f64::INFINITY, f64::min);
     let pieces = candidates.iter().map(|c| Piece {
-        shape: Shape::new(&c.shape.outline, &c.shape.holes),
+        shape: Shape::new(&c.shape.outline, &roomy_holes(c.shape, smallest)),
         turns: match c.rotation.angles() {
             Some(angles) => Turns::Some(angles),
             None => {

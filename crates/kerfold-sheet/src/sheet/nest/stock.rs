@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::super::error::SheetError;
-use super::super::params::{SheetParams, Stock};
+use super::super::params::{SheetParams, Stock, StockParams};
 use super::collision_field::Obstacle;
 use super::parts::convex_parts;
 use super::shape::Shape;
@@ -29,14 +29,14 @@ impl SheetParams {
     /// Numbers out of range, polygons that cross themselves, a margin that leaves nothing of a
     /// sheet.
     pub(crate) fn sheets(&self) -> Result<Option<Vec<StockSheet>>, SheetError> {
-        let Some(usual) = self.stock()? else { return Ok(None) };
+        let Some(usual) = self.stock.checked()? else { return Ok(None) };
         let nest = &self.nest;
         let outline = sound("sheet-outline", &nest.sheet_outline.0, usual.size)?;
         let usual = StockSheet { stock: usual, outline, defects: Vec::new() };
         let mut sheets = Vec::new();
         for &(size, count) in &nest.stock.0 {
-            let of_size = SheetParams { sheet: size, ..self.clone() };
-            if let Some(stock) = of_size.stock()? {
+            let of_size = StockParams { sheet: size, ..self.stock.clone() };
+            if let Some(stock) = of_size.checked()? {
                 let sheet = StockSheet { stock, outline: Vec::new(), defects: Vec::new() };
                 sheets.extend(std::iter::repeat_n(sheet, count));
             }
@@ -78,11 +78,13 @@ impl SheetParams {
         if self.nest.common_line == CommonLine::Off {
             return Ok(());
         }
-        if self.kerf.mm() > 0.0 {
-            return Err(SheetError::CommonLineKerf { kerf: self.kerf.mm() });
+        if self.stock.kerf.mm() > 0.0 {
+            return Err(SheetError::CommonLineKerf { kerf: self.stock.kerf.mm() });
         }
-        let with =
-            [("guillotine", self.nest.guillotine == Guillotine::On), ("hold", self.hold > 0)];
+        let with = [
+            ("guillotine", self.nest.guillotine == Guillotine::On),
+            ("hold", self.stock.holding_tabs > 0),
+        ];
         match with.into_iter().find(|w| w.1) {
             Some((option, _)) => Err(SheetError::CommonLineOption { option }),
             None => Ok(()),

@@ -9,7 +9,8 @@ use proptest::prelude::*;
 use super::super::testing::{ell, net_of, piece, random_convex, ring, square};
 use super::super::verify::{clearance, verify};
 use super::super::{
-    CutShape, Layout, SheetError, SheetParams, SheetSet, SheetSize, lay_out, lay_out_watched,
+    CutShape, Layout, SheetError, SheetParams, SheetSet, SheetSize, StockParams, lay_out,
+    lay_out_watched,
 };
 use super::{
     Corners, DefectList, GroupList, Guillotine, NestParams, Rotation, RotationList, StockList,
@@ -19,7 +20,11 @@ use crate::progress::Progress;
 
 fn params(width: f64, height: f64) -> SheetParams {
     let nest = NestParams { nest_effort: 1, ..NestParams::default() };
-    SheetParams { sheet: SheetSize::of_mm(width, height), nest, ..SheetParams::default() }
+    SheetParams {
+        stock: StockParams { sheet: SheetSize::of_mm(width, height), ..StockParams::default() },
+        nest,
+        ..SheetParams::default()
+    }
 }
 
 fn laid(net: &Net, params: &SheetParams) -> SheetSet {
@@ -172,7 +177,7 @@ fn guillotine_cuts_go_from_edge_to_edge_and_through_no_piece() {
     let net = polygons(30);
     for (rotation, spacing) in [(Rotation::Free, 3.0), (Rotation::Fixed, 0.5)] {
         let mut params = params(200.0, 150.0);
-        params.spacing = crate::units::Length::from_mm(spacing);
+        params.stock.spacing = crate::units::Length::from_mm(spacing);
         (params.nest.guillotine, params.nest.rotations) = (Guillotine::On, rotation);
         let set = laid(&net, &params);
         assert!(set.layout.sheets.len() > 1);
@@ -189,7 +194,10 @@ fn guillotine_cuts_go_from_edge_to_edge_and_through_no_piece() {
     }
     let whole = laid(
         &net_of(vec![square(100.0)]),
-        &SheetParams { sheet: SheetSize::of_mm(110.0, 110.0), ..params(0.0, 0.0) },
+        &SheetParams {
+            stock: StockParams { sheet: SheetSize::of_mm(110.0, 110.0), ..params(0.0, 0.0).stock },
+            ..params(0.0, 0.0)
+        },
     );
     assert_eq!(whole.layout.sheets.len(), 1);
 }
@@ -257,7 +265,7 @@ proptest! {
         let mut net = net_of(contours);
         net.pieces.push(ring(PieceId(net.pieces.len())));
         let mut params = params(130.0, 110.0);
-        params.spacing = crate::units::Length::from_mm(spacing);
+        params.stock.spacing = crate::units::Length::from_mm(spacing);
         params.nest.rotations = [Rotation::Free, Rotation::Quarter, Rotation::Half, Rotation::Fixed][turn];
         params.nest.nest_seed = seed;
         let set = laid(&net, &params);

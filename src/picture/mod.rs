@@ -7,7 +7,6 @@
 
 mod band;
 mod camera;
-mod ears;
 mod legend;
 mod lettering;
 mod model;

@@ -4,7 +4,7 @@ mod glyph;
 mod label;
 mod stretch;
 
-pub use glyph::{Lettering, lettering};
+pub use glyph::{CAPITAL, Lettering, glyph, lettering};
 pub use stretch::Stretch;
 
 #[cfg(test)]

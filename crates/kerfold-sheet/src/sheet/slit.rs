@@ -3,7 +3,7 @@
 //!
 //! An opened edge between two faces in one plane has two sides in the same place: two lines where
 //! the machine must cut once. And where a notch is narrower than the kerf, an outline grown by half
-//! the kerf closes before the notch ends, so that its flaps would hang together. Both become single
+//! the kerf closes before the notch ends, so that its flaps would stay connected. Both become single
 //! open cuts that end on the closed one.
 
 use glam::DVec2;

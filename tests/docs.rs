@@ -132,6 +132,28 @@ fn every_link_leads_to_a_file() {
     assert!(faults.is_empty(), "correct these links:\n{}", faults.join("\n"));
 }
 
+/// The paths of source files and folders that a page names in backticks and that do not exist.
+fn lost_paths(page: &str) -> Vec<&str> {
+    let prose = page.split("```").step_by(2);
+    let code = prose.flat_map(|part| part.split('`').skip(1).step_by(2));
+    let is_path = |name: &&str| {
+        ["src/", "crates/", "tests/", "fixtures/"].iter().any(|folder| name.starts_with(folder))
+            && !name.contains(|c: char| c.is_whitespace() || "…*{".contains(c))
+    };
+    code.filter(is_path).filter(|name| !root().join(name).exists()).collect()
+}
+
+#[test]
+fn every_path_that_a_page_names_exists() {
+    let mut faults = Vec::new();
+    for page in pages() {
+        let text = read(&page);
+        let lost = lost_paths(&text);
+        faults.extend(lost.iter().map(|name| format!("{}: {name}", page.display())));
+    }
+    assert!(faults.is_empty(), "correct these paths:\n{}", faults.join("\n"));
+}
+
 #[test]
 fn every_name_of_the_glossary_is_in_the_source() {
     let names = bold_names(&read(&root().join("docs/glossary.md")));
@@ -154,6 +176,10 @@ fn planted_mistakes_are_found() {
     [bad](no/such.md)\n```\n[code](nowhere)\n```\n`[code](nowhere)` [web](https://x.y) \
                 [there](#a-page) [gone](#not-here)";
     assert_eq!(broken(page, &root()), [(2, "no/such.md".to_owned()), (6, "#not-here".to_owned())]);
+    assert_eq!(
+        lost_paths("`src/lib.rs` `src/no.rs`\n```\n`src/code.rs`\n```\n`crates/none/src`"),
+        ["src/no.rs", "crates/none/src"]
+    );
     let names = bold_names("**`Mesh::plane()`**, **bold**, `code`, **`no_such_name`**");
     assert_eq!(
         names.iter().map(String::as_str).collect::<Vec<_>>(),

@@ -11,6 +11,8 @@ use std::fmt;
 
 use source::{Source, read, root, sources};
 
+#[path = "layers/page.rs"]
+mod page;
 #[path = "layers/source.rs"]
 mod source;
 
@@ -75,7 +77,7 @@ const ROOMS: &[Room] = &[
         "io",
         &["geom", "units", "mesh", "net", "measure", "check", "panel", "sheet", "lint", "bloom"],
     ),
-    room(4, TOP, "picture", &["geom", "units", "mesh", "measure"]),
+    room(4, TOP, "picture", &["geom", "units", "mesh", "measure", "sheet"]),
     room(
         4,
         TOP,
@@ -94,7 +96,7 @@ const ROOMS: &[Room] = &[
             "sheet", "io", "picture", "make",
         ],
     ),
-    room(4, TOP, "gallery", &["progress", "io", "make", "recipe"]),
+    room(4, TOP, "gallery", &["units", "progress", "io", "make", "recipe"]),
     room(
         5,
         TOP,
@@ -131,11 +133,13 @@ const DOORS: &[(&str, &[&str])] = &[
     ("batsat", &["src/seam/sat.rs"]),
     ("parry3d_f64", &["src/op/hull/convex_parts.rs"]),
     ("i_overlay", &["crates/kerfold-sheet/src/sheet/kerf.rs"]),
-    ("tobj", &["src/io/read/obj"]),
+    ("tobj", &["src/io/read/obj.rs"]),
     ("svg", &["src/io/sheet/svg.rs"]),
     ("sysinfo", &["src/memory.rs"]),
     ("roxmltree", &["src/io/read/artwork/svg.rs"]),
-    ("miniz_oxide", &["src/io/read/artwork/", "src/io/report/pdf/"]),
+    ("krilla", &["src/io/report/pdf/"]),
+    ("skrifa", &["src/io/report/pdf/font.rs"]),
+    ("miniz_oxide", &["src/io/read/artwork/"]),
     ("tiny_skia", &["src/picture/"]),
     ("serde_json", &["src/io/", "src/cli/"]),
     ("toml", &["src/recipe/", "src/make/materials.rs"]),

@@ -3,37 +3,16 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Path, PathBuf};
 use std::process::Command;
 
-fn page() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/reference.md")
-}
+use golden::assert_golden;
+
+#[path = "golden/mod.rs"]
+mod golden;
 
 #[test]
 fn the_reference_is_that_of_the_program() {
-    let written = fs::read_to_string(page()).expect("docs/reference.md");
-    let made = kerfold::cli::reference();
-    if let Some((line, (old, new))) =
-        written.lines().zip(made.lines()).enumerate().find(|(_, (old, new))| old != new)
-    {
-        panic!(
-            "docs/reference.md:{}: is\n{old}\nbut the program says\n{new}\nwrite it anew: cargo \
-            test --test reference -- --ignored",
-            line + 1
-        );
-    }
-    assert!(
-        written == made,
-        "one of the two is longer; write it anew: cargo test --test reference -- --ignored"
-    );
-}
-
-/// Not a test but the writer of the page.
-#[test]
-#[ignore = "writes docs/reference.md"]
-fn write_the_reference() {
-    fs::write(page(), kerfold::cli::reference()).expect("docs/reference.md can be written");
+    assert_golden("docs/reference.md", &kerfold::cli::reference());
 }
 
 /// The flags and verbs that a text names: words after `kerfold` and words that begin with two
@@ -173,6 +152,6 @@ fn the_files_of_the_table_are_those_that_are_written() {
     assert_eq!(
         written,
         listed(),
-        "mend the table of src/cli/reference/files.rs, then write docs/reference.md anew"
+        "mend the table of src/cli/reference/files.rs, then KERFOLD_BLESS=1 cargo test --test reference"
     );
 }

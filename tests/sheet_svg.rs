@@ -4,7 +4,6 @@
 //! `KERFOLD_BLESS=1 cargo test --test sheet_svg` rewrites the golden files.
 
 use std::collections::BTreeSet;
-use std::path::PathBuf;
 
 use glam::DVec2;
 use kerfold::io::sheet::layout::write_layout_json;
@@ -17,6 +16,11 @@ use kerfold::sheet::{
     Preset, ScoreParams, ScoreStyle, SheetParams, SheetSet, StockParams, lay_out,
 };
 use kerfold::units::Length;
+
+use golden::{assert_golden, difference};
+
+#[path = "golden/mod.rs"]
+mod golden;
 
 const PRESETS: [Preset; 6] = [
     Preset::RedCut,
@@ -107,32 +111,17 @@ fn with_kerf() -> SheetParams {
     }
 }
 
-/// What differs between a text and a golden file, in a sentence.
-fn difference(found: &str, golden: &str) -> Option<String> {
-    let mut lines = found.lines().zip(golden.lines()).enumerate();
-    let line = lines
-        .find(|(_, (a, b))| a != b)
-        .map(|(i, (a, b))| format!("line {}: `{a}` instead of `{b}`", i + 1));
-    line.or_else(|| {
-        (found != golden).then(|| format!("{} bytes instead of {}", found.len(), golden.len()))
-    })
-}
-
-fn assert_golden(name: &str, found: &str) {
-    let path: PathBuf = [env!("CARGO_MANIFEST_DIR"), "fixtures", "golden", name].iter().collect();
-    if std::env::var_os("KERFOLD_BLESS").is_some() {
-        std::fs::write(&path, found).expect("the golden file can be written");
-    }
-    let golden =
-        std::fs::read_to_string(&path).expect("the golden file exists; KERFOLD_BLESS=1 writes it");
-    assert_eq!(difference(found, &golden), None, "{name}; KERFOLD_BLESS=1 rewrites it");
-}
-
 #[test]
 fn golden_svg_and_layout() {
     let set = laid_out(&with_kerf());
-    assert_golden("two_pieces_sheet.svg", &write_svg(&set.drawings[0], Preset::RedCut, COMMAND));
-    assert_golden("two_pieces_layout.json", &write_layout_json(&set.layout, COMMAND));
+    assert_golden(
+        "fixtures/golden/two_pieces_sheet.svg",
+        &write_svg(&set.drawings[0], Preset::RedCut, COMMAND),
+    );
+    assert_golden(
+        "fixtures/golden/two_pieces_layout.json",
+        &write_layout_json(&set.layout, COMMAND),
+    );
 }
 
 #[test]

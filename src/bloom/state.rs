@@ -7,8 +7,8 @@ use crate::mesh::{BuildError, FaceId, Mesh, MeshBuilder};
 use crate::net::EdgeLabel;
 
 /// The mesh of all faces that `group` gives one of the `names`, by its place in them, where `poses`
-/// puts them; its groups have these names in this order. Faces hang together by their folds and by
-/// the seams that `is_closed` names; all other edges are rims. Where faces that hang together have
+/// puts them; its groups have these names in this order. Faces are connected by their folds and by
+/// the seams that `is_closed` names; all other edges are rims. Where faces that are connected have
 /// a corner at different places, as in a ring of folds that is only half closed, the corner is put
 /// in the middle.
 ///
@@ -52,7 +52,7 @@ pub fn state_mesh(
     Ok(mesh)
 }
 
-/// Corners of faces, united where faces hang together.
+/// Corners of faces, united where faces are connected.
 struct Corners {
     /// Leaf → its first corner; one entry more at the end. Leaves that are not shown have none.
     starts: Vec<usize>,

@@ -70,7 +70,7 @@ struct Link {
 
 impl<'a> FoldTree<'a> {
     /// The forest of all folds and of the seams in `joined`, by their places in the net. A tree for
-    /// every part that hangs together by them; its root is in the middle, so that the way to the
+    /// every part that is connected by them; its root is in the middle, so that the way to the
     /// farthest face is short. Where folds form rings, one fold of each ring carries nothing. What
     /// names a face that the net does not hold is left out.
     pub fn new(net: &'a Net, joined: &[usize]) -> Self {

@@ -285,7 +285,7 @@ fn one_component(mesh: &Mesh, report: &Report) -> Vec<CheckFinding> {
         limit: 1.0,
         unit: Unit::Components,
         message: format!(
-            "the model has {count} parts that do not hang together; they hold vertices {}",
+            "the model has {count} parts that are not connected; they hold vertices {}",
             named(seeds)
         ),
     }]

@@ -68,7 +68,7 @@ pub enum Requirement {
     /// No two vertices share a place: the surface does not touch itself at a vertex or along an
     /// edge.
     Manifold,
-    /// Everything hangs together.
+    /// Everything is connected.
     OneComponent,
 }
 

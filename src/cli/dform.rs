@@ -3,13 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use super::error::CliError;
+use super::input::read_model;
 use super::run::finish;
 use super::terminal::Terminal;
 use super::{Console, Outcome};
-use crate::io::ReadOptions;
+use crate::io::{ReadMesh, ReadOptions};
 use crate::make::{DformParams, ShowParams};
-use crate::recipe::{Job, ReadStep, Recipe, Step};
-use crate::shape::{ShapeError, SolidName, SolidParams};
+use crate::recipe::{Job, Recipe, Step};
+use crate::shape::{SolidName, SolidParams, solid};
 use crate::sheet::SheetParams;
 
 /// Make a D-form of a solid: choose the folds, carve them into smooth strips, unfold, and lay the
@@ -42,8 +43,10 @@ pub(super) fn run(args: &DformArgs, console: &Console) -> Result<Outcome, CliErr
         sheet: args.sheet.clone(),
         show: args.show.from_here(),
     };
-    let recipe = Recipe { name: None, steps: vec![args.start()?, dform] };
-    let job = Job::run(&recipe, Path::new(""), &Terminal::new(console.quiet))
+    let recipe = Recipe { name: None, steps: vec![dform] };
+    let job = args
+        .start()?
+        .carry_on(&recipe, Path::new(""), &Terminal::new(console.quiet))
         .map_err(|error| *error.cause)?;
     finish(&job, None, &args.output, console)
 }
@@ -51,16 +54,18 @@ pub(super) fn run(args: &DformArgs, console: &Console) -> Result<Outcome, CliErr
 impl DformArgs {
     /// A file wins over a solid of the same name; a word without dots and slashes is meant as a
     /// name.
-    fn start(&self) -> Result<Step, ShapeError> {
+    fn start(&self) -> Result<Job, CliError> {
         let word =
             self.solid.to_str().filter(|text| !text.contains(['.', '/', '\\']) && *text != "-");
         match word.filter(|_| !self.solid.is_file()) {
             Some(name) => {
                 let name: SolidName = name.parse()?;
-                Ok(Step::Solid(SolidParams { name, edge: None, size: self.options.size }))
+                let params = SolidParams { name, edge: None, size: self.options.size };
+                Ok(Job::with_mesh(solid(&params)?, Vec::new()))
             }
             None => {
-                Ok(Step::Read(ReadStep { path: self.solid.clone(), options: self.options.clone() }))
+                let ReadMesh { mesh, notes, .. } = read_model(&self.solid, &self.options)?;
+                Ok(Job::with_mesh(mesh, notes.iter().map(ToString::to_string).collect()))
             }
         }
     }

@@ -94,7 +94,7 @@ fn tell(
         let pieces = e.pieces.map_or_else(|| "-".to_owned(), |(pieces, _)| pieces.to_string());
         let verdict = if e.findings.is_empty() { "pass" } else { "findings" };
         text += &format!(
-            "{:<48} {faces:>7} faces  genus {genus:>5}  {pieces:>4} pieces  {verdict}\n",
+            "{:<48} faces {faces:>7}  genus {genus:>5}  pieces {pieces:>4}  {verdict}\n",
             e.name
         );
     }

@@ -3,10 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use super::error::CliError;
+use super::input::read_model;
 use super::terminal::Terminal;
 use super::{Console, Outcome};
+use crate::io::ReadOptions;
 use crate::io::output::write_file;
-use crate::io::{ReadOptions, read_mesh};
 use crate::make::solid_of_planes;
 use crate::mesh::Mesh;
 use crate::op::{HullParams, HullReport, HullStep, OpContext, hull};
@@ -62,7 +63,7 @@ fn make(args: &HullArgs, console: &Console) -> Result<(Mesh, HullReport, Vec<Str
         let (mesh, report) = solid_of_planes(file, &args.hull)?;
         return Ok((mesh, report, Vec::new()));
     }
-    let read = read_mesh(args.input.as_deref().unwrap_or(Path::new("-")), &args.options)?;
+    let read = read_model(args.input.as_deref().unwrap_or(Path::new("-")), &args.options)?;
     let progress = Terminal::new(console.quiet);
     let (mesh, report) =
         hull(&read.mesh, &args.hull, &OpContext { made: None, progress: &progress })?;

@@ -1,9 +1,10 @@
 //! The mesh file that most verbs begin with.
 
-use std::path::PathBuf;
+use std::io::Read as _;
+use std::path::{Path, PathBuf};
 
 use super::error::CliError;
-use crate::io::{ReadMesh, ReadOptions, read_mesh};
+use crate::io::{IoError, ReadMesh, ReadOptions, read_mesh, read_mesh_bytes};
 
 /// A mesh file and how to read it.
 #[derive(Debug, Clone, clap::Args)]
@@ -17,6 +18,17 @@ pub(super) struct Input {
 
 impl Input {
     pub(super) fn read(&self) -> Result<ReadMesh, CliError> {
-        Ok(read_mesh(&self.input, &self.options)?)
+        Ok(read_model(&self.input, &self.options)?)
     }
+}
+
+/// Reads a mesh file, or OBJ from standard input when the path is `-`.
+pub(super) fn read_model(path: &Path, options: &ReadOptions) -> Result<ReadMesh, IoError> {
+    if path.as_os_str() != "-" {
+        return read_mesh(path, options);
+    }
+    let mut bytes = Vec::new();
+    let read = std::io::stdin().lock().read_to_end(&mut bytes);
+    read.map_err(|source| IoError::reading(path, source))?;
+    read_mesh_bytes(path, &bytes, options)
 }

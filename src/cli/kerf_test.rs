@@ -13,7 +13,7 @@ use crate::make::{MakeError, MaterialError, material};
 use crate::sheet::{FileParams, Preset, SheetFormat, SheetParams, kerf_coupon};
 use crate::units::Length;
 
-/// Write a coupon that tells the kerf of a material and the slot that holds it
+/// Write a coupon that shows the kerf of a material and the slot that holds it
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example: kerfold kerf-test --material ply3 -o kerf.svg\n\n\
     Cut it, push the ten blocks in their window to one side and measure the gap: it is eleven kerfs. Then find the slot of the comb \

@@ -11,6 +11,7 @@ use crate::code::Coded;
 use crate::io::artwork::read_artwork;
 use crate::lint::{Artwork, LintFinding, LintParams, LintReport, lint};
 use crate::make::{MakeError, material};
+use crate::units::counted;
 
 /// Find what a shop would send back in drawings to be cut, anybody's: SVG, DXF or PDF
 #[derive(Debug, clap::Args)]
@@ -106,9 +107,12 @@ fn as_text(judged: &[Judged]) -> String {
             .size
             .map_or(String::new(), |s| format!(" on {} × {} mm", short(s.x), short(s.y)));
         let (lines, count) = (page.artwork.paths.len(), page.report.findings.len());
-        let verdict =
-            if count == 0 { "pass".to_owned() } else { format!("FAIL, {count} findings") };
-        text += &format!("{head}: {lines} lines{size}: {verdict}\n");
+        let verdict = if count == 0 {
+            "pass".to_owned()
+        } else {
+            format!("FAIL, {}", counted(count, "finding", "findings"))
+        };
+        text += &format!("{head}: {}{size}: {verdict}\n", counted(lines, "line", "lines"));
     }
     text
 }

@@ -12,6 +12,7 @@ use crate::make::{
     Fabrication, MakeError, NestStep, fabrication_outputs, nest_files, with_material,
 };
 use crate::sheet::SheetParams;
+use crate::units::counted;
 
 /// Lay anybody's flat pieces out on sheets, close together, and draw the sheets
 #[derive(Debug, clap::Args)]
@@ -60,9 +61,9 @@ pub(super) fn run(args: &NestArgs, console: &Console) -> Result<Outcome, CliErro
 fn text(fabrication: &Fabrication) -> String {
     let layout = &fabrication.sheets.layout;
     let mut text = format!(
-        "{} pieces on {} sheets, {:.1} % used, {} mm to cut\n",
-        fabrication.net.pieces.len(),
-        layout.sheets.len(),
+        "{} on {}, {:.1} % used, {} mm to cut\n",
+        counted(fabrication.net.pieces.len(), "piece", "pieces"),
+        counted(layout.sheets.len(), "sheet", "sheets"),
         100.0 * layout.density,
         short(layout.cut_length)
     );

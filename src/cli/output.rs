@@ -11,6 +11,7 @@ use crate::io::output::OutputFolder;
 use crate::io::{WriteOptions, write_mesh};
 use crate::measure::size;
 use crate::mesh::Mesh;
+use crate::units::counted;
 
 /// How much is said, and in what form.
 #[derive(Debug, Clone, Copy, clap::Args)]
@@ -102,10 +103,10 @@ pub(super) fn beside(path: &Path, what: &str) -> PathBuf {
 pub(super) fn model_text(mesh: &Mesh) -> String {
     let extent = size(mesh);
     format!(
-        "{} vertices, {} edges, {} faces, {} × {} × {} mm",
-        mesh.vertex_count(),
-        mesh.edge_count(),
-        mesh.face_count(),
+        "{}, {}, {}, {} × {} × {} mm",
+        counted(mesh.vertex_count(), "vertex", "vertices"),
+        counted(mesh.edge_count(), "edge", "edges"),
+        counted(mesh.face_count(), "face", "faces"),
         short(extent.x),
         short(extent.y),
         short(extent.z)

@@ -18,6 +18,7 @@ use crate::make::{
 use crate::panel::{PanelFinding, PanelParams, PanelRequirement};
 use crate::sheet::SheetParams;
 use crate::unfold::MeshSource;
+use crate::units::counted;
 
 /// Make every face a plate of constant thickness: mitres, gaps, joints, schedule, sheets, assembly
 /// map and 3D files
@@ -73,9 +74,10 @@ pub(super) fn panels_text(panelled: &Panelled) -> String {
     let (schedule, totals) = (&panelled.schedule, &panelled.schedule.totals);
     let mirrored: usize = schedule.groups.iter().map(|g| g.mirrored).sum();
     let mut text = format!(
-        "{} panels, {} different ({mirrored} are mirror images of another), {} m², {} kg\n",
-        schedule.panels.len(),
+        "{}, {} different ({} of another), {} m², {} kg\n",
+        counted(schedule.panels.len(), "panel", "panels"),
         schedule.groups.len(),
+        counted(mirrored, "is a mirror image", "are mirror images"),
         short(totals.area * 1e-6),
         short(totals.mass),
     );
@@ -84,8 +86,8 @@ pub(super) fn panels_text(panelled: &Panelled) -> String {
         mitres().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), m| (a.min(m), b.max(m)));
     if least <= most {
         text += &format!(
-            "{} edges, mitres {least:.2}° to {most:.2}° off square, ",
-            schedule.edges.len()
+            "{}, mitres {least:.2}° to {most:.2}° off square, ",
+            counted(schedule.edges.len(), "edge", "edges")
         );
         text += &format!("{} m of edges cut at an angle\n", short(totals.bevelled * 1e-3));
     }
@@ -97,9 +99,9 @@ pub(super) fn panels_text(panelled: &Panelled) -> String {
         text += &format!("V-gaps of square cuts: up to {} mm\n", short(widest));
     }
     text += &format!(
-        "{} nodes, {} with more than three edges; residual up to {} mm per mm, plates miss by up \
+        "{}, {} with more than three edges; residual up to {} mm per mm, plates miss by up \
         to {} mm\n",
-        schedule.nodes.len(),
+        counted(schedule.nodes.len(), "node", "nodes"),
         totals.nodes_above_three,
         settled(totals.residual),
         settled(totals.miss_mm),
@@ -107,8 +109,8 @@ pub(super) fn panels_text(panelled: &Panelled) -> String {
     let layout = &panelled.fabrication.sheets.layout;
     if !layout.sheets.is_empty() {
         text += &format!(
-            "{} sheets, {:.0} % used, {} m to cut\n",
-            layout.sheets.len(),
+            "{}, {:.0} % used, {} m to cut\n",
+            counted(layout.sheets.len(), "sheet", "sheets"),
             100.0 * layout.density,
             short(layout.cut_length * 1e-3)
         );
@@ -118,8 +120,8 @@ pub(super) fn panels_text(panelled: &Panelled) -> String {
     }
     if panelled.findings.len() > LISTED {
         text += &format!(
-            "and {} more findings, listed in panels.json\n",
-            panelled.findings.len() - LISTED
+            "and {}, listed in panels.json\n",
+            counted(panelled.findings.len() - LISTED, "more finding", "more findings")
         );
     }
     text

@@ -22,7 +22,7 @@ pub(super) struct SeamsArgs {
     #[command(flatten)]
     input: Input,
     /// List at most so many choices of folds, symmetric ones counted; of a mesh that has more only
-    /// the least matching and a two-piece seam are told
+    /// the least matching and a two-piece seam are listed
     #[arg(long, default_value_t = 20_000, value_name = "N")]
     limit: usize,
 }
@@ -73,7 +73,7 @@ pub(super) fn run(args: &SeamsArgs, console: &Console) -> Result<Outcome, CliErr
     Ok(Outcome::Clean)
 }
 
-/// The whole table, or what can be told of a mesh with too many matchings, and why.
+/// The whole table, or what can be said of a mesh with too many matchings, and why.
 fn rows(
     mesh: &Mesh,
     limit: usize,

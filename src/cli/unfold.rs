@@ -13,10 +13,12 @@ use crate::make::{
     FabricateParams, FabricateSettings, Fabrication, MakeError, ShowParams, fabricate,
     fabrication_outputs, show_outputs, with_material,
 };
+use crate::net::Net;
 use crate::picture::RenderParams;
 use crate::progress::Progress;
 use crate::sheet::SheetParams;
 use crate::unfold::{MeshSource, UnfoldParams};
+use crate::units::counted;
 
 /// Unfold a mesh into flat pieces that never overlap, and lay them out on sheets
 #[derive(Debug, clap::Args)]
@@ -79,24 +81,31 @@ pub(super) fn run(args: &UnfoldArgs, console: &Console) -> Result<Outcome, CliEr
     Ok(Outcome::Clean)
 }
 
+/// What a net consists of, in one line.
+pub(super) fn net_text(net: &Net) -> String {
+    [
+        counted(net.pieces.len(), "piece", "pieces"),
+        counted(net.folds.len(), "fold", "folds"),
+        counted(net.seams.len(), "seam", "seams"),
+        counted(net.rims.len(), "rim edge", "rim edges"),
+    ]
+    .join(", ")
+}
+
 /// Pieces, sheets and proof in a few lines.
 pub(super) fn summary_text(fabrication: &Fabrication, sheet: &SheetParams) -> String {
     let (net, layout) = (&fabrication.net, &fabrication.sheets.layout);
-    let mut text = format!(
-        "{} pieces, {} folds, {} seams, {} rim edges\n",
-        net.pieces.len(),
-        net.folds.len(),
-        net.seams.len(),
-        net.rims.len()
-    );
+    let mut text = net_text(net) + "\n";
     text += &format!(
-        "proof: faces true to {:.1e} mm, folds up to {:.1e} mm, {} overlaps\n",
-        net.proof.congruence_mm, net.proof.refold_mm, net.proof.overlaps
+        "proof: faces true to {:.1e} mm, folds up to {:.1e} mm, {}\n",
+        net.proof.congruence_mm,
+        net.proof.refold_mm,
+        counted(net.proof.overlaps, "overlap", "overlaps")
     );
     if !layout.sheets.is_empty() {
         text += &format!(
-            "{} sheets, {:.0} % used, {} mm to cut, {} mm to score\n",
-            layout.sheets.len(),
+            "{}, {:.0} % used, {} mm to cut, {} mm to score\n",
+            counted(layout.sheets.len(), "sheet", "sheets"),
             100.0 * layout.density,
             short(layout.cut_length),
             short(layout.score_length)

@@ -5,21 +5,23 @@ use std::path::{Path, PathBuf};
 use serde_json::json;
 
 use super::error::CliError;
+use super::input::read_model;
 use super::output::command_line;
+use super::unfold::net_text;
 use super::{Console, Outcome};
 use crate::code::Coded;
+use crate::io::ReadOptions;
 use crate::io::pieces_json::read_pieces_json;
-use crate::io::{ReadOptions, read_mesh};
 use crate::mesh::Mesh;
 use crate::net::{Net, Proof};
 use crate::unfold::{LENGTH_LIMIT, ProofError, REFOLD_LIMIT, prove, renumbered};
-use crate::units::Length;
+use crate::units::{Length, counted};
 
 /// Prove that pieces, anybody's, are those of a model: complete, true to size, without overlap,
 /// folding back up
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example: kerfold verify out/pieces.json out/model.obj\n\n\
-    The proof that the file itself carries is not read. Exit code 1 when the pieces are not right; the first fault is told.")]
+    The proof that the file itself carries is not read. Exit code 1 when the pieces are not right; the first fault is reported.")]
 pub(super) struct VerifyArgs {
     /// The pieces, a pieces.json
     #[arg(value_name = "PIECES")]
@@ -36,7 +38,7 @@ pub(super) struct VerifyArgs {
 pub(super) fn run(args: &VerifyArgs, console: &Console) -> Result<Outcome, CliError> {
     let net = read_net(&args.pieces)?;
     let weld = args.weld.map(|weld| Length::from_mm(weld.mm() / net.scale));
-    let read = read_mesh(&args.model, &ReadOptions { weld, ..ReadOptions::default() })?;
+    let read = read_model(&args.model, &ReadOptions { weld, ..ReadOptions::default() })?;
     let mesh = scaled(read.mesh, net.scale);
     let proof = prove(&mesh, &renumbered(&mesh, &net));
     console.notes(&read.notes);
@@ -78,20 +80,14 @@ fn limits() -> String {
 }
 
 fn proof_text(args: &VerifyArgs, net: &Net, proof: &Result<Proof, ProofError>) -> String {
-    let pieces = format!(
-        "{} pieces, {} folds, {} seams, {} rim edges",
-        net.pieces.len(),
-        net.folds.len(),
-        net.seams.len(),
-        net.rims.len()
-    );
+    let pieces = net_text(net);
     let verdict = match proof {
         Ok(proof) => format!(
-            "proof: faces true to {:.1e} mm, folds up to {:.1e} mm, {} overlaps\npass: the pieces \
+            "proof: faces true to {:.1e} mm, folds up to {:.1e} mm, {}\npass: the pieces \
             are those of {}",
             proof.congruence_mm,
             proof.refold_mm,
-            proof.overlaps,
+            counted(proof.overlaps, "overlap", "overlaps"),
             args.model.display()
         ),
         Err(fault) => format!("FAIL: {fault} ({})", fault.code()),

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 
 use super::{Exhibit, ModelFacts};
 use crate::io::escaped;
+use crate::units::counted;
 
 const STYLE: &str = "\
 body{font:15px/1.45 system-ui,sans-serif;margin:2rem auto;max-width:1400px;padding:0 1rem;color:#222;background:#fcfbf9}
@@ -84,7 +85,12 @@ fn card(page: &mut String, e: &Exhibit) {
 fn facts(e: &Exhibit) -> String {
     let mut facts = Vec::new();
     if let Some(m) = &e.model {
-        facts.push(format!("{} vertices, {} edges, {} faces", m.vertices, m.edges, m.faces));
+        let [vertices, edges, faces] = [
+            counted(m.vertices, "vertex", "vertices"),
+            counted(m.edges, "edge", "edges"),
+            counted(m.faces, "face", "faces"),
+        ];
+        facts.push(format!("{vertices}, {edges}, {faces}"));
         if m.components > 1 {
             facts.push(format!("{} parts", m.components));
         }
@@ -92,11 +98,12 @@ fn facts(e: &Exhibit) -> String {
         facts.push(planarity(m));
     }
     if let Some((pieces, sheets)) = e.pieces {
-        let s = |n: usize| if n == 1 { "" } else { "s" };
-        facts.push(format!("{pieces} piece{} on {sheets} sheet{}", s(pieces), s(sheets)));
+        let [pieces, sheets] =
+            [counted(pieces, "piece", "pieces"), counted(sheets, "sheet", "sheets")];
+        facts.push(format!("{pieces} on {sheets}"));
     }
     if !e.findings.is_empty() {
-        facts.push(format!("{} findings", e.findings.len()));
+        facts.push(counted(e.findings.len(), "finding", "findings"));
     }
     facts.join(" · ")
 }

@@ -25,6 +25,25 @@ const COLOURS: [[u8; 3]; 6] = [
 const LINE: [u8; 3] = [40, 38, 36];
 
 /// The scene of a bloom: flat at 0 s, closed at its end.
+///
+/// # Example
+/// ```
+/// use kerfold::bloom::Bloom;
+/// use kerfold::io::{bloom_glb::bloom_scene, glb::glb_bytes};
+/// use kerfold::prelude::*;
+///
+/// let net = unfold(
+///     &kerfold::shape::cube(40.0),
+///     &Seams::Free,
+///     &UnfoldParams::default(),
+///     &MeshSource { scale: 1.0, split_vertices: &[] },
+///     &Silent,
+/// )?;
+/// let bloom = Bloom::new(&net, &[], |_| None);
+/// let bytes = glb_bytes(&bloom_scene(&bloom, "cube"), "my program")?;
+/// assert!(bytes.starts_with(b"glTF"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn bloom_scene(bloom: &Bloom<'_>, name: &str) -> GlbScene {
     let mut scene = GlbScene::new(name);
     let line = scene.add_material("edges", LINE, 1.0);

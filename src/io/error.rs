@@ -249,7 +249,7 @@ impl IoError {
     }
 
     /// The error of reading `path`.
-    pub(super) fn reading(path: &Path, source: std::io::Error) -> Self {
+    pub(crate) fn reading(path: &Path, source: std::io::Error) -> Self {
         let path = path.to_owned();
         match source.kind() {
             ErrorKind::NotFound => Self::Missing { path },

@@ -63,6 +63,22 @@ fn name(panel: &MapPanel) -> Option<Vec<Vec<DVec2>>> {
 }
 
 /// The map as SVG; `command` is the command line that made it.
+///
+/// # Example
+/// ```
+/// use kerfold::io::map_files::map_svg;
+/// use kerfold::panel::assembly_map;
+/// use kerfold::panel::{Hardware, PanelParams, plates};
+/// use kerfold::prelude::*;
+///
+/// let cube = kerfold::shape::cube(200.0);
+/// let params = PanelParams::default();
+/// let hardware = Hardware::default();
+/// let made = plates(&cube, Length::from_mm(5.0), (&params, &hardware), &Silent)?;
+/// let map = assembly_map(&made);
+/// assert!(map_svg(&map, "my program").contains("<svg"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn map_svg(map: &AssemblyMap, command: &str) -> String {
     let (width, height) = (map.width, map.height);
     let mut svg = format!(
@@ -93,6 +109,22 @@ pub fn map_svg(map: &AssemblyMap, command: &str) -> String {
 }
 
 /// The map as PDF, at true size on one page; `command` is the command line that made it.
+///
+/// # Example
+/// ```
+/// use kerfold::io::map_files::map_pdf;
+/// use kerfold::panel::assembly_map;
+/// use kerfold::panel::{Hardware, PanelParams, plates};
+/// use kerfold::prelude::*;
+///
+/// let cube = kerfold::shape::cube(200.0);
+/// let params = PanelParams::default();
+/// let hardware = Hardware::default();
+/// let made = plates(&cube, Length::from_mm(5.0), (&params, &hardware), &Silent)?;
+/// let map = assembly_map(&made);
+/// assert!(map_pdf(&map, "my program").starts_with(b"%PDF"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn map_pdf(map: &AssemblyMap, command: &str) -> Vec<u8> {
     let mut content = format!("{0} 0 0 {0} 0 0 cm 1 J 1 j\n", 72.0 / 25.4);
     let point = |p: &DVec2| format!("{} {}", decimal(p.x), decimal(p.y));

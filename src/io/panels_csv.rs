@@ -25,6 +25,27 @@ pub(super) fn sheet_of(layout: &Layout) -> BTreeMap<PieceId, String> {
 }
 
 /// `panels.csv`: one row for each panel.
+///
+/// # Example
+/// ```
+/// use kerfold::io::panels_csv::panels_csv;
+/// use kerfold::panel::panel_net;
+/// use kerfold::sheet::{SheetParams, lay_out};
+/// use kerfold::panel::schedule;
+/// use kerfold::panel::{Hardware, PanelParams, plates};
+/// use kerfold::prelude::*;
+///
+/// let cube = kerfold::shape::cube(200.0);
+/// let params = PanelParams::default();
+/// let hardware = Hardware::default();
+/// let made = plates(&cube, Length::from_mm(5.0), (&params, &hardware), &Silent)?;
+/// let list = schedule(&cube, &made, &params);
+/// let net = panel_net(&cube, &made, 1.0, &[]);
+/// let sheets = lay_out(&net, &SheetParams::default())?;
+/// let csv = panels_csv(&list, &made, &sheets.layout, "my program");
+/// assert_eq!(csv.lines().filter(|line| !line.starts_with('#')).count(), 1 + 6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn panels_csv(schedule: &Schedule, plates: &Plates, layout: &Layout, command: &str) -> String {
     let sheets = sheet_of(layout);
     let mut table = Table::new(
@@ -60,6 +81,22 @@ fn panel(row: &PanelRow, plate: &Plate, sheet: &str) -> Vec<String> {
 }
 
 /// `edges.csv`: one row for each edge.
+///
+/// # Example
+/// ```
+/// use kerfold::io::panels_csv::edges_csv;
+/// use kerfold::panel::schedule;
+/// use kerfold::panel::{Hardware, PanelParams, plates};
+/// use kerfold::prelude::*;
+///
+/// let cube = kerfold::shape::cube(200.0);
+/// let params = PanelParams::default();
+/// let hardware = Hardware::default();
+/// let made = plates(&cube, Length::from_mm(5.0), (&params, &hardware), &Silent)?;
+/// let list = schedule(&cube, &made, &params);
+/// assert_eq!(edges_csv(&list, "my program").lines().filter(|l| !l.starts_with('#')).count(), 1 + 12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn edges_csv(schedule: &Schedule, command: &str) -> String {
     let mut table = Table::new(
         "edge,node_a,node_b,panel_a,panel_b,length_mm,dihedral_deg,mitre_a_deg,mitre_b_deg,shape,joint,wanted,why,\
@@ -87,6 +124,22 @@ pub fn edges_csv(schedule: &Schedule, command: &str) -> String {
 }
 
 /// `nodes.csv`: one row for each node.
+///
+/// # Example
+/// ```
+/// use kerfold::io::panels_csv::nodes_csv;
+/// use kerfold::panel::schedule;
+/// use kerfold::panel::{Hardware, PanelParams, plates};
+/// use kerfold::prelude::*;
+///
+/// let cube = kerfold::shape::cube(200.0);
+/// let params = PanelParams::default();
+/// let hardware = Hardware::default();
+/// let made = plates(&cube, Length::from_mm(5.0), (&params, &hardware), &Silent)?;
+/// let list = schedule(&cube, &made, &params);
+/// assert_eq!(nodes_csv(&list, "my program").lines().filter(|l| !l.starts_with('#')).count(), 1 + 8);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn nodes_csv(schedule: &Schedule, command: &str) -> String {
     let mut table = Table::new(
         "node,valence,rim,edges,angles_deg,tilts_deg,position_mm,axis,front_mm,back_mm,residual_mm_per_mm,miss_mm",
@@ -107,6 +160,23 @@ fn node(row: &NodeRow) -> Vec<String> {
 }
 
 /// `cutting-list.csv`: one row for each group of congruent panels.
+///
+/// # Example
+/// ```
+/// use kerfold::io::panels_csv::cutting_list_csv;
+/// use kerfold::panel::schedule;
+/// use kerfold::panel::{Hardware, PanelParams, plates};
+/// use kerfold::prelude::*;
+///
+/// let cube = kerfold::shape::cube(200.0);
+/// let params = PanelParams::default();
+/// let hardware = Hardware::default();
+/// let made = plates(&cube, Length::from_mm(5.0), (&params, &hardware), &Silent)?;
+/// let list = schedule(&cube, &made, &params);
+/// let csv = cutting_list_csv(&list, "my program");
+/// assert!(csv.lines().count() > 1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn cutting_list_csv(schedule: &Schedule, command: &str) -> String {
     let mut table = Table::new(
         "group,panels,as_first,mirrored,turns_over,first,thickness_mm,box_length_mm,box_width_mm,area_each_mm2,mass_each_kg,\

@@ -17,6 +17,28 @@ use crate::panel::{
 use crate::sheet::Layout;
 
 /// The text of `panels.json`; `command` is the command line that made it.
+///
+/// # Example
+/// ```
+/// use kerfold::io::panels_json::panels_json;
+/// use kerfold::panel::panel_net;
+/// use kerfold::sheet::{SheetParams, lay_out};
+/// use kerfold::panel::schedule;
+/// use kerfold::panel::{Hardware, PanelParams, plates};
+/// use kerfold::prelude::*;
+///
+/// let cube = kerfold::shape::cube(200.0);
+/// let params = PanelParams::default();
+/// let hardware = Hardware::default();
+/// let made = plates(&cube, Length::from_mm(5.0), (&params, &hardware), &Silent)?;
+/// let list = schedule(&cube, &made, &params);
+/// let net = panel_net(&cube, &made, 1.0, &[]);
+/// let sheets = lay_out(&net, &SheetParams::default())?;
+/// let json = panels_json(&list, &made, &sheets.layout, &[], "my program");
+/// let value: serde_json::Value = serde_json::from_str(&json)?;
+/// assert_eq!(value["panels"].as_array().map(Vec::len), Some(6));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn panels_json(
     schedule: &Schedule,
     plates: &Plates,

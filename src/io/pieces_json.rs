@@ -59,6 +59,24 @@ codes!(error PiecesJsonError {
 /// The text of `pieces.json`. `command` is the command line that made the net.
 ///
 /// Every number of the net must be finite, as those of [`crate::unfold::unfold`] are.
+///
+/// # Example
+/// ```
+/// use kerfold::prelude::*;
+/// use kerfold::io::pieces_json::{read_pieces_json, write_pieces_json};
+///
+/// let net = unfold(
+///     &kerfold::shape::cube(40.0),
+///     &Seams::Free,
+///     &UnfoldParams::default(),
+///     &MeshSource { scale: 1.0, split_vertices: &[] },
+///     &Silent,
+/// )?;
+/// let text = write_pieces_json(&net, "my program");
+/// let (again, command) = read_pieces_json(&text)?;
+/// assert_eq!((again.pieces, command.as_str()), (net.pieces, "my program"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn write_pieces_json(net: &Net, command: &str) -> String {
     let mut text = String::new();
     write_net(&mut text, net, command).expect("writing into a string cannot fail");
@@ -70,6 +88,14 @@ pub fn write_pieces_json(net: &Net, command: &str) -> String {
 /// # Errors
 /// See [`PiecesJsonError`]. Unknown keys are ignored. Whether the net is right is for
 /// [`crate::unfold::prove`] to say.
+///
+/// # Example
+/// ```
+/// use kerfold::io::pieces_json::read_pieces_json;
+///
+/// let error = read_pieces_json("{}").expect_err("no pieces");
+/// assert!(error.to_string().contains("pieces.json"), "{error}");
+/// ```
 pub fn read_pieces_json(text: &str) -> Result<(Net, String), PiecesJsonError> {
     let value: Value = serde_json::from_str(text).map_err(|e| PiecesJsonError::Syntax {
         line: e.line(),

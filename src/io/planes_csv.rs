@@ -121,6 +121,16 @@ pub fn read_planes(file: &Path) -> Result<PlaneFile, PlanesError> {
 ///
 /// # Errors
 /// [`PlanesError`] with file and line.
+///
+/// # Example
+/// ```
+/// use kerfold::io::planes_csv::parse_planes;
+/// use std::path::Path;
+///
+/// let planes = parse_planes("nx,ny,nz,d\n1,0,0,5\n0,1,0,5\n", Path::new("planes.csv"))?;
+/// assert_eq!(planes.half_spaces.len(), 2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn parse_planes(text: &str, file: &Path) -> Result<PlaneFile, PlanesError> {
     let mut planes = PlaneFile::default();
     let mut is_first = true;

@@ -15,6 +15,7 @@ use crate::seam::{
 };
 use crate::select::{NewElements, Selection};
 use crate::unfold::{MeshSource, Seams, UnfoldParams, unfold};
+use crate::units::counted;
 
 /// Choices of folds that are carved and laid out, at most, until one lies flat in as many pieces as
 /// it should.
@@ -174,11 +175,11 @@ fn carve(
     progress: &dyn Progress,
 ) -> Result<CarvedDform, MakeError> {
     let mut notes = vec![format!(
-        "{} folds with a fold sum of {:.2} rad·mm, {} closed seams, {} pieces before carving",
-        folds.len(),
+        "{} with a fold sum of {:.2} rad·mm, {}, {} before carving",
+        counted(folds.len(), "fold", "folds"),
         fold_sum(mesh, folds),
-        seam_cycles(mesh, folds).len(),
-        piece_count(mesh, folds)
+        counted(seam_cycles(mesh, folds).len(), "closed seam", "closed seams"),
+        counted(piece_count(mesh, folds), "piece", "pieces")
     )];
     let (round, sharp) = rollable(mesh, folds);
     let uncarved = |notes| CarvedDform {
@@ -208,8 +209,8 @@ fn carve(
     let mut folds = report.made.strip.clone();
     if !sharp.is_empty() {
         notes.push(format!(
-            "{} folds stay sharp: no plane shaves off an edge that ends in a concave corner",
-            sharp.len()
+            "{} sharp: no plane shaves off an edge that ends in a concave corner",
+            counted(sharp.len(), "fold stays", "folds stay")
         ));
         folds.extend(found_again(mesh, &sharp, &carved));
         folds.sort_unstable();

@@ -8,6 +8,7 @@ use crate::io::sheet::layout::write_order_layout_json;
 use crate::net::EdgeLabel;
 use crate::picture::{PictureError, Polyline, StrokeLayer, Strokes, render_sheet};
 use crate::sheet::{Drawing, JointFallback, JointReport, LayerKind, SheetParams};
+use crate::units::counted;
 
 /// A file to be written: its name in the folder, and its bytes.
 pub type Output = (String, Vec<u8>);
@@ -78,29 +79,39 @@ impl Fabrication {
         };
         note(
             self.divided,
-            format!("{} folds were opened so that the pieces fit on the sheet", self.divided),
+            counted(self.divided, "fold was", "folds were")
+                + " opened so that the pieces fit on the sheet",
         );
         let unnamed = &report.unnamed_pieces;
         note(unnamed.len(), format!("no room for the names of pieces {}", piece_list(unnamed)));
         note(
             report.unnumbered_sides,
-            format!("no room for {} seam numbers", report.unnumbered_sides),
+            format!(
+                "no room for {}",
+                counted(report.unnumbered_sides, "seam number", "seam numbers")
+            ),
         );
         note(
             report.flat_folds,
-            format!("{} folds are flat and were not scored", report.flat_folds),
+            counted(report.flat_folds, "fold is flat and was", "folds are flat and were")
+                + " not scored",
         );
         let unscored = report.unscored_folds;
         note(
             unscored,
-            format!(
-                "{unscored} folds are shorter than what is left out at their ends and were not \
-                scored"
+            counted(
+                unscored,
+                "fold is shorter than what is left out at its ends and was not scored",
+                "folds are shorter than what is left out at their ends and were not scored",
             ),
         );
         note(
             report.lost_holes,
-            format!("{} holes are narrower than the kerf and were left out", report.lost_holes),
+            counted(
+                report.lost_holes,
+                "hole is narrower than the kerf and was",
+                "holes are narrower than the kerf and were",
+            ) + " left out",
         );
         let closed = report.closed_notches;
         note(
@@ -148,7 +159,10 @@ impl Fabrication {
         );
         note(
             report.unmarked_angles,
-            format!("no room for the angles of {} folds", report.unmarked_angles),
+            format!(
+                "no room for the angles of {}",
+                counted(report.unmarked_angles, "fold", "folds")
+            ),
         );
         notes.extend(joint_notes(&report.joints));
         notes
@@ -161,22 +175,23 @@ fn joint_notes(joints: &JointReport) -> Vec<String> {
     if joints.flaps > 0 {
         let (narrowed, moved) = (joints.narrowed_flaps, joints.moved_flaps);
         notes.push(format!(
-            "{} flaps; for lack of room {narrowed} are narrower and {moved} on the other side",
-            joints.flaps
+            "{}; for lack of room {} narrower and {moved} on the other side",
+            counted(joints.flaps, "flap", "flaps"),
+            counted(narrowed, "is", "are")
         ));
     }
     if !joints.bare_seams.is_empty() {
         notes.push(format!(
-            "no room for flaps at {} seams: {}",
-            joints.bare_seams.len(),
+            "no room for flaps at {}: {}",
+            counted(joints.bare_seams.len(), "seam", "seams"),
             edge_list(&joints.bare_seams)
         ));
     }
     if joints.fingered > 0 {
-        notes.push(format!("{} seams have fingers", joints.fingered));
+        notes.push(counted(joints.fingered, "seam has", "seams have") + " fingers");
     }
     if joints.tabbed > 0 {
-        notes.push(format!("{} seams have tabs and slots", joints.tabbed));
+        notes.push(counted(joints.tabbed, "seam has", "seams have") + " tabs and slots");
     }
     let substitute =
         if joints.mitred.is_empty() { "they are stitched" } else { "they are left to be mitred" };
@@ -190,14 +205,15 @@ fn joint_notes(joints: &JointReport) -> Vec<String> {
         let seams: Vec<EdgeLabel> =
             joints.fallbacks.iter().filter(|f| f.1 == why).map(|f| f.0).collect();
         if !seams.is_empty() {
-            let count = seams.len();
-            notes.push(format!("{count} seams are {words}; {substitute}: {}", edge_list(&seams)));
+            let count = counted(seams.len(), "seam is", "seams are");
+            notes.push(format!("{count} {words}; {substitute}: {}", edge_list(&seams)));
         }
     }
     notes.extend(mitre_note(&joints.mitred));
     if joints.hole_pairs + joints.lost_hole_pairs > 0 {
         let (made, lost) = (joints.hole_pairs, joints.lost_hole_pairs);
-        notes.push(format!("{made} pairs of holes; {lost} more had no room on both sides"));
+        let made = counted(made, "pair", "pairs");
+        notes.push(format!("{made} of holes; {lost} more had no room on both sides"));
     }
     notes
 }

@@ -40,14 +40,14 @@ pub struct ShowParams {
     #[arg(long, value_name = "FILE")]
     #[serde(default)]
     pub animate: Option<AnimationFile>,
-    /// How the order of assembly is told: as a list, or as pictures too (assembly-01.png, …, twelve
+    /// How the order of assembly is shown: as a list, or as pictures too (assembly-01.png, …, twelve
     /// steps each)
     #[arg(long, value_enum, default_value = "list")]
     #[serde(default)]
     pub assembly: AssemblyForm,
 }
 
-/// How the order of assembly is told.
+/// How the order of assembly is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum AssemblyForm {

@@ -238,7 +238,7 @@ pub enum OpError {
     )]
     NotABox,
     /// A face or corner that is not there.
-    #[error("there is no {what} {id}; `kerfold info` tells how many there are")]
+    #[error("there is no {what} {id}; `kerfold info` shows how many there are")]
     NoSuchElement {
         /// What was looked for.
         what: &'static str,

@@ -103,6 +103,17 @@ impl ResolveReport {
 /// # Errors
 /// [`OpError::Select`] for an empty selection, [`OpError::DepthTooSmall`] when the depth is not
 /// above what rounding allows.
+///
+/// # Example
+/// ```
+/// use kerfold::prelude::*;
+///
+/// // Four edges meet at each vertex of an octahedron.
+/// let solid = kerfold::shape::octahedron(10.0);
+/// let (mesh, _) = resolve(&solid, &ResolveParams::default(), &OpContext::default())?;
+/// assert!(mesh.vertices().all(|v| mesh.valence(v) == 3));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn resolve(
     mesh: &Mesh,
     params: &ResolveParams,

@@ -68,6 +68,18 @@ impl SliceParams {
 /// # Errors
 /// [`OpError::NoDirection`], [`OpError::BadPoint`], [`OpError::NothingLeft`] when the plane leaves
 /// no mesh, [`OpError::TwoParts`] for [`Keep::Both`], which [`slice_both`] is for.
+///
+/// # Example
+/// ```
+/// use kerfold::prelude::*;
+/// use glam::DVec3;
+///
+/// let cube = kerfold::shape::cube(10.0);
+/// let params = SliceParams::new(DVec3::Z, DVec3::new(0.0, 0.0, 2.0));
+/// let (lower, report) = slice(&cube, &params, &OpContext::default())?;
+/// assert_eq!((report.cuts, lower.face_count()), (1, 6));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn slice(
     mesh: &Mesh,
     params: &SliceParams,
@@ -103,6 +115,20 @@ pub fn slice(
 ///
 /// # Errors
 /// As [`slice()`], but an empty part is none.
+///
+/// # Example
+/// ```
+/// use kerfold::prelude::*;
+/// use glam::DVec3;
+/// use kerfold::measure::volume;
+///
+/// let cube = kerfold::shape::cube(10.0);
+/// let params = SliceParams::new(DVec3::ONE, DVec3::ZERO);
+/// let parts = kerfold::op::slice_both(&cube, &params, &OpContext::default())?;
+/// let sum: f64 = parts.iter().flatten().map(|(part, _)| volume(part)).sum();
+/// assert!((sum - 1000.0).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn slice_both(
     mesh: &Mesh,
     params: &SliceParams,

@@ -23,7 +23,7 @@ pub enum Scope {
     /// half-spaces.
     #[default]
     Global,
-    /// Only the part in front of the plane that hangs together with the element is cut off.
+    /// Only the part in front of the plane connected with the element is cut off.
     Local,
 }
 
@@ -35,7 +35,7 @@ pub enum Disjoint {
     #[default]
     No,
     /// The offsets of those elements whose cuts would meet, touch, or reach a vertex that is not
-    /// theirs are made smaller, by an eighth at a time, until none does; the report tells how
+    /// theirs are made smaller, by an eighth at a time, until none does; the report shows how
     /// small.
     Yes,
 }

@@ -32,7 +32,7 @@ pub struct TruncateEdgeParams {
     #[arg(long, default_value_t = 0.0, value_parser = crate::units::parse_number, allow_negative_numbers = true)]
     #[serde(default)]
     pub bend: f64,
-    /// Cut the whole mesh, or only the part that hangs together with the edge.
+    /// Cut the whole mesh, or only the part connected with the edge.
     #[arg(long, value_enum, default_value_t = Scope::Global)]
     #[serde(default)]
     pub scope: Scope,
@@ -70,6 +70,17 @@ impl TruncateEdgeParams {
 /// [`OpError::BendOutOfRange`], [`OpError::RepeatOutOfRange`], [`OpError::NoPlaneAtEdge`],
 /// [`OpError::NothingLeft`] when the planes leave no mesh, [`OpError::NotDisjoint`] when disjoint
 /// cuts were asked for and cannot be had.
+///
+/// # Example
+/// ```
+/// use kerfold::prelude::*;
+///
+/// let cube = kerfold::shape::cube(10.0);
+/// let params = TruncateEdgeParams::new("along=z".parse()?, 0.2);
+/// let (column, report) = truncate_edges(&cube, &params, &OpContext::default())?;
+/// assert_eq!((column.face_count(), report.cuts), (10, 4));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn truncate_edges(
     mesh: &Mesh,
     params: &TruncateEdgeParams,

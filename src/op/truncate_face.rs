@@ -26,7 +26,7 @@ pub struct TruncateFaceParams {
     #[arg(long, default_value_t = default_offset(), value_parser = crate::units::parse_number)]
     #[serde(default = "default_offset")]
     pub offset: f64,
-    /// Cut the whole mesh, or only the part that hangs together with the face.
+    /// Cut the whole mesh, or only the part connected with the face.
     #[arg(long, value_enum, default_value_t = Scope::Global)]
     #[serde(default)]
     pub scope: Scope,
@@ -62,6 +62,17 @@ impl TruncateFaceParams {
 /// [`OpError::RepeatOutOfRange`], [`OpError::NoPlaneAtFace`], [`OpError::NothingLeft`] when the
 /// planes leave no mesh, [`OpError::NotDisjoint`] when disjoint cuts were asked for and cannot be
 /// had.
+///
+/// # Example
+/// ```
+/// use kerfold::prelude::*;
+///
+/// let cube = kerfold::shape::cube(10.0);
+/// let params = TruncateFaceParams::new("0".parse()?, 0.5);
+/// let (half, _) = truncate_faces(&cube, &params, &OpContext::default())?;
+/// assert!((kerfold::measure::volume(&half) - 500.0).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn truncate_faces(
     mesh: &Mesh,
     params: &TruncateFaceParams,

@@ -35,7 +35,7 @@ pub struct TruncateVertexParams {
     #[arg(long, default_value_t = default_offset(), value_parser = crate::units::parse_number)]
     #[serde(default = "default_offset")]
     pub offset: f64,
-    /// Cut the whole mesh, or only the part that hangs together with the vertex.
+    /// Cut the whole mesh, or only the part connected with the vertex.
     #[arg(long, value_enum, default_value_t = Scope::Global)]
     #[serde(default)]
     pub scope: Scope,
@@ -80,6 +80,19 @@ impl TruncateVertexParams {
 /// [`OpError::RepeatOutOfRange`], [`OpError::NoPlaneAtVertex`], [`OpError::NothingLeft`] when the
 /// planes leave no mesh, [`OpError::NotDisjoint`] when disjoint cuts were asked for and cannot be
 /// had.
+///
+/// # Example
+/// ```
+/// use kerfold::prelude::*;
+///
+/// let cube = kerfold::shape::cube(10.0);
+/// let params = TruncateVertexParams::new("all".parse()?, 0.25);
+/// let (carved, _) = truncate_vertices(&cube, &params, &OpContext::default())?;
+/// // Six faces with eight sides, eight triangles, three edges at every vertex.
+/// assert_eq!((carved.face_count(), carved.vertex_count()), (14, 24));
+/// assert!(carved.vertices().all(|v| carved.valence(v) == 3));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn truncate_vertices(
     mesh: &Mesh,
     params: &TruncateVertexParams,

@@ -25,6 +25,19 @@ use crate::units::Length;
 /// # Errors
 /// [`PanelError`]: a number out of range, a group that is not there, a face without area, faces that lie on each other, or
 /// plates that run into themselves, with the largest thickness that works.
+///
+/// # Example
+/// ```
+/// use kerfold::panel::{Hardware, PanelParams, plates};
+/// use kerfold::prelude::*;
+///
+/// let cube = kerfold::shape::cube(200.0);
+/// let params = PanelParams::default();
+/// let hardware = Hardware::default();
+/// let made = plates(&cube, Length::from_mm(5.0), (&params, &hardware), &Silent)?;
+/// assert_eq!(made.plates.len(), 6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn plates(
     mesh: &Mesh,
     thickness: Length,

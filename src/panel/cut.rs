@@ -311,7 +311,7 @@ impl Across {
         Across { fold: -self.fold, own: mirrored(self.own), other: mirrored(self.other) }
     }
 
-    /// The inset at an own offset of the neighbour's plane at its offset `p`.
+    /// The inset at an offset of its own, of the neighbour's plane at its offset `p`.
     fn at_plane(&self, own: f64, p: f64) -> f64 {
         (own * self.fold.cos() - p) / self.fold.sin()
     }

@@ -106,7 +106,7 @@ fn three_digits(x: f64) -> String {
     if (-4..6).contains(&magnitude) {
         format!("{x:.*}", (2 - magnitude).max(0) as usize)
     } else {
-        format!("{x:.2e}")
+        format!("{x:.2E}")
     }
 }
 
@@ -135,6 +135,6 @@ mod tests {
     #[test]
     fn numbers_have_three_digits() {
         let shown = [0.0, 0.012345, 1.0, 12.345, 123.4, 12345.6, 1.5e-7, 2e9].map(three_digits);
-        assert_eq!(shown, ["0", "0.0123", "1.00", "12.3", "123", "12346", "1.50e-7", "2.00e9"]);
+        assert_eq!(shown, ["0", "0.0123", "1.00", "12.3", "123", "12346", "1.50E-7", "2.00E9"]);
     }
 }

@@ -1,13 +1,12 @@
 //! Pictures of models and sheets as pixels.
 //!
-//! A model is drawn with an own depth buffer: faces first, at 3 × 3 samples per pixel, then the
+//! A model is drawn with its own depth buffer: faces first, at 3 × 3 samples per pixel, then the
 //! edges on top, each only where one of its own faces is seen (an item buffer: Weghorst, Hooper and
 //! Greenberg 1984). A sheet is drawn by strokes. Both become PNG through tiny-skia. The same input
 //! gives the same bytes, on any number of threads.
 
 mod band;
 mod camera;
-mod ears;
 mod legend;
 mod lettering;
 mod model;

@@ -9,7 +9,7 @@ use super::legend::Legend;
 use super::paint;
 use super::scene::{Dot, Scene};
 use super::{Colour, Picture, PictureError, RenderParams};
-use crate::geom::fit_plane;
+use crate::measure::planarity;
 use crate::mesh::{FaceId, FaceMap, Mesh};
 
 /// The margin around the model, as a part of the smaller side of the picture.
@@ -111,7 +111,7 @@ pub(super) fn colours(mesh: &Mesh, colour: Colour) -> (Option<Legend>, FaceMap<[
         Colour::Faces => (None, colours),
         Colour::Planarity => {
             let deviations: Vec<(FaceId, f64)> =
-                mesh.faces().map(|f| (f, deviation(mesh, f))).collect();
+                mesh.faces().map(|f| (f, planarity(mesh, f).mm)).collect();
             let diagonal = crate::measure::size(mesh).length();
             let top = deviations.iter().map(|&(_, d)| d).fold(PLANAR * diagonal, f64::max);
             for (f, deviation) in deviations {
@@ -136,19 +136,6 @@ pub(super) fn colours(mesh: &Mesh, colour: Colour) -> (Option<Legend>, FaceMap<[
             (None, colours)
         }
     }
-}
-
-/// The largest distance of the corners from their least-squares plane.
-// To be replaced by the planarity of `measure` when that is there.
-fn deviation(mesh: &Mesh, f: FaceId) -> f64 {
-    let corners = mesh.face_positions(f);
-    if corners.len() < 4 {
-        return 0.0;
-    }
-    let plane = fit_plane(&corners);
-    plane.map_or(0.0, |plane| {
-        corners.iter().map(|&p| plane.signed_distance(p).abs()).fold(0.0, f64::max)
-    })
 }
 
 /// How the work is divided; the picture does not depend on it.

@@ -6,13 +6,14 @@ use super::camera::Camera;
 use super::paint::{self, Light, Modelling};
 use super::params::EdgeLines;
 use super::{Colour, RenderParams};
-use crate::geom::{Frame, Plane};
+use crate::geom::{Frame, Plane, triangulate};
 use crate::mesh::{EdgeId, FaceId, FaceMap, HalfEdgeId, HalfEdgeMap, Mesh, VertexId, VertexMap};
 
 /// Faces that are bent by more than this part of their size are cut into triangles; flatter ones
 /// are drawn whole.
 const BENT: f64 = 1e-3;
-/// Faces with more corners are always drawn whole: cutting takes the square of their number.
+/// Faces with more corners are always drawn whole: where one crosses itself, cutting takes the
+/// square of their number.
 const MAX_CUT_CORNERS: usize = 256;
 
 /// A polygon in the picture with the plane of its depth.
@@ -163,7 +164,7 @@ impl<'a> Stage<'a> {
         if is_bent(&turned, &plane) {
             let frame = Frame::on_plane(&plane);
             let flat: Vec<DVec2> = turned.iter().map(|&p| frame.flatten(p)).collect();
-            for triangle in super::ears::ears(&flat) {
+            for triangle in triangulate(&flat) {
                 let normal = Plane::newell(&triangle.map(|i| turned[i]))
                     .map_or(plane.normal(), |p| p.normal());
                 let is_front = self.add_facet(f, &triangle.map(|i| half_edges[i]), normal, colour);

@@ -15,7 +15,7 @@ use crate::mesh::Mesh;
 pub struct Cell {
     /// The model as it is then.
     pub mesh: Mesh,
-    /// What stands in the upper left corner: digits, `P`, and the other letters of legends.
+    /// What stands in the upper left corner, in characters that [`crate::sheet::glyph`] has.
     pub label: String,
 }
 

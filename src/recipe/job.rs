@@ -67,15 +67,34 @@ impl Job {
     /// # Errors
     /// [`StepError`]: the first step that fails, with its number.
     pub fn run(recipe: &Recipe, folder: &Path, progress: &dyn Progress) -> Result<Self, StepError> {
-        let mut job = Self::default();
+        Self::default().carry_on(recipe, folder, progress)
+    }
+
+    /// A job that begins with a mesh of the caller instead of a first step that makes one. Its ids
+    /// are closed up, so that they are those of the model that will be written.
+    pub fn with_mesh(mut mesh: Mesh, notes: Vec<String>) -> Self {
+        mesh.compact();
+        Self { mesh: Some(mesh), notes, ..Self::default() }
+    }
+
+    /// Runs the steps of a recipe on what there is.
+    ///
+    /// # Errors
+    /// As [`Self::run`].
+    pub fn carry_on(
+        mut self,
+        recipe: &Recipe,
+        folder: &Path,
+        progress: &dyn Progress,
+    ) -> Result<Self, StepError> {
         for (i, step) in recipe.steps.iter().enumerate() {
-            job.step(i + 1, step, folder, progress).map_err(|cause| StepError {
+            self.step(i + 1, step, folder, progress).map_err(|cause| StepError {
                 step: i + 1,
                 verb: step.verb(),
                 cause: Box::new(cause),
             })?;
         }
-        Ok(job)
+        Ok(self)
     }
 
     /// The mesh as it is by now.

@@ -183,12 +183,12 @@ impl Dual {
         }
     }
 
-    /// Number of parts of the mesh that hang together through any edge.
+    /// Number of parts of the mesh that are connected through any edge.
     pub fn component_count(&self) -> usize {
         self.part_count(|s| self.across[s as usize] != NONE)
     }
 
-    /// Number of parts that hang together through edges that may stay together: no net has fewer
+    /// Number of parts that are connected through edges that may stay together: no net has fewer
     /// pieces.
     pub fn least_pieces(&self) -> usize {
         self.part_count(|s| self.hinge[s as usize] != NONE)

@@ -1,4 +1,4 @@
-//! Which faces hang together: one tree of folds for each piece, by parent pointers.
+//! Which faces are connected: one tree of folds for each piece, by parent pointers.
 
 use super::dual::{Dual, NONE};
 

@@ -24,7 +24,7 @@ pub(super) fn split_overlaps(layout: &mut Layout) {
                 .then_with(|| cost(a).total_cmp(&cost(b)))
                 .then(a.cmp(&b))
         });
-        layout.split(best.expect("two faces that overlap hang together by folds"));
+        layout.split(best.expect("two faces that overlap are connected by folds"));
     }
 }
 

@@ -15,7 +15,7 @@ use super::forest::Forest;
 use crate::mesh::{EdgeId, EdgeMap, Mesh};
 use crate::random::Rng;
 
-/// Sets of faces that hang together (union-find).
+/// Sets of faces that are connected (union-find).
 #[derive(Debug)]
 pub(super) struct Sets(Vec<u32>);
 

@@ -130,7 +130,7 @@ fn cells(size: IVec3) -> impl Iterator<Item = IVec3> {
     })
 }
 
-/// For each corner of each quad the vertex that it is: corners hang together across the edges that
+/// For each corner of each quad the vertex that it is: corners are connected across the edges that
 /// their quads share.
 fn corner_classes(quads: &[Quad], touch: Touch) -> Option<Vec<usize>> {
     let mut at_edge: BTreeMap<[[i32; 3]; 2], Vec<usize>> = BTreeMap::new();

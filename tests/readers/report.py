@@ -3,7 +3,7 @@
 usage: report.py KERFOLD [FOLDER]
 
 Checks that the page opens in a headless browser without an error and shows every picture in it, and that the PDF has as many pictures,
-the same figures as the page, and pages of A4. Exits with 1 and says what is wrong.
+the same figures as the page, tags, names in other letters, and pages of A4. Exits with 1 and says what is wrong.
 """
 
 import html
@@ -60,15 +60,26 @@ def main():
         info = output("pdfinfo", paper).stdout
         if "(A4)" not in info:
             faults.append("the PDF is not A4")
+        if not re.search(r"Tagged: +yes", info):
+            faults.append("the PDF is not tagged")
         # Two lines of headings.
         drawn = len(output("pdfimages", "-list", paper).stdout.splitlines()) - 2
         if drawn != pictures:
             faults.append(f"{drawn} pictures in the PDF, {pictures} in the page")
-        # Minus signs of the page are dashes in the PDF's encoding.
-        words = output("pdftotext", "-layout", paper, "-").stdout.replace("\u2013", "\u2212")
+        words = output("pdftotext", "-layout", paper, "-").stdout
         for figure in {html.unescape(f) for f in re.findall(r"<data [^>]*>([^<]*)</data>", text)}:
             if figure not in words:
                 faults.append(f"{figure} is in the page and not in the PDF")
+        # Names in other letters are shown, or named where the font has none; all can be copied.
+        for name in ["Κουτί", "Zażółć gęślą", "Коробка", "箱"]:
+            named = base / f"{name}.obj"
+            named.write_text(model.read_text())
+            subprocess.run([kerfold, "check", named, "--report", paper, "--quiet"], capture_output=True)
+            words = output("pdftotext", "-raw", paper, "-").stdout
+            if name not in words:
+                faults.append(f"{name} is the name of the model and not in the PDF")
+            if ("no glyph for it: U+7BB1" in words) != (name == "箱"):
+                faults.append(f"{name}: the note on signs without a glyph is wrong")
     for fault in faults[:50]:
         print("fault:", fault)
     print("report: FAULTS" if faults else "report: as it should be")

@@ -1,4 +1,5 @@
-//! A half-edge mesh kernel.
+#![cfg_attr(feature = "mesh", doc = include_str!("../README.md"))]
+#![cfg_attr(not(feature = "mesh"), doc = "Points, planes, flat polygons, hulls and units.")]
 
 pub mod code;
 pub mod geom;

@@ -1,4 +1,4 @@
-//! From flat outlines to sheets that a shop can cut.
+#![doc = include_str!("../README.md")]
 
 // What lies below, under the names that it has in the kernel.
 use kerfold_kernel::{code, geom, progress, random, units};

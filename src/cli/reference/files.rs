@@ -64,7 +64,7 @@ const FILES: [File; 29] = [
 
 pub(super) fn written(page: &mut String) {
     *page += "\n## Files\n\nThese names do not change. `NN` is a number. Verbs that take `-o FILE` \
-    write what they are told and are not listed.\n\n\
+    write the file that is named and are not listed.\n\n\
               | file | written by | what it is |\n|---|---|---|\n";
     for File { name, by, what } in &FILES {
         let _ = writeln!(page, "| `{name}` | {by} | {what} |");

@@ -15,9 +15,11 @@ use crate::sheet::SheetParams;
 const HEAD: &str = "\
 # Reference
 
-What every verb, every step of a recipe and every selection takes, and which files there are. This page is made from the program itself; a
-test compares the two, and `cargo test --test reference -- --ignored` writes it anew. What the operators mean is told in
-[operators.md](operators.md), the form of the files in [formats.md](formats.md), every message in [errors.md](errors.md).
+What every verb, every step of a recipe and every selection takes, and which files there are. This
+page is made from the program itself; a test compares the two, and `KERFOLD_BLESS=1 cargo test
+--test reference` writes it anew. What the operators mean is explained in
+[operators.md](operators.md), the form of the files in [formats.md](formats.md), every message in
+[errors.md](errors.md).
 ";
 
 /// The text of `docs/reference.md`, the same on every terminal.

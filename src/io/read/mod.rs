@@ -2,13 +2,12 @@
 //! the same for all.
 
 use std::fmt;
-use std::io::Read as _;
 use std::path::Path;
 
 use super::error::{IoError, Place};
 use super::format::MeshFormat;
 use crate::mesh::{BuildError, FaceId, Mesh, MeshBuilder, SplitVertex, VertexId};
-use crate::units::Length;
+use crate::units::{Length, counted};
 use raw::RawMesh;
 
 pub mod artwork;
@@ -132,20 +131,28 @@ pub enum ReadNote {
 impl fmt::Display for ReadNote {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Welded { count } => write!(f, "{count} vertices were welded to others"),
+            Self::Welded { count } => {
+                write!(f, "{} welded to others", counted(*count, "vertex was", "vertices were"))
+            }
             Self::DroppedFaces { count, first } => write!(
                 f,
-                "{count} faces lost their area because corners of theirs are at one point and were \
-                left out, the first of them face {first} of the file; \
-                 the faces after it are numbered without them"
+                "{} left out, the first of them face {first} of the file; the faces after it are \
+                numbered without them",
+                counted(
+                    *count,
+                    "face lost its area because corners of it are at one point and was",
+                    "faces lost their area because corners of theirs are at one point and were"
+                )
             ),
             Self::SplitVertices { count, first } => write!(
                 f,
-                "{count} vertices were added where several fans of faces met in one vertex, the \
-                first of them at vertex {first}"
+                "{} added where several fans of faces met in one vertex, the first of them at \
+                vertex {first}",
+                counted(*count, "vertex was", "vertices were")
             ),
             Self::UnusedVertices { count, first } => {
-                write!(f, "{count} vertices belong to no face, the first of them vertex {first}")
+                let count = counted(*count, "vertex belongs", "vertices belong");
+                write!(f, "{count} to no face, the first of them vertex {first}")
             }
             Self::CoincidentRims { coincident, rim_edges, vertices: [a, b] } => write!(
                 f,
@@ -157,28 +164,45 @@ impl fmt::Display for ReadNote {
     }
 }
 
-/// Reads a mesh from a file, or OBJ from standard input when the path is `-`.
+/// Reads a mesh from a file.
 ///
 /// The format is told by the extension, or else by the content.
 ///
 /// # Errors
 /// When the file cannot be read or is not a mesh; every message names the place and what to do.
+///
+/// # Example
+/// ```
+/// use kerfold::io::{ReadOptions, read_mesh};
+/// use std::path::Path;
+///
+/// let read = read_mesh(Path::new("fixtures/meshes/cube.obj"), &ReadOptions::default())?;
+/// assert_eq!((read.mesh.face_count(), read.scale), (6, 1.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn read_mesh(path: &Path, options: &ReadOptions) -> Result<ReadMesh, IoError> {
-    let bytes = if path.as_os_str() == "-" {
-        let mut bytes = Vec::new();
-        std::io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes)
-    } else if path.is_dir() {
+    if path.is_dir() {
         return Err(IoError::IsFolder { path: path.to_owned() });
-    } else {
-        std::fs::read(path)
-    };
-    read_mesh_bytes(path, &bytes.map_err(|source| IoError::reading(path, source))?, options)
+    }
+    let bytes = std::fs::read(path).map_err(|source| IoError::reading(path, source))?;
+    read_mesh_bytes(path, &bytes, options)
 }
 
 /// Reads a mesh from the content of a file; `path` tells the format and is named in messages.
 ///
 /// # Errors
 /// As [`read_mesh`].
+///
+/// # Example
+/// ```
+/// use kerfold::io::{ReadOptions, read_mesh_bytes};
+/// use std::path::Path;
+///
+/// let text = "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+/// let read = read_mesh_bytes(Path::new("mine.off"), text.as_bytes(), &ReadOptions::default())?;
+/// assert!(read.mesh.is_closed());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn read_mesh_bytes(
     path: &Path,
     bytes: &[u8],

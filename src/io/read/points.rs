@@ -16,6 +16,16 @@ use crate::io::error::{ContentFault, IoError, Place, excerpt};
 ///
 /// # Errors
 /// [`IoError`] when the file cannot be read, a line is no point, or there is none; with the line.
+///
+/// # Example
+/// ```
+/// let path = std::env::temp_dir().join(format!("kerfold-doc-{}-axis.txt", std::process::id()));
+/// std::fs::write(&path, "0,0,0  # x,y,z in mm\n0,0,5\n3,0,9\n")?;
+/// let points = kerfold::io::read_points(&path)?;
+/// # std::fs::remove_file(&path)?;
+/// assert_eq!(points[2], glam::DVec3::new(3.0, 0.0, 9.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn read_points(path: &Path) -> Result<Vec<DVec3>, IoError> {
     let bytes = std::fs::read(path).map_err(|source| IoError::reading(path, source))?;
     let is_obj = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("obj"));

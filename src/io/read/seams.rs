@@ -17,6 +17,17 @@ use crate::mesh::{EdgeId, Mesh, SplitVertex, VertexId};
 /// # Errors
 /// [`IoError`] when the file cannot be read, a line is no seam, or the model has no such edge; with
 /// the line.
+///
+/// # Example
+/// ```
+/// let path = std::env::temp_dir().join(format!("kerfold-doc-{}-seams.txt", std::process::id()));
+/// std::fs::write(&path, "0 1  # two vertices of an edge\n")?;
+/// let cube = kerfold::shape::cube(10.0);
+/// let seams = kerfold::io::read_seams(&path, &cube, &[]);
+/// # std::fs::remove_file(&path)?;
+/// assert_eq!(seams?.len(), 1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn read_seams(
     path: &Path,
     mesh: &Mesh,

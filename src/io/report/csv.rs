@@ -9,6 +9,17 @@ use crate::check::{Element, Report};
 /// for faces without four sides; the verdict is `fail` for a face with any finding. The command
 /// line stands in the first row only. Numbers have a point and read back to the same bits; lines
 /// end with CR LF.
+///
+/// # Example
+/// ```
+/// use kerfold::io::report::csv::check_csv;
+/// use kerfold::prelude::*;
+///
+/// let report = check(&kerfold::shape::cube(40.0), &CheckParams::default())?;
+/// let csv = check_csv(&report, "my program");
+/// assert_eq!(csv.lines().filter(|line| !line.starts_with('#')).count(), 1 + 6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn check_csv(report: &Report, command: &str) -> String {
     let failed: HashSet<usize> =
         report.findings.iter().filter(|f| f.element == Element::Face).map(|f| f.id).collect();

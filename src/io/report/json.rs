@@ -13,11 +13,34 @@ use crate::measure::Summary;
 use crate::mesh::VertexId;
 
 /// The report of `check`, with one line for each face and each finding.
+///
+/// # Example
+/// ```
+/// use kerfold::io::report::json::check_json;
+/// use kerfold::prelude::*;
+///
+/// let report = check(&kerfold::shape::cube(40.0), &CheckParams::default())?;
+/// let value: serde_json::Value = serde_json::from_str(&check_json(&report, "my program"))?;
+/// assert_eq!(value["model"]["faces"], 6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn check_json(report: &Report, command: &str) -> String {
     check_json_with(report, None, command)
 }
 
 /// The same, and with `details` one line for each vertex and each edge.
+///
+/// # Example
+/// ```
+/// use kerfold::check::details;
+/// use kerfold::io::report::json::check_json_with;
+/// use kerfold::prelude::*;
+///
+/// let report = check(&kerfold::shape::cube(40.0), &CheckParams::default())?;
+/// let rows = details(&kerfold::shape::cube(40.0));
+/// assert!(check_json_with(&report, Some(&rows), "my program").len() > 1000);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn check_json_with(report: &Report, details: Option<&Details>, command: &str) -> String {
     let valence = Valence {
         histogram: &report.valence.histogram,
@@ -58,6 +81,17 @@ pub fn check_json_with(report: &Report, details: Option<&Details>, command: &str
 }
 
 /// The summary of `info`. `notes` are what the reader had to say.
+///
+/// # Example
+/// ```
+/// use kerfold::io::report::json::info_json;
+/// use kerfold::measure::summary;
+///
+/// let text = info_json(&summary(&kerfold::shape::cube(40.0)), &[], "my program");
+/// let value: serde_json::Value = serde_json::from_str(&text)?;
+/// assert_eq!(value["model"]["edges"], 12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn info_json(summary: &Summary, notes: &[String], command: &str) -> String {
     let model = InfoModel {
         vertices: summary.vertices,

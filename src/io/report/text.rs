@@ -7,6 +7,7 @@ use glam::DVec3;
 use crate::check::{CheckKind, FaceReport, Limits, Report, short};
 use crate::code::Coded;
 use crate::measure::{Planarity, Summary};
+use crate::units;
 
 /// Faces in the table of the worst.
 const WORST: usize = 10;
@@ -17,6 +18,16 @@ const SHOWN: usize = 40;
 const FILE_DIGITS: f64 = 1e-6;
 
 /// The report of `check`: model, measures, worst faces, findings, verdict, advice.
+///
+/// # Example
+/// ```
+/// use kerfold::io::report::text::check_text;
+/// use kerfold::prelude::*;
+///
+/// let report = check(&kerfold::shape::cube(40.0), &CheckParams::default())?;
+/// assert!(check_text(&report, "my program").contains("no findings"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn check_text(report: &Report, command: &str) -> String {
     let mut page = Page::titled(command);
     let m = &report.model;
@@ -61,6 +72,15 @@ pub fn check_text(report: &Report, command: &str) -> String {
 }
 
 /// The summary of `info`. `notes` are what the reader had to say.
+///
+/// # Example
+/// ```
+/// use kerfold::io::report::text::info_text;
+/// use kerfold::measure::summary;
+///
+/// let facts = summary(&kerfold::shape::cube(40.0));
+/// assert!(info_text(&facts, &[], "my program").contains("12"));
+/// ```
 pub fn info_text(summary: &Summary, notes: &[String], command: &str) -> String {
     let mut page = Page::titled(command);
     let s = summary;
@@ -325,12 +345,9 @@ impl Page {
     }
 }
 
+/// A count in a text to be read: none is `no sheets`.
 fn counted(count: usize, one: &str, many: &str) -> String {
-    match count {
-        0 => format!("no {many}"),
-        1 => format!("1 {one}"),
-        _ => format!("{count} {many}"),
-    }
+    if count == 0 { format!("no {many}") } else { units::counted(count, one, many) }
 }
 
 fn yes(is: bool) -> &'static str {

@@ -9,6 +9,17 @@ use super::svg::write_svg;
 use crate::sheet::{Drawing, PartFiles, SheetError, SheetFormat, SheetParams};
 
 /// The bytes of one drawing in one format.
+///
+/// # Example
+/// ```
+/// use kerfold::io::sheet::files::sheet_bytes;
+/// use kerfold::sheet::{SheetFormat, SheetParams};
+///
+/// let coupon = kerfold::sheet::kerf_coupon(3.0, "PLY 3 MM")?;
+/// let svg = sheet_bytes(&coupon, SheetFormat::Svg, &SheetParams::default(), "my program");
+/// assert!(String::from_utf8(svg)?.contains("<svg"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn sheet_bytes(
     drawing: &Drawing,
     format: SheetFormat,
@@ -29,6 +40,25 @@ pub fn sheet_bytes(
 ///
 /// # Errors
 /// [`SheetError::NoGlyph`] as [`write_tiles`].
+///
+/// # Example
+/// ```
+/// use kerfold::io::sheet::files::sheet_files;
+/// use kerfold::prelude::*;
+///
+/// let net = unfold(
+///     &kerfold::shape::cube(40.0),
+///     &Seams::Free,
+///     &UnfoldParams::default(),
+///     &MeshSource { scale: 1.0, split_vertices: &[] },
+///     &Silent,
+/// )?;
+/// let params = SheetParams::default();
+/// let sheets = lay_out(&net, &params)?;
+/// let files = sheet_files(&sheets.drawings, &params, "my program")?;
+/// assert_eq!(files[0].0, "sheet-01.svg");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn sheet_files(
     drawings: &[Drawing],
     params: &SheetParams,

@@ -46,12 +46,50 @@ struct SourceEntry {
 
 /// The text of `layout.json`; `command` is the command line that made it. Places are written to the
 /// digit, sums to six decimals.
+///
+/// # Example
+/// ```
+/// use kerfold::io::sheet::layout::write_layout_json;
+/// use kerfold::prelude::*;
+///
+/// let net = unfold(
+///     &kerfold::shape::cube(40.0),
+///     &Seams::Free,
+///     &UnfoldParams::default(),
+///     &MeshSource { scale: 1.0, split_vertices: &[] },
+///     &Silent,
+/// )?;
+/// let sheets = lay_out(&net, &SheetParams::default())?;
+/// assert!(write_layout_json(&sheets.layout, "my program").contains("\"placed\""));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn write_layout_json(layout: &Layout, command: &str) -> String {
     write_order_layout_json(layout, &[], command)
 }
 
 /// As [`write_layout_json`]; pieces of an order, for which there are sources, tell where they come
 /// from.
+///
+/// # Example
+/// ```
+/// use kerfold::io::{order_json::Order, pieces_json::write_pieces_json};
+/// use kerfold::io::sheet::layout::write_order_layout_json;
+/// use kerfold::prelude::*;
+///
+/// let net = unfold(
+///     &kerfold::shape::cube(40.0),
+///     &Seams::Free,
+///     &UnfoldParams::default(),
+///     &MeshSource { scale: 1.0, split_vertices: &[] },
+///     &Silent,
+/// )?;
+/// let mut order = Order::default();
+/// order.add(&write_pieces_json(&net, "my program"), 3)?;
+/// let sheets = lay_out(&order.net, &SheetParams::default())?;
+/// let json = write_order_layout_json(&sheets.layout, &order.sources, "my program");
+/// assert!(json.contains("\"copy\""));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn write_order_layout_json(layout: &Layout, sources: &[OrderSource], command: &str) -> String {
     let file = File {
         command,

@@ -24,6 +24,17 @@ fn setting(layer: LayerKind) -> (usize, &'static str, usize) {
 
 /// The text of one project for a sheet; `command` is the command line that made it, `speed` the
 /// speed of an operation in mm/s where it is known.
+///
+/// # Example
+/// ```
+/// use kerfold::io::sheet::lbrn2::write_lbrn2;
+/// use kerfold::sheet::LayerKind;
+///
+/// let coupon = kerfold::sheet::kerf_coupon(3.0, "PLY 3 MM")?;
+/// let speed = |layer| (layer == LayerKind::CutOuter).then_some(12.0);
+/// assert!(write_lbrn2(&coupon, speed, "my program").contains("<LightBurnProject"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn write_lbrn2(
     drawing: &Drawing,
     speed: impl Fn(LayerKind) -> Option<f64>,

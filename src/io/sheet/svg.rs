@@ -11,6 +11,16 @@ use crate::io::number::{decimal, hex, is_not_xml, shown_points};
 use crate::sheet::{Drawing, Layer, Mark, Stroke, Style};
 
 /// The text of one SVG file for a sheet; `command` is the command line that made it.
+///
+/// # Example
+/// ```
+/// use kerfold::io::sheet::svg::write_svg;
+/// use kerfold::sheet::Preset;
+///
+/// let coupon = kerfold::sheet::kerf_coupon(3.0, "PLY 3 MM")?;
+/// assert!(write_svg(&coupon, Preset::Lightburn, "my program").contains("<svg"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn write_svg(drawing: &Drawing, style: impl Into<Style>, command: &str) -> String {
     let style = style.into();
     let (width, height) = (decimal(drawing.width), decimal(drawing.height));

@@ -154,6 +154,15 @@ impl GlbNodeId {
 ///
 /// # Errors
 /// [`IoError::TooFarForGlb`] when a number does not fit into single precision.
+///
+/// # Example
+/// ```
+/// use kerfold::io::glb::{GlbScene, glb_bytes};
+///
+/// let bytes = glb_bytes(&GlbScene::new("empty"), "my program")?;
+/// assert!(bytes.starts_with(b"glTF"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn glb_bytes(scene: &GlbScene, command: &str) -> Result<Vec<u8>, IoError> {
     let mut file = File::default();
     let nodes = file.nodes(scene)?;

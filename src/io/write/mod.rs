@@ -57,6 +57,18 @@ fn one_line(text: &str) -> String {
 ///
 /// # Errors
 /// When the extension is not known or the file cannot be written.
+///
+/// # Example
+/// ```
+/// use kerfold::io::{ReadOptions, WriteOptions, read_mesh, write_mesh};
+///
+/// let path = std::env::temp_dir().join(format!("kerfold-doc-{}-cube.ply", std::process::id()));
+/// write_mesh(&path, &kerfold::shape::cube(10.0), &WriteOptions::default())?;
+/// let again = read_mesh(&path, &ReadOptions::default())?;
+/// # std::fs::remove_file(&path)?;
+/// assert_eq!(again.mesh.face_count(), 6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn write_mesh(path: &Path, mesh: &Mesh, options: &WriteOptions) -> Result<(), IoError> {
     let format = MeshFormat::of_path(path)
         .ok_or_else(|| IoError::UnknownFormat { path: path.to_owned() })?;
@@ -71,6 +83,16 @@ pub fn write_mesh(path: &Path, mesh: &Mesh, options: &WriteOptions) -> Result<()
 /// # Errors
 /// [`IoError::NotForFiles`] for a mesh that would not be read again;
 /// [`IoError::TooFarForStl`] when a coordinate does not fit.
+///
+/// # Example
+/// ```
+/// use kerfold::io::{MeshFormat, WriteOptions, mesh_bytes};
+///
+/// let cube = kerfold::shape::cube(10.0);
+/// let off = mesh_bytes(MeshFormat::Off, &cube, &WriteOptions::default())?;
+/// assert!(off.starts_with(b"OFF"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn mesh_bytes(
     format: MeshFormat,
     mesh: &Mesh,

@@ -25,6 +25,23 @@ pub struct NamedPlate<'a> {
 
 /// An OBJ with a group for each plate. Faces stay polygons where they are convex and without holes,
 /// else they are triangles.
+///
+/// # Example
+/// ```
+/// use kerfold::io::plates::{NamedPlate, plates_obj};
+/// use kerfold::panel::{Hardware, PanelParams, plates};
+/// use kerfold::prelude::*;
+///
+/// let cube = kerfold::shape::cube(200.0);
+/// let params = PanelParams::default();
+/// let hardware = Hardware::default();
+/// let made = plates(&cube, Length::from_mm(5.0), (&params, &hardware), &Silent)?;
+/// let named = |plate| NamedPlate { name: "side".to_owned(), group: 0, plate };
+/// let parts: Vec<NamedPlate> = made.plates.iter().map(named).collect();
+/// let bytes = plates_obj(&parts, "my program");
+/// assert!(bytes.windows(6).any(|w| w == b"g side"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn plates_obj(plates: &[NamedPlate<'_>], command: &str) -> Vec<u8> {
     let mut text = Vec::new();
     write_obj(&mut text, plates, command).expect("writing into memory does not fail");
@@ -69,6 +86,23 @@ const STL_HEADER: usize = 80;
 ///
 /// # Errors
 /// [`IoError::TooFarForStl`] when a coordinate does not fit into single precision.
+///
+/// # Example
+/// ```
+/// use kerfold::io::plates::{NamedPlate, plates_stl};
+/// use kerfold::panel::{Hardware, PanelParams, plates};
+/// use kerfold::prelude::*;
+///
+/// let cube = kerfold::shape::cube(200.0);
+/// let params = PanelParams::default();
+/// let hardware = Hardware::default();
+/// let made = plates(&cube, Length::from_mm(5.0), (&params, &hardware), &Silent)?;
+/// let named = |plate| NamedPlate { name: "side".to_owned(), group: 0, plate };
+/// let parts: Vec<NamedPlate> = made.plates.iter().map(named).collect();
+/// let bytes = plates_stl(&parts, "my program")?;
+/// assert!(bytes.len() > 84);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn plates_stl(plates: &[NamedPlate<'_>], command: &str) -> Result<Vec<u8>, IoError> {
     let mut bytes: Vec<u8> = one_line(command).bytes().take(STL_HEADER).collect();
     // A header that begins with `solid` is taken for a text file.
@@ -118,6 +152,23 @@ const COLOURS: [[u8; 3]; 12] = [
 ///
 /// # Errors
 /// [`IoError`] when a number does not fit into single precision.
+///
+/// # Example
+/// ```
+/// use kerfold::io::plates::{NamedPlate, plates_glb};
+/// use kerfold::panel::{Hardware, PanelParams, plates};
+/// use kerfold::prelude::*;
+///
+/// let cube = kerfold::shape::cube(200.0);
+/// let params = PanelParams::default();
+/// let hardware = Hardware::default();
+/// let made = plates(&cube, Length::from_mm(5.0), (&params, &hardware), &Silent)?;
+/// let named = |plate| NamedPlate { name: "side".to_owned(), group: 0, plate };
+/// let parts: Vec<NamedPlate> = made.plates.iter().map(named).collect();
+/// let bytes = plates_glb(&parts, "my program")?;
+/// assert!(bytes.starts_with(b"glTF"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn plates_glb(plates: &[NamedPlate<'_>], command: &str) -> Result<Vec<u8>, IoError> {
     let mut scene = GlbScene::new("panels");
     let used = plates.iter().map(|p| p.group + 1).max().unwrap_or(0).min(COLOURS.len());

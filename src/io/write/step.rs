@@ -22,6 +22,22 @@ pub struct StepPart<'a> {
 }
 
 /// The bytes of the file; `command` is the command line that made it.
+///
+/// # Example
+/// ```
+/// use kerfold::io::step::{StepPart, step_bytes};
+/// use kerfold::panel::{Hardware, PanelParams, plates};
+/// use kerfold::prelude::*;
+///
+/// let cube = kerfold::shape::cube(200.0);
+/// let params = PanelParams::default();
+/// let hardware = Hardware::default();
+/// let made = plates(&cube, Length::from_mm(5.0), (&params, &hardware), &Silent)?;
+/// let parts = made.plates.iter().map(|plate| StepPart { name: "side", plate });
+/// let step = step_bytes(parts, "my program");
+/// assert!(step.starts_with(b"ISO-10303-21"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn step_bytes<'a>(parts: impl Iterator<Item = StepPart<'a>>, command: &str) -> Vec<u8> {
     let mut step = StepFile { text: header(command), next: 1 };
     let context = step.context();

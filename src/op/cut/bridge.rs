@@ -110,7 +110,7 @@ impl Cutter {
         is_joined.iter().filter(|joined| !**joined).count()
     }
 
-    /// Lays one bridge. `closes` tells that both its walks hang together already: then it must
+    /// Lays one bridge. `closes` tells that both its walks are connected already: then it must
     /// divide their face. Returns `false`, with nothing done, if it would not.
     fn lay_bridge(
         &mut self,
@@ -262,7 +262,7 @@ impl CapWalks {
         Some((cdt, sites_of))
     }
 
-    /// Whether a bridge joins walks that do not hang together at its ends, through material. What
+    /// Whether a bridge joins walks that are not connected at its ends, through material. What
     /// touches at a vertex is joined as it is; what only lies at one point is not.
     fn joins(&self, a: &[Site], b: &[Site], bridge: &Bridge) -> bool {
         let of_vertex = |sites: &[Site], s: Site| -> Vec<Site> {

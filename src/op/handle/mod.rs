@@ -109,6 +109,28 @@ impl HandleReport {
 /// [`OpError::CountOutOfRange`] for the segments; [`OpError::NoSuchElement`]; [`OpError::NoArea`];
 /// [`OpError::NoHandle`] with the reason; [`OpError::Exclude`] for an axis with weights or further
 /// faces; [`OpError::Cancelled`].
+///
+/// # Example
+/// ```
+/// use kerfold::prelude::*;
+/// use kerfold::op::FaceCorner;
+///
+/// // From one face of a cube to its neighbour.
+/// let cube = kerfold::shape::cube(10.0);
+/// let at = |face| FaceCorner { face, vertex: None };
+/// let params = HandleParams {
+///     from: at(0),
+///     to: at(1),
+///     segments: 8,
+///     also: Vec::new(),
+///     axis: None,
+///     weights: None,
+///     twist: Default::default(),
+/// };
+/// let (ring, _, _) = handle(&cube, &params, &OpContext::default())?;
+/// assert_eq!(kerfold::measure::genus(&ring), 1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn handle(
     mesh: &Mesh,
     params: &HandleParams,

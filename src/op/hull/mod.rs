@@ -106,6 +106,18 @@ impl HullStep {
 /// dual hull without box is unbounded, [`OpError::CountOutOfRange`],
 /// [`OpError::ConcavityOutOfRange`], [`OpError::Exclude`], [`OpError::Requires`],
 /// [`OpError::Cancelled`].
+///
+/// # Example
+/// ```
+/// use kerfold::prelude::*;
+///
+/// // At each corner of the cube a plane: an octahedron in the cube's box.
+/// let cube = kerfold::shape::cube(10.0);
+/// let params = HullParams { dual: true, no_box: true, ..HullParams::default() };
+/// let (dual, _) = hull(&cube, &params, &OpContext::default())?;
+/// assert_eq!((dual.vertex_count(), dual.face_count()), (6, 8));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn hull(
     mesh: &Mesh,
     params: &HullParams,
@@ -157,6 +169,20 @@ pub fn hull(
 /// # Errors
 /// [`OpError::HalfSpaces`] when they have nothing in common (with the numbers of those that exclude
 /// each other), no volume, or leave a direction open (with the direction).
+///
+/// # Example
+/// ```
+/// use kerfold::prelude::*;
+/// use glam::DVec3;
+/// use kerfold::geom::hull::HalfSpace;
+///
+/// let normals = [DVec3::ONE, DVec3::new(1., -1., -1.), DVec3::new(-1., 1., -1.), DVec3::new(-1., -1., 1.)];
+/// let half_spaces = normals.map(|normal| HalfSpace { normal, offset: 5.0 });
+/// let params = HullParams::default();
+/// let (tetrahedron, _) = kerfold::op::halfspaces(&half_spaces, &params)?;
+/// assert_eq!(tetrahedron.face_count(), 4);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn halfspaces(
     half_spaces: &[HalfSpace],
     params: &HullParams,

@@ -190,6 +190,17 @@ impl MengerReport {
 /// [`OpError::AngleOutOfRange`]; [`OpError::NotClosed`]; [`OpError::NoArea`];
 /// [`OpError::DoesNotFit`] before the first round; [`OpError::Cancelled`]; with
 /// `exact` [`OpError::NotABox`], and [`OpError::Exclude`] for another thickness than 1/3.
+///
+/// # Example
+/// ```
+/// use kerfold::prelude::*;
+///
+/// let cube = kerfold::shape::cube(90.0);
+/// let params = MengerParams { rounds: 1, exact: true, ..MengerParams::default() };
+/// let (sponge, _) = menger(&cube, &params, &OpContext::default())?;
+/// assert_eq!(kerfold::measure::genus(&sponge), 5);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn menger(
     mesh: &Mesh,
     params: &MengerParams,

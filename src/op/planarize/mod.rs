@@ -207,6 +207,19 @@ impl PlanarizeReport {
 /// [`OpError::WeightOutOfRange`], [`OpError::RepeatOutOfRange`], [`OpError::Select`] for an empty
 /// selection of fixed vertices, [`OpError::AllCornersFixed`] when a face that is not planar has
 /// fewer than one free corner, [`OpError::Cancelled`].
+///
+/// # Example
+/// ```
+/// use kerfold::prelude::*;
+/// use glam::DVec3;
+///
+/// let mut cube = kerfold::shape::cube(100.0);
+/// let first = cube.vertices().next().expect("a cube has vertices");
+/// cube.set_position(first, cube.position(first) + DVec3::splat(1.0), true);
+/// let (flat, _) = planarize(&cube, &PlanarizeParams::default(), &OpContext::default())?;
+/// assert!(check(&flat, &CheckParams::default())?.findings.is_empty());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn planarize(
     mesh: &Mesh,
     params: &PlanarizeParams,

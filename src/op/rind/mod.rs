@@ -191,6 +191,24 @@ impl RindReport {
 /// [`OpError::NoArea`] for a face without a normal; [`OpError::AllOpened`] when no face would be
 /// left; with a given shell [`OpError::NoSuchElement`] for a partner, and [`OpError::Exclude`] for
 /// thicknesses of groups; [`OpError::Cancelled`].
+///
+/// # Example
+/// ```
+/// use kerfold::prelude::*;
+/// use kerfold::measure::volume;
+///
+/// let cube = kerfold::shape::cube(10.0);
+/// let params = RindParams {
+///     thickness: Length::from_mm(1.0),
+///     thickness_of: Vec::new(),
+///     punch: None,
+///     peel: None,
+///     shell: Default::default(),
+/// };
+/// let (shell, _, _) = rind(&cube, &params, &OpContext::default())?;
+/// assert!((volume(&shell) - (1000.0 - 512.0)).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn rind(
     mesh: &Mesh,
     params: &RindParams,

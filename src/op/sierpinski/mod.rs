@@ -88,6 +88,17 @@ impl SierpinskiReport {
 /// # Errors
 /// [`OpError::RepeatOutOfRange`]; [`OpError::DoesNotFit`] before the first round;
 /// [`OpError::Cancelled`].
+///
+/// # Example
+/// ```
+/// use kerfold::prelude::*;
+///
+/// let solid = kerfold::shape::tetrahedron(10.0);
+/// let params = SierpinskiParams { rounds: 1 };
+/// let (next, _) = sierpinski(&solid, &params, &OpContext::default())?;
+/// assert!(next.is_closed() && next.face_count() > solid.face_count());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn sierpinski(
     mesh: &Mesh,
     params: &SierpinskiParams,

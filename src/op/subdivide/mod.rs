@@ -130,6 +130,18 @@ impl SubdivideReport {
 /// [`OpError::RepeatOutOfRange`]; [`OpError::ShareOutOfRange`] for the offset of a truncation,
 /// [`OpError::Requires`] for an offset with another scheme; [`OpError::DoesNotFit`] before the
 /// first round; [`OpError::NotSimple`]; [`OpError::Cancelled`].
+///
+/// # Example
+/// ```
+/// use kerfold::prelude::*;
+/// use kerfold::op::Scheme;
+///
+/// let cube = kerfold::shape::cube(10.0);
+/// let params = SubdivideParams::new(Scheme::CatmullClark, 1);
+/// let (rounder, _) = subdivide(&cube, &params, &OpContext::default())?;
+/// assert_eq!(rounder.face_count(), 24);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn subdivide(
     mesh: &Mesh,
     params: &SubdivideParams,

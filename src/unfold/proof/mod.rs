@@ -139,8 +139,8 @@ pub enum ProofError {
         /// Number of pairs.
         pairs: usize,
     },
-    /// A piece whose faces do not hang together by its folds.
-    #[error("face {face} does not hang together with the rest of piece {piece} by folds")]
+    /// A piece whose faces are not connected by its folds.
+    #[error("face {face} is not connected with the rest of piece {piece} by folds")]
     Loose {
         /// The piece, counted from 1 as in its name.
         piece: usize,

@@ -1,11 +1,13 @@
 //! Lengths, angles, directions and points as people type them (`3mm`, `1/8in`, `30deg`, `-z`) and
 //! as files show them.
 
+mod count;
 mod nearest;
 #[cfg(feature = "serde")]
 mod serde;
 mod space;
 
+pub use count::counted;
 pub use nearest::nearest_word;
 pub use space::{Direction, Point};
 

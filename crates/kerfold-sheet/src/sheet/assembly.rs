@@ -28,7 +28,7 @@ pub struct Assembly {
 pub struct AssemblyStep {
     /// The number of the stretch, as on the sheet.
     pub number: usize,
-    /// The piece that this step attaches; nothing when both sides hang together already.
+    /// The piece that this step attaches; nothing when both sides are connected already.
     pub attaches: Option<PieceId>,
 }
 

@@ -224,7 +224,7 @@ pub enum SheetError {
         piece: PieceId,
     },
     /// A character without a glyph.
-    #[error("no glyph for {character:?} in {text:?}; use A-Z, 0-9, space and - . / # + : _ °")]
+    #[error("no glyph for {character:?} in {text:?}; use A-Z, 0-9, space and - . / # + : _ ° %")]
     NoGlyph {
         /// The character.
         character: char,

@@ -91,7 +91,7 @@ impl Speeds {
         }
     }
 
-    /// Estimated seconds on the machine: all lines at their speeds, and the ways between them;
+    /// Estimated seconds on the machine: all lines at their speeds, and the travel moves between them;
     /// without acceleration.
     pub fn seconds(&self, drawing: &Drawing) -> f64 {
         let layers = drawing.layers.iter().filter_map(|l| self.of(l.kind).map(|speed| (l, speed)));
@@ -129,7 +129,7 @@ impl Material {
 }
 
 impl SheetSet {
-    /// Length of the ways between the lines of all sheets, in mm.
+    /// Length of the travel moves of all sheets, in mm.
     pub fn travel_length(&self) -> f64 {
         self.drawings.iter().map(Drawing::travel_length).sum()
     }

@@ -26,7 +26,7 @@ impl Layer {
 }
 
 impl Drawing {
-    /// Length of the ways between the lines, from the lower left corner on, in mm. Nothing is
+    /// Length of the travel moves, from the lower left corner on, in mm. Nothing is
     /// machined on the info layer.
     pub fn travel_length(&self) -> f64 {
         let layers = self.layers.iter().filter(|l| l.kind != LayerKind::Info);

@@ -113,6 +113,18 @@ impl ArtFormat {
 /// # Errors
 /// [`ArtError`] for files that cannot be followed; strange but readable content is left to the
 /// judge.
+///
+/// # Example
+/// ```
+/// use kerfold::io::artwork::read_artwork;
+/// use std::path::Path;
+///
+/// let svg = r#"<svg xmlns="http://www.w3.org/2000/svg" width="50mm" height="30mm"
+///     viewBox="0 0 50 30"><rect x="5" y="5" width="40" height="20"/></svg>"#;
+/// let (_, pages) = read_artwork(Path::new("lid.svg"), svg.as_bytes())?;
+/// assert_eq!((pages.len(), pages[0].paths.len()), (1, 1));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn read_artwork(path: &Path, bytes: &[u8]) -> Result<(ArtFormat, Vec<Artwork>), ArtError> {
     if bytes.iter().all(u8::is_ascii_whitespace) {
         return Err(ArtError::Empty);

@@ -14,6 +14,26 @@ use crate::io::base64::base64;
 use crate::io::number::xml;
 
 /// The page.
+///
+/// # Example
+/// ```
+/// use kerfold::check::details;
+/// use kerfold::io::report::page::{ReportPage, ReportPictures, ReportRows};
+/// use kerfold::io::report::html::check_html;
+/// use kerfold::prelude::*;
+///
+/// let cube = kerfold::shape::cube(40.0);
+/// let page = ReportPage {
+///     title: "cube",
+///     report: &check(&cube, &CheckParams::default())?,
+///     details: &details(&cube),
+///     pictures: &ReportPictures::default(),
+///     rows: ReportRows::default(),
+///     command: "my program",
+/// };
+/// assert!(check_html(&page).starts_with("<!DOCTYPE html>"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn check_html(page: &ReportPage<'_>) -> String {
     let content = content(page);
     let title = xml(content.title);

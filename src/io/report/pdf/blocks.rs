@@ -1,9 +1,8 @@
 //! Tables, charts, cards of panels and terms on paper.
 
 use super::font::Font;
-use super::paper::{Anchor, BAD, INK, LEFT, LINE, Paper, Pen, SOFT, WIDTH};
-use super::raster::Raster;
-use super::{BODY, BOLD, GAP, GUTTER, SMALL, plain, verdict_colour};
+use super::paper::{Anchor, BAD, INK, LEFT, LINE, Paper, Pen, Role, SOFT, WIDTH};
+use super::{BODY, BOLD, GAP, GUTTER, SMALL, picture, plain, verdict_colour};
 use crate::io::report::page::words::verdict;
 use crate::io::report::page::{Block, Chart, PanelCard, Table, Word, Words};
 
@@ -44,30 +43,40 @@ pub(super) fn table(paper: &mut Paper, table: &Table) {
     let cells: Vec<Vec<String>> =
         table.rows.iter().map(|row| row.iter().map(|words| plain(words)).collect()).collect();
     let columns = columns(table, &cells);
-    head(paper, table, &columns);
-    for (row, cells) in table.rows.iter().zip(&cells) {
-        let lines: Vec<Vec<String>> = columns
-            .iter()
-            .zip(cells)
-            .map(|(c, text)| CELL.font.wrap(text, CELL.size, c.room()))
-            .collect();
-        let height = lines.iter().map(Vec::len).max().unwrap_or(1) as f64 * LINE_HEIGHT + ROW_EXTRA;
-        if paper.need(height) {
-            head(paper, table, &columns);
+    paper.part(Role::Table, |paper| {
+        head(paper, table, &columns);
+        for (row, cells) in table.rows.iter().zip(&cells) {
+            table_row(paper, table, &columns, row, cells);
         }
-        for ((column, lines), words) in columns.iter().zip(&lines).zip(row) {
-            for (k, line) in lines.iter().enumerate() {
-                column.write(
-                    paper,
-                    paper.y + (k + 1) as f64 * LINE_HEIGHT - 1.0,
-                    cell_pen(words),
-                    line,
-                );
-            }
-        }
-        paper.y += height;
-        paper.line([LEFT, paper.y], [LEFT + WIDTH, paper.y], LINE, 0.5);
+    });
+}
+
+fn table_row(
+    paper: &mut Paper,
+    table: &Table,
+    columns: &[Column],
+    row: &[Words],
+    cells: &[String],
+) {
+    let wrapped =
+        |(column, text): (&Column, &String)| CELL.font.wrap(text, CELL.size, column.room());
+    let lines: Vec<Vec<String>> = columns.iter().zip(cells).map(wrapped).collect();
+    let height = lines.iter().map(Vec::len).max().unwrap_or(1) as f64 * LINE_HEIGHT + ROW_EXTRA;
+    if paper.need(height) {
+        head(paper, table, columns);
     }
+    paper.part(Role::Row, |paper| {
+        for ((column, lines), words) in columns.iter().zip(&lines).zip(row) {
+            paper.part(Role::Cell, |paper| {
+                for (k, line) in lines.iter().enumerate() {
+                    let base = paper.y + (k + 1) as f64 * LINE_HEIGHT - 1.0;
+                    column.write(paper, base, cell_pen(words), line);
+                }
+            });
+        }
+    });
+    paper.y += height;
+    paper.line([LEFT, paper.y], [LEFT + WIDTH, paper.y], LINE, 0.5);
 }
 
 fn cell_pen(words: &Words) -> Pen {
@@ -79,9 +88,13 @@ fn cell_pen(words: &Words) -> Pen {
 
 fn head(paper: &mut Paper, table: &Table, columns: &[Column]) {
     paper.need(4.0 * (LINE_HEIGHT + ROW_EXTRA));
-    for (column, name) in columns.iter().zip(table.head) {
-        column.write(paper, paper.y + LINE_HEIGHT - 1.0, HEAD, name);
-    }
+    paper.part(Role::Row, |paper| {
+        for (column, name) in columns.iter().zip(table.head) {
+            paper.part(Role::HeadCell, |paper| {
+                column.write(paper, paper.y + LINE_HEIGHT - 1.0, HEAD, name);
+            });
+        }
+    });
     paper.y += LINE_HEIGHT + ROW_EXTRA;
     paper.line([LEFT, paper.y], [LEFT + WIDTH, paper.y], INK, 0.9);
 }
@@ -139,8 +152,12 @@ fn columns(table: &Table, cells: &[Vec<String>]) -> Vec<Column> {
 
 /// Bars with a count above each that is not empty.
 pub(super) fn chart(paper: &mut Paper, chart: &Chart) {
+    paper.need(CHART[0]);
+    paper.part(Role::Figure(chart.axis.to_owned()), |paper| draw_chart(paper, chart));
+}
+
+fn draw_chart(paper: &mut Paper, chart: &Chart) {
     let [height, room, top] = CHART;
-    paper.need(height);
     let base = paper.y + top + room;
     let most = chart.bars.iter().map(|bar| bar.count).max().unwrap_or(0).max(1) as f64;
     let step = WIDTH / chart.bars.len().max(1) as f64;
@@ -197,26 +214,28 @@ fn card_height(card: &PanelCard<'_>) -> f64 {
 fn draw_card(paper: &mut Paper, card: &PanelCard<'_>, x: f64, height: f64) {
     let (top, width) = (paper.y, card_width());
     paper.frame([x, top], [width, height], LINE);
-    paper.text([x + 8.0, top + 16.0], Anchor::Start, BOLD, &card.name);
-    let pen = Pen { colour: verdict_colour(card.is_kept), ..HEAD };
-    paper.text([x + width - 8.0, top + 16.0], Anchor::End, pen, verdict(card.is_kept));
-    let pictures = [&card.pictures.close, &card.pictures.place];
-    for (i, png) in pictures.into_iter().enumerate() {
-        if let Some(raster) = Raster::of_png(png) {
-            paper.image(
-                [x + 8.0 + i as f64 * (picture_width() + 6.0), top + 24.0],
-                picture_width(),
-                raster,
-            );
+    paper.part(Role::Paragraph, |paper| {
+        paper.text([x + 8.0, top + 16.0], Anchor::Start, BOLD, &card.name);
+        let pen = Pen { colour: verdict_colour(card.is_kept), ..HEAD };
+        paper.text([x + width - 8.0, top + 16.0], Anchor::End, pen, verdict(card.is_kept));
+    });
+    let pictures = [(&card.pictures.close, "close"), (&card.pictures.place, "in its place")];
+    for (i, (png, how)) in pictures.into_iter().enumerate() {
+        if let Some(image) = picture(png) {
+            let left = x + 8.0 + i as f64 * (picture_width() + 6.0);
+            let shows = format!("{}, {how}", card.name);
+            paper.image([left, top + 24.0], picture_width(), &image, &shows);
         }
     }
     let mut base = top + 24.0 + 0.75 * picture_width() + CARD_LINE + 2.0;
-    paper.text([x + 8.0, base], Anchor::Start, SMALL, &card.sides);
-    for (figure, unit) in &card.figures {
-        base += CARD_LINE;
-        paper.text([x + width / 2.0 - 3.0, base], Anchor::End, HEAD, &plain(figure));
-        paper.text([x + width / 2.0 + 3.0, base], Anchor::Start, SMALL, unit);
-    }
+    paper.part(Role::Paragraph, |paper| {
+        paper.text([x + 8.0, base], Anchor::Start, SMALL, &card.sides);
+        for (figure, unit) in &card.figures {
+            base += CARD_LINE;
+            paper.text([x + width / 2.0 - 3.0, base], Anchor::End, HEAD, &plain(figure));
+            paper.text([x + width / 2.0 + 3.0, base], Anchor::Start, SMALL, unit);
+        }
+    });
 }
 
 /// Terms on the left, what they mean on the right.
@@ -225,13 +244,15 @@ pub(super) fn terms(paper: &mut Paper, terms: &[(&str, &str)]) {
     for (name, meaning) in terms {
         let lines = BODY.font.wrap(meaning, BODY.size, WIDTH - TERM);
         paper.need(lines.len() as f64 * BODY.leading());
-        for (k, line) in lines.iter().enumerate() {
-            paper.y += BODY.leading();
-            if k == 0 {
-                paper.text([LEFT, paper.y], Anchor::Start, BOLD, name);
+        paper.part(Role::Paragraph, |paper| {
+            for (k, line) in lines.iter().enumerate() {
+                paper.y += BODY.leading();
+                if k == 0 {
+                    paper.text([LEFT, paper.y], Anchor::Start, BOLD, name);
+                }
+                paper.text([LEFT + TERM, paper.y], Anchor::Start, BODY, line);
             }
-            paper.text([LEFT + TERM, paper.y], Anchor::Start, BODY, line);
-        }
+        });
         paper.y += GAP / 2.0;
     }
 }

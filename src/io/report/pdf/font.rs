@@ -1,10 +1,16 @@
-//! Text in the two fonts that every PDF reader has, Helvetica and its bold, so that none is
-//! embedded.
+//! The two fonts of the report, which go into the file as far as they are used: DejaVu Sans
+//! Condensed and its bold, with the letters of Latin, Greek and Cyrillic.
 //!
-//! Widths are those of Adobe's metrics for its core fonts, in thousandths of the size, by code of
-//! the encoding (WinAnsi, which is code page 1252).
+//! Widths and glyphs are read off the fonts. Letters are set one after the other; the languages
+//! that the fonts know need no more.
 
-use std::fmt::Write as _;
+use std::sync::LazyLock;
+
+use krilla::text::{GlyphId, KrillaGlyph};
+use skrifa::charmap::Charmap;
+use skrifa::instance::{LocationRef, Size};
+use skrifa::metrics::GlyphMetrics;
+use skrifa::{FontRef, MetadataProvider as _};
 
 /// One of the two fonts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -13,36 +19,75 @@ pub(super) enum Font {
     Bold,
 }
 
-impl Font {
-    pub(super) const ALL: [Self; 2] = [Self::Regular, Self::Bold];
+/// A font file as it is asked for glyphs.
+struct Face {
+    letters: Charmap<'static>,
+    widths: GlyphMetrics<'static>,
+    units: f32,
+}
 
-    /// Its name in the PDF standard.
-    pub(super) const fn name(self) -> &'static str {
-        match self {
-            Self::Regular => "Helvetica",
-            Self::Bold => "Helvetica-Bold",
+static FACES: LazyLock<[Face; 2]> = LazyLock::new(|| Font::ALL.map(Face::of));
+
+impl Face {
+    fn of(font: Font) -> Self {
+        let file = FontRef::new(font.file()).expect("the font of the house is a font");
+        let units = file.metrics(Size::unscaled(), LocationRef::default()).units_per_em;
+        Self {
+            letters: file.charmap(),
+            widths: file.glyph_metrics(Size::unscaled(), LocationRef::default()),
+            units: f32::from(units),
         }
     }
 
-    /// Its name on our pages.
-    pub(super) const fn short(self) -> &'static str {
+    /// The number of a letter's glyph; 0, which is an empty box, where there is none.
+    fn glyph(&self, letter: char) -> skrifa::GlyphId {
+        self.letters.map(letter).unwrap_or_default()
+    }
+
+    /// How wide a letter is, as a part of the size.
+    fn advance(&self, letter: char) -> f32 {
+        self.widths.advance_width(self.glyph(letter)).unwrap_or_default() / self.units
+    }
+}
+
+impl Font {
+    pub(super) const ALL: [Self; 2] = [Self::Regular, Self::Bold];
+
+    /// The bytes of its file.
+    pub(super) const fn file(self) -> &'static [u8] {
         match self {
-            Self::Regular => "F1",
-            Self::Bold => "F2",
+            Self::Regular => include_bytes!("../../../../assets/fonts/DejaVuSansCondensed.ttf"),
+            Self::Bold => include_bytes!("../../../../assets/fonts/DejaVuSansCondensed-Bold.ttf"),
         }
+    }
+
+    fn face(self) -> &'static Face {
+        &FACES[self as usize]
+    }
+
+    /// Whether it has a glyph for a letter.
+    pub(super) fn has(self, letter: char) -> bool {
+        self.face().letters.map(letter).is_some()
+    }
+
+    /// The glyphs of a text, one for each letter.
+    pub(super) fn glyphs(self, text: &str) -> Vec<KrillaGlyph> {
+        let face = self.face();
+        let glyph = |(at, letter): (usize, char)| {
+            let (number, range) = (face.glyph(letter), at..at + letter.len_utf8());
+            let number = GlyphId::new(number.to_u32());
+            KrillaGlyph::new(number, face.advance(letter), 0.0, 0.0, 0.0, range, None)
+        };
+        text.char_indices().map(glyph).collect()
     }
 
     /// How wide a text is at a size.
     pub(super) fn width(self, text: &str, size: f64) -> f64 {
-        text.chars().map(|c| self.advance(code(c))).sum::<f64>() * size / 1000.0
+        text.chars().map(|letter| self.advance(letter, size)).sum()
     }
 
-    fn advance(self, code: u8) -> f64 {
-        let widths = match self {
-            Self::Regular => &REGULAR,
-            Self::Bold => &BOLD,
-        };
-        f64::from(widths[usize::from(code) - FIRST])
+    fn advance(self, letter: char, size: f64) -> f64 {
+        f64::from(self.face().advance(letter)) * size
     }
 
     /// A text in lines no longer than the room, divided between words; a word that is longer is
@@ -56,15 +101,15 @@ impl Font {
                 lines.push(String::new());
                 used = 0.0;
             }
-            for c in piece.chars() {
-                let wide = self.advance(code(c)) * size / 1000.0;
-                if used > 0.0 && c != ' ' && used + wide > room {
+            for letter in piece.chars() {
+                let wide = self.advance(letter, size);
+                if used > 0.0 && letter != ' ' && used + wide > room {
                     lines.push(String::new());
                     used = 0.0;
                 }
                 used += wide;
                 if let Some(line) = lines.last_mut() {
-                    line.push(c);
+                    line.push(letter);
                 }
             }
         }
@@ -72,90 +117,25 @@ impl Font {
     }
 }
 
-/// The text as a string object, ASCII only.
-pub(super) fn string(text: &str) -> String {
-    let mut out = "(".to_owned();
-    for code in text.trim_end().chars().map(code) {
-        match code {
-            b'(' | b')' | b'\\' => {
-                out.push('\\');
-                out.push(char::from(code));
-            }
-            b' '..=b'~' => out.push(char::from(code)),
-            _ => {
-                let _ = write!(out, "\\{code:03o}");
-            }
-        }
-    }
-    out + ")"
-}
-
-/// The code of a character; signs that the encoding lacks become their nearest kin, letters that it
-/// lacks a question mark.
-fn code(c: char) -> u8 {
-    match c {
-        ' '..='~' => c as u8,
-        '\u{2212}' => 0x96,
-        '\u{a0}'..='\u{ff}' if c != '\u{ad}' => c as u8,
-        _ => HIGH.chars().position(|high| high == c && c != ' ').map_or(b'?', |i| 0x80 + i as u8),
-    }
-}
-
-/// The characters from 0x80 to 0x9f; a space where there is none.
-const HIGH: &str = "€ ‚ƒ„…†‡ˆ‰Š‹Œ Ž  ‘’“”•–—˜™š›œ žŸ";
-
-/// The first code with a width.
-const FIRST: usize = 32;
-
-#[rustfmt::skip]
-const REGULAR: [u16; 224] = [
-    278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278, 278, 556, 556, 556, 556, 556, 556, 556,
-    556, 556, 556, 278, 278, 584, 584, 584, 556, 1015, 667, 667, 722, 722, 667, 611, 778, 722, 278, 500, 667, 556,
-    833, 722, 778, 667, 778, 722, 667, 611, 722, 667, 944, 667, 667, 611, 278, 278, 278, 469, 556, 333, 556, 556, 500,
-    556, 556, 278, 556, 556, 222, 222, 500, 222, 833, 556, 556, 556, 556, 333, 500, 278, 556, 500, 722, 500, 500, 500,
-    334, 260, 334, 584, 0, 556, 0, 222, 556, 333, 1000, 556, 556, 333, 1000, 667, 333, 1000, 0, 611, 0, 0, 222, 222,
-    333, 333, 350, 556, 1000, 333, 1000, 500, 333, 944, 0, 500, 667, 278, 333, 556, 556, 556, 556, 260, 556, 333, 737,
-    370, 556, 584, 333, 737, 333, 400, 584, 333, 333, 333, 556, 537, 278, 333, 333, 365, 556, 834, 834, 834, 611, 667,
-    667, 667, 667, 667, 667, 1000, 722, 667, 667, 667, 667, 278, 278, 278, 278, 722, 722, 778, 778, 778, 778, 778,
-    584, 778, 722, 722, 722, 722, 667, 667, 611, 556, 556, 556, 556, 556, 556, 889, 500, 556, 556, 556, 556, 278, 278,
-    278, 278, 556, 556, 556, 556, 556, 556, 556, 584, 611, 556, 556, 556, 556, 500, 556, 500,
-];
-
-#[rustfmt::skip]
-const BOLD: [u16; 224] = [
-    278, 333, 474, 556, 556, 889, 722, 238, 333, 333, 389, 584, 278, 333, 278, 278, 556, 556, 556, 556, 556, 556, 556,
-    556, 556, 556, 333, 333, 584, 584, 584, 611, 975, 722, 722, 722, 722, 667, 611, 778, 722, 278, 556, 722, 611, 833,
-    722, 778, 667, 778, 722, 667, 611, 722, 667, 944, 667, 667, 611, 333, 278, 333, 584, 556, 333, 556, 611, 556, 611,
-    556, 333, 611, 611, 278, 278, 556, 278, 889, 611, 611, 611, 611, 389, 556, 333, 611, 556, 778, 556, 556, 500, 389,
-    280, 389, 584, 0, 556, 0, 278, 556, 500, 1000, 556, 556, 333, 1000, 667, 333, 1000, 0, 611, 0, 0, 278, 278, 500,
-    500, 350, 556, 1000, 333, 1000, 556, 333, 944, 0, 500, 667, 278, 333, 556, 556, 556, 556, 280, 556, 333, 737, 370,
-    556, 584, 333, 737, 333, 400, 584, 333, 333, 333, 611, 556, 278, 333, 333, 365, 556, 834, 834, 834, 611, 722, 722,
-    722, 722, 722, 722, 1000, 722, 667, 667, 667, 667, 278, 278, 278, 278, 722, 722, 778, 778, 778, 778, 778, 584,
-    778, 722, 722, 722, 722, 667, 667, 611, 556, 556, 556, 556, 556, 556, 889, 556, 556, 556, 556, 556, 278, 278, 278,
-    278, 611, 611, 611, 611, 611, 611, 611, 584, 611, 611, 611, 611, 611, 556, 611, 556,
-];
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn signs_of_reports_have_codes_and_widths() {
-        assert_eq!(
-            string("a (b) 5 ‰ \u{2212}3° “x” 日"),
-            r"(a \(b\) 5 \211 \2263\260 \223x\224 ?)"
-        );
-        assert!((Font::Regular.width("0000", 10.0) - 22.24).abs() < 1e-9);
-        assert!((Font::Bold.width("W", 1000.0) - 944.0).abs() < 1e-9);
+    fn both_fonts_have_the_letters_of_europe_and_the_signs_of_reports() {
+        let text = "Zażółć gęślą jaźń, Κουτί από ξύλο, Коробка из фанеры, Größe, ‰ % ° − – … “x” ²";
         for font in Font::ALL {
-            let codes = (' '..='~').chain('\u{a0}'..='\u{ff}').chain(HIGH.chars()).map(code);
-            assert!(codes.clone().all(|code| font.advance(code) > 0.0));
-            assert_eq!(
-                codes.filter(|&code| code == b'?').count(),
-                2,
-                "the question mark and the soft hyphen"
-            );
+            assert!(text.chars().all(|letter| font.has(letter)), "{font:?}");
+            assert!(text.chars().all(|letter| font.advance(letter, 1.0) > 0.0), "{font:?}");
+            assert!(!font.has('箱'));
+            let glyphs = font.glyphs("aé箱");
+            let ranges: Vec<_> = glyphs.iter().map(|glyph| glyph.text_range.clone()).collect();
+            assert_eq!(ranges, [0..1, 1..3, 3..6]);
+            assert_eq!(glyphs[2].glyph_id, GlyphId::new(0));
+            assert!(glyphs[2].x_advance > 0.0, "what is missing is seen");
         }
+        assert!(Font::Bold.width("W", 10.0) > Font::Regular.width("W", 10.0));
+        assert_eq!(Font::Regular.width("0000", 10.0), 4.0 * Font::Regular.width("7", 10.0));
     }
 
     #[test]

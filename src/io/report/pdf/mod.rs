@@ -1,20 +1,25 @@
 //! The report of `check` as a PDF of A4 pages: the same content as the HTML page, with pictures
 //! inside and charts as lines.
 //!
-//! The file is PDF 1.5 and needs no font but Helvetica, which every reader has; signs beyond
-//! Western European ones become question marks.
+//! The pages are laid out here and written by krilla: tagged, so that programs read headings,
+//! tables and pictures as such, and with the font in the file, so that Greek, Cyrillic and Polish
+//! names are shown as they are. A sign that the font lacks is an empty box, and the end of the
+//! report names it.
 
 mod blocks;
+mod file;
 mod font;
 mod paper;
-mod raster;
 
 #[cfg(test)]
 mod tests;
 
+use krilla::image::Image;
+
 use font::Font;
-use paper::{Anchor, BAD, GOOD, INK, LEFT, LINE, Paper, Pen, Rgb, SOFT, WHITE, WIDTH};
-use raster::Raster;
+use paper::{
+    Anchor, BAD, GOOD, INK, LEFT, LINE, Paper, Pen, Rgb, Role, SOFT, WHITE, WIDTH, aspect,
+};
 
 use super::page::words::{shown, verdict};
 use super::page::{Block, Content, KIND, ReportPage, ReportPicture, Section, Word, content};
@@ -30,32 +35,70 @@ const GAP: f64 = 6.0;
 const GUTTER: f64 = 12.0;
 
 /// The bytes of the PDF.
+///
+/// # Example
+/// ```
+/// use kerfold::check::details;
+/// use kerfold::io::report::page::{ReportPage, ReportPictures, ReportRows};
+/// use kerfold::io::report::pdf::check_pdf;
+/// use kerfold::prelude::*;
+///
+/// let cube = kerfold::shape::cube(40.0);
+/// let page = ReportPage {
+///     title: "cube",
+///     report: &check(&cube, &CheckParams::default())?,
+///     details: &details(&cube),
+///     pictures: &ReportPictures::default(),
+///     rows: ReportRows::default(),
+///     command: "my program",
+/// };
+/// assert!(check_pdf(&page).starts_with(b"%PDF"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn check_pdf(page: &ReportPage<'_>) -> Vec<u8> {
     let content = content(page);
+    file::bytes(&pages(&content), &heading(&content), content.command)
+}
+
+/// The title of the document, at the foot of every page.
+fn heading(content: &Content<'_>) -> String {
+    format!("{}: planarity and valence", content.title)
+}
+
+/// Everything on its pages.
+fn pages(content: &Content<'_>) -> Paper {
     let mut paper = Paper::new();
-    head(&mut paper, &content);
+    head(&mut paper, content);
     views(&mut paper, content.views);
     content.sections.iter().for_each(|part| section(&mut paper, part));
     paper.y += 2.0 * GAP;
     paper.need(3.0 * SMALL.leading());
     paper.line([LEFT, paper.y], [LEFT + WIDTH, paper.y], LINE, 0.6);
-    paper.paragraph(SMALL, &format!("Made by {}", content.command));
-    paper.finish(&format!("{}: planarity and valence", content.title), content.command)
+    paper.colophon(SMALL, content.command);
+    paper.number(&heading(content));
+    paper
+}
+
+/// A picture of ours; `None` for bytes that are none.
+fn picture(png: &[u8]) -> Option<Image> {
+    Image::from_png(png.to_vec().into(), false).ok()
 }
 
 fn head(paper: &mut Paper, content: &Content<'_>) {
-    paper.paragraph(SMALL, &KIND.to_uppercase());
-    paper.paragraph(TITLE, content.title);
+    paper.paragraph(Role::Paragraph, SMALL, &KIND.to_uppercase());
+    paper.paragraph(Role::Title, TITLE, content.title);
     paper.y += GAP;
     let (is_kept, said) = &content.verdict;
     let pen = Pen::new(Font::Bold, 11.0, WHITE);
     let lines = pen.font.wrap(said, pen.size, WIDTH - 20.0);
     let height = lines.len() as f64 * pen.leading() + 12.0;
     paper.fill([LEFT, paper.y], [WIDTH, height], verdict_colour(*is_kept));
-    for (i, line) in lines.iter().enumerate() {
-        let base = paper.y + 6.0 + (i as f64 + 0.78) * pen.leading();
-        paper.text([LEFT + 10.0, base], Anchor::Start, pen, line);
-    }
+    paper.part(Role::Paragraph, |paper| {
+        for (i, line) in lines.iter().enumerate() {
+            let base = paper.y + 6.0 + (i as f64 + 0.78) * pen.leading();
+            paper.text([LEFT + 10.0, base], Anchor::Start, pen, line);
+        }
+    });
     paper.y += height + 2.0 * GAP;
     facts(paper, content);
 }
@@ -71,15 +114,13 @@ fn facts(paper: &mut Paper, content: &Content<'_>) {
         for (i, ((name, _), lines)) in row.iter().zip(&values).enumerate() {
             let x = LEFT + i as f64 * (width + GUTTER);
             paper.line([x, paper.y], [x + width, paper.y], LINE, 0.6);
-            paper.text([x, paper.y + 11.0], Anchor::Start, SMALL, name);
-            for (k, line) in lines.iter().enumerate() {
-                paper.text(
-                    [x, paper.y + 24.0 + k as f64 * BOLD.leading()],
-                    Anchor::Start,
-                    BOLD,
-                    line,
-                );
-            }
+            paper.part(Role::Paragraph, |paper| {
+                paper.text([x, paper.y + 11.0], Anchor::Start, SMALL, name);
+                for (k, line) in lines.iter().enumerate() {
+                    let base = paper.y + 24.0 + k as f64 * BOLD.leading();
+                    paper.text([x, base], Anchor::Start, BOLD, line);
+                }
+            });
         }
         paper.y += 20.0 + tallest as f64 * BOLD.leading();
     }
@@ -94,29 +135,24 @@ fn views(paper: &mut Paper, views: &[ReportPicture]) {
 }
 
 fn row_of_views(paper: &mut Paper, views: &[ReportPicture], width: f64) {
-    let shown: Vec<(Raster, Vec<String>)> = views
-        .iter()
-        .filter_map(|v| {
-            Some((Raster::of_png(&v.png)?, SMALL.font.wrap(&v.caption, SMALL.size, width)))
-        })
-        .collect();
-    let height = |(raster, lines): &(Raster, Vec<String>)| {
-        width * raster.height as f64 / raster.width as f64 + lines.len() as f64 * SMALL.leading()
-    };
-    let tallest = shown.iter().map(height).fold(0.0, f64::max);
+    let shown: Vec<(Image, &str)> =
+        views.iter().filter_map(|v| Some((picture(&v.png)?, v.caption.as_str()))).collect();
+    let lines = |caption: &str| SMALL.font.wrap(caption, SMALL.size, width);
+    let heights = shown.iter().map(|(image, caption)| {
+        width * aspect(image) + lines(caption).len() as f64 * SMALL.leading()
+    });
+    let tallest = heights.fold(0.0, f64::max);
     paper.need(tallest + GAP);
     let top = paper.y;
-    for (i, (raster, lines)) in shown.into_iter().enumerate() {
+    for (i, (image, caption)) in shown.iter().enumerate() {
         let x = LEFT + i as f64 * (width + GUTTER);
-        let below = top + paper.image([x, top], width, raster);
-        for (k, line) in lines.iter().enumerate() {
-            paper.text(
-                [x, below + 3.0 + (k as f64 + 0.8) * SMALL.leading()],
-                Anchor::Start,
-                SMALL,
-                line,
-            );
-        }
+        let below = top + paper.image([x, top], width, image, caption);
+        paper.part(Role::Paragraph, |paper| {
+            for (k, line) in lines(caption).iter().enumerate() {
+                let base = below + 3.0 + (k as f64 + 0.8) * SMALL.leading();
+                paper.text([x, base], Anchor::Start, SMALL, line);
+            }
+        });
     }
     paper.y = top + tallest + 2.0 * GAP;
 }
@@ -127,12 +163,12 @@ fn section(paper: &mut Paper, section: &Section<'_>) {
     paper.need(30.0 + first);
     paper.line([LEFT, paper.y], [LEFT + WIDTH, paper.y], INK, 1.2);
     paper.y += 5.0;
-    paper.paragraph(HEADING, &section.title);
+    paper.paragraph(Role::Heading, HEADING, &section.title);
     for block in &section.blocks {
         paper.y += GAP / 2.0;
         match block {
-            Block::Text(words) => paper.paragraph(BODY, &plain(words)),
-            Block::Note(words) => paper.paragraph(SMALL, &plain(words)),
+            Block::Text(words) => paper.paragraph(Role::Paragraph, BODY, &plain(words)),
+            Block::Note(words) => paper.paragraph(Role::Paragraph, SMALL, &plain(words)),
             Block::Table(rows) => blocks::table(paper, rows),
             Block::Chart(bars) => blocks::chart(paper, bars),
             Block::Panels(cards) => blocks::panels(paper, cards),

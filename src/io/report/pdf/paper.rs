@@ -1,25 +1,22 @@
-//! Pages of A4 that are filled from the top, and the file of them.
+//! Pages of A4 that are filled from the top: what stands where, and what it is.
 //!
 //! Lengths are points (1/72 in). Places are measured from the top left corner of the page, y down.
 
-use std::fmt::Write as _;
+use std::collections::BTreeSet;
 
-use miniz_oxide::deflate::compress_to_vec_zlib;
+use krilla::image::Image;
 
-use super::font::{Font, string};
-use super::raster::Raster;
-use crate::io::number::decimal;
-use crate::io::sheet::pdf::{Objects, text as string_object};
+use super::font::Font;
 
 /// Width and height of A4.
-const PAGE: [f64; 2] = [595.276, 841.89];
+pub(super) const PAGE: [f64; 2] = [595.276, 841.89];
 /// Free borders: at the sides, above, and below, where the foot stands.
 const BORDER: [f64; 3] = [48.0, 48.0, 58.0];
 /// Left end of what is printed, and its width.
 pub(super) const LEFT: f64 = BORDER[0];
 pub(super) const WIDTH: f64 = PAGE[0] - 2.0 * BORDER[0];
-/// How hard streams are packed, 0 to 10.
-const PACKING: u8 = 6;
+/// Width of the lines of frames.
+const FRAME: f64 = 0.6;
 
 /// Colours of the report.
 pub(super) type Rgb = [u8; 3];
@@ -57,17 +54,80 @@ pub(super) enum Anchor {
     End,
 }
 
+/// What a part of the report is, for programs that read it aloud or take it apart.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Role {
+    Title,
+    Heading,
+    Paragraph,
+    Table,
+    Row,
+    HeadCell,
+    Cell,
+    /// A picture, with what it shows in words.
+    Figure(String),
+}
+
+/// A part with the parts and marks in it, in the order in which they are read.
+#[derive(Debug, Default)]
+pub(super) struct Part {
+    pub(super) role: Option<Role>,
+    pub(super) children: Vec<Child>,
+}
+
+/// What is in a part, by number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Child {
+    Part(usize),
+    Mark(usize),
+}
+
+/// One thing on a page.
+#[derive(Debug)]
+pub(super) struct Mark {
+    pub(super) page: usize,
+    pub(super) shape: Shape,
+    /// Whether it belongs to a part; what does not is an ornament.
+    pub(super) is_read: bool,
+}
+
+/// What is drawn.
+#[derive(Debug)]
+pub(super) enum Shape {
+    /// A line of text whose base line begins at a point.
+    Text { at: [f64; 2], pen: Pen, text: String },
+    /// A filled box: its top left corner and its size.
+    Box { at: [f64; 2], size: [f64; 2], colour: Rgb },
+    /// A straight line, dashed or not.
+    Line { ends: [[f64; 2]; 2], colour: Rgb, width: f64, is_dashed: bool },
+    /// A picture: its top left corner and its size.
+    Picture { at: [f64; 2], size: [f64; 2], image: Image },
+}
+
 /// Pages, the last one being filled.
 pub(super) struct Paper {
-    pages: Vec<String>,
-    images: Vec<Raster>,
+    pub(super) pages: usize,
+    pub(super) marks: Vec<Mark>,
+    /// The first is the whole.
+    pub(super) parts: Vec<Part>,
+    /// The parts that are open, the whole first.
+    open: Vec<usize>,
+    /// Letters that a font lacks.
+    missing: BTreeSet<char>,
     /// How far down the last page is filled.
     pub(super) y: f64,
 }
 
 impl Paper {
     pub(super) fn new() -> Self {
-        Self { pages: vec![String::new()], images: Vec::new(), y: BORDER[1] }
+        Self {
+            pages: 1,
+            marks: Vec::new(),
+            parts: vec![Part::default()],
+            open: vec![0],
+            missing: BTreeSet::new(),
+            y: BORDER[1],
+        }
     }
 
     /// What is free on this page.
@@ -79,163 +139,135 @@ impl Paper {
     pub(super) fn need(&mut self, height: f64) -> bool {
         let is_full = self.room() < height && self.y > BORDER[1];
         if is_full {
-            self.pages.push(String::new());
+            self.pages += 1;
             self.y = BORDER[1];
         }
         is_full
     }
 
+    /// Draws a part: the texts and pictures of `draw` belong to it.
+    pub(super) fn part(&mut self, role: Role, draw: impl FnOnce(&mut Self)) {
+        let number = self.parts.len();
+        self.parts.push(Part { role: Some(role), children: Vec::new() });
+        self.add_child(Child::Part(number));
+        self.open.push(number);
+        draw(self);
+        self.open.pop();
+    }
+
+    fn add_child(&mut self, child: Child) {
+        if let Some(&part) = self.open.last() {
+            self.parts[part].children.push(child);
+        }
+    }
+
     /// A line of text whose base line is at a height.
     pub(super) fn text(&mut self, at: [f64; 2], anchor: Anchor, pen: Pen, text: &str) {
-        let page = self.pages.len() - 1;
-        self.text_on(page, at, anchor, pen, text);
+        self.text_on(self.pages - 1, at, anchor, pen, text);
     }
 
     fn text_on(&mut self, page: usize, [x, y]: [f64; 2], anchor: Anchor, pen: Pen, text: &str) {
-        let width = pen.font.width(text.trim_end(), pen.size);
+        let text = text.trim_end();
+        if text.is_empty() {
+            return;
+        }
+        let width = pen.font.width(text, pen.size);
         let x = match anchor {
             Anchor::Start => x,
             Anchor::Middle => x - width / 2.0,
             Anchor::End => x - width,
         };
-        let (font, size) = (pen.font.short(), decimal(pen.size));
-        let (colour, x, y) = (fill(pen.colour), decimal(x), decimal(PAGE[1] - y));
-        let _ = writeln!(
-            self.pages[page],
-            "BT {colour} /{font} {size} Tf {x} {y} Td {} Tj ET",
-            string(text)
-        );
+        self.missing.extend(text.chars().filter(|&letter| !pen.font.has(letter)));
+        let shape = Shape::Text { at: [x, y], pen, text: text.to_owned() };
+        // Outside all parts there is only what every page repeats.
+        self.draw(page, shape, self.open.len() > 1);
     }
 
     /// Text in as many lines as it needs, from page to page.
-    pub(super) fn paragraph(&mut self, pen: Pen, text: &str) {
-        for line in pen.font.wrap(text, pen.size, WIDTH) {
-            self.need(pen.leading());
-            self.y += pen.leading();
-            self.text([LEFT, self.y - 0.3 * pen.size], Anchor::Start, pen, &line);
-        }
+    pub(super) fn paragraph(&mut self, role: Role, pen: Pen, text: &str) {
+        self.part(role, |paper| {
+            for line in pen.font.wrap(text, pen.size, WIDTH) {
+                paper.need(pen.leading());
+                paper.y += pen.leading();
+                paper.text([LEFT, paper.y - 0.3 * pen.size], Anchor::Start, pen, &line);
+            }
+        });
     }
 
     /// A filled box: its top left corner and its size.
-    pub(super) fn fill(&mut self, [x, y]: [f64; 2], [width, height]: [f64; 2], colour: Rgb) {
-        let numbers = [x, PAGE[1] - y - height, width, height].map(decimal).join(" ");
-        self.draw(&format!("{} {numbers} re f", fill(colour)));
+    pub(super) fn fill(&mut self, at: [f64; 2], size: [f64; 2], colour: Rgb) {
+        self.draw(self.pages - 1, Shape::Box { at, size, colour }, false);
     }
 
     /// The border of a box.
     pub(super) fn frame(&mut self, [x, y]: [f64; 2], [width, height]: [f64; 2], colour: Rgb) {
-        let numbers = [x, PAGE[1] - y - height, width, height].map(decimal).join(" ");
-        self.draw(&format!("{} 0.6 w {numbers} re S", stroke(colour)));
+        let corners = [[x, y], [x + width, y], [x + width, y + height], [x, y + height]];
+        for i in 0..4 {
+            self.line(corners[i], corners[(i + 1) % 4], colour, FRAME);
+        }
     }
 
     /// A straight line.
     pub(super) fn line(&mut self, from: [f64; 2], to: [f64; 2], colour: Rgb, width: f64) {
-        let [[a, b], [c, d]] = [from, to].map(|[x, y]| [decimal(x), decimal(PAGE[1] - y)]);
-        self.draw(&format!("{} {} w {a} {b} m {c} {d} l S", stroke(colour), decimal(width)));
+        let shape = Shape::Line { ends: [from, to], colour, width, is_dashed: false };
+        self.draw(self.pages - 1, shape, false);
     }
 
     /// A dashed vertical line.
     pub(super) fn dashes(&mut self, x: f64, from: f64, to: f64, colour: Rgb) {
-        self.draw("[4 2.5] 0 d");
-        self.line([x, from], [x, to], colour, 0.8);
-        self.draw("[] 0 d");
+        let ends = [[x, from], [x, to]];
+        let shape = Shape::Line { ends, colour, width: 0.8, is_dashed: true };
+        self.draw(self.pages - 1, shape, false);
     }
 
-    /// A picture in a frame, as wide as told; its height.
-    pub(super) fn image(&mut self, [x, y]: [f64; 2], width: f64, raster: Raster) -> f64 {
-        let height = width * raster.height as f64 / raster.width as f64;
-        let number = self.images.len();
-        self.images.push(raster);
-        let place = [width, 0.0, 0.0, height, x, PAGE[1] - y - height].map(decimal).join(" ");
-        self.draw(&format!("q {place} cm /I{number} Do Q"));
-        self.frame([x, y], [width, height], LINE);
-        height
+    /// A picture in a frame, as wide as told, with what it shows in words; its height.
+    pub(super) fn image(&mut self, at: [f64; 2], width: f64, image: &Image, shows: &str) -> f64 {
+        let size = [width, width * aspect(image)];
+        self.part(Role::Figure(shows.to_owned()), |paper| {
+            let shape = Shape::Picture { at, size, image: image.clone() };
+            paper.draw(paper.pages - 1, shape, true);
+        });
+        self.frame(at, size, LINE);
+        size[1]
     }
 
-    fn draw(&mut self, operators: &str) {
-        if let Some(page) = self.pages.last_mut() {
-            page.push_str(operators);
-            page.push('\n');
+    fn draw(&mut self, page: usize, shape: Shape, is_read: bool) {
+        if is_read {
+            self.add_child(Child::Mark(self.marks.len()));
         }
+        self.marks.push(Mark { page, shape, is_read });
     }
 
-    /// The file. Every page has the title and its number at its foot.
-    pub(super) fn finish(mut self, title: &str, command: &str) -> Vec<u8> {
+    /// What stands at the end of the report: who made it, and which letters could not be shown.
+    pub(super) fn colophon(&mut self, pen: Pen, command: &str) {
+        self.paragraph(Role::Paragraph, pen, &format!("Made by {command}"));
+        if self.missing.is_empty() {
+            return;
+        }
+        let signs: Vec<String> =
+            self.missing.iter().map(|&sign| format!("U+{:04X}", u32::from(sign))).collect();
+        let note = format!(
+            "Shown as an empty box, since the font of this report has no glyph for it: {}.",
+            signs.join(", ")
+        );
+        self.paragraph(Role::Paragraph, pen, &note);
+    }
+
+    /// Puts the title and its number at the foot of every page.
+    pub(super) fn number(&mut self, title: &str) {
         let pen = Pen::new(Font::Regular, 8.0, SOFT);
-        let (count, y) = (self.pages.len(), PAGE[1] - 32.0);
+        let y = PAGE[1] - 32.0;
         let short: String = title.chars().take(90).collect();
-        for page in 0..count {
+        for page in 0..self.pages {
             self.text_on(page, [LEFT, y], Anchor::Start, pen, &short);
-            let number = format!("Page {} of {count}", page + 1);
+            let number = format!("Page {} of {}", page + 1, self.pages);
             self.text_on(page, [LEFT + WIDTH, y], Anchor::End, pen, &number);
         }
-        self.file(title, command)
-    }
-
-    fn file(&self, title: &str, command: &str) -> Vec<u8> {
-        let mut file = Objects::packed();
-        // 1 the catalogue, 2 the pages, 3 the information, then the fonts, the pictures, and two
-        // objects a page.
-        let fonts = 4;
-        let images = fonts + Font::ALL.len();
-        let page_at = |i: usize| images + self.images.len() + 2 * i;
-        file.add(
-            "<< /Type /Catalog /Pages 2 0 R /Lang (en) /ViewerPreferences << /DisplayDocTitle \
-        true >> >>",
-        );
-        let kids: Vec<String> =
-            (0..self.pages.len()).map(|i| format!("{} 0 R", page_at(i))).collect();
-        let [width, height] = PAGE.map(decimal);
-        let named = |names: Vec<String>, first: usize| -> String {
-            names
-                .iter()
-                .enumerate()
-                .map(|(i, name)| format!(" /{name} {} 0 R", first + i))
-                .collect()
-        };
-        let font_names =
-            named(Font::ALL.iter().map(|font| font.short().to_owned()).collect(), fonts);
-        let image_names = named((0..self.images.len()).map(|i| format!("I{i}")).collect(), images);
-        file.add(&format!(
-            "<< /Type /Pages /Count {} /Kids [{}] /MediaBox [0 0 {width} {height}] \
-             /Resources << /Font <<{font_names} >> /XObject <<{image_names} >> >> >>",
-            kids.len(),
-            kids.join(" ")
-        ));
-        let [title, command] = [title, command].map(string_object);
-        file.add(&format!("<< /Title {title} /Subject {command} /Creator (kerfold) >>"));
-        for font in Font::ALL {
-            let name = font.name();
-            file.add(&format!(
-                "<< /Type /Font /Subtype /Type1 /BaseFont /{name} /Encoding /WinAnsiEncoding >>"
-            ));
-        }
-        for Raster { width, height, rgb } in &self.images {
-            let kind = format!(
-                "/Type /XObject /Subtype /Image /Width {width} /Height {height} /ColorSpace \
-                /DeviceRGB /BitsPerComponent 8 "
-            );
-            file.add_stream(&(kind + "/Filter /FlateDecode"), &compress_to_vec_zlib(rgb, PACKING));
-        }
-        for (i, page) in self.pages.iter().enumerate() {
-            file.add(&format!("<< /Type /Page /Parent 2 0 R /Contents {} 0 R >>", page_at(i) + 1));
-            file.add_stream(
-                "/Filter /FlateDecode",
-                &compress_to_vec_zlib(page.as_bytes(), PACKING),
-            );
-        }
-        file.finish()
     }
 }
 
-fn fill(colour: Rgb) -> String {
-    format!("{} rg", numbers(colour))
-}
-
-fn stroke(colour: Rgb) -> String {
-    format!("{} RG", numbers(colour))
-}
-
-fn numbers(colour: Rgb) -> String {
-    colour.map(|c| decimal(f64::from(c) / 255.0)).join(" ")
+/// Height over width of a picture.
+pub(super) fn aspect(image: &Image) -> f64 {
+    let (width, height) = image.size();
+    f64::from(height) / f64::from(width.max(1))
 }

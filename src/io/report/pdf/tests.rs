@@ -1,3 +1,4 @@
+use super::paper::Shape;
 use super::*;
 use crate::check::{CheckParams, Details, Report, Requirement, check, details};
 use crate::io::report::page::{ReportPictures, ReportRows};
@@ -44,56 +45,54 @@ fn bent() -> Mesh {
     mesh
 }
 
-/// Every stream of a file, unpacked; text as it is, pictures as pixels.
-fn streams(pdf: &[u8]) -> Vec<(String, Vec<u8>)> {
-    let find = |from: usize, what: &[u8]| (from..pdf.len()).find(|&i| pdf[i..].starts_with(what));
-    let (mut found, mut at) = (Vec::new(), 0);
-    while let Some(start) = find(at, b"/Length ") {
-        let begin = find(start, b"stream\n").expect("a stream") + 7;
-        let words = String::from_utf8_lossy(&pdf[start + 8..begin]).into_owned();
-        let length: usize = words.split(' ').next().and_then(|n| n.parse().ok()).expect("a length");
-        let object =
-            (0..start).rev().find(|&i| pdf[i..].starts_with(b"<< ")).expect("a dictionary");
-        let dictionary = String::from_utf8_lossy(&pdf[object..begin]).into_owned();
-        let bytes = miniz_oxide::inflate::decompress_to_vec_zlib(&pdf[begin..begin + length])
-            .expect("packed");
-        found.push((dictionary, bytes));
-        at = begin + length;
-    }
-    found
+/// All texts of the pages.
+fn texts(paper: &Paper) -> Vec<String> {
+    let shown = paper.marks.iter().filter_map(|mark| match &mark.shape {
+        Shape::Text { text, .. } => Some(text.clone()),
+        _ => None,
+    });
+    shown.collect()
 }
 
-/// All strings that are shown, with the codes of signs as they are.
-fn shown_strings(pdf: &[u8]) -> Vec<String> {
-    let pages = streams(pdf).into_iter().filter(|(dictionary, _)| !dictionary.contains("/Image"));
-    let text: String = pages.map(|(_, bytes)| String::from_utf8(bytes).expect("ASCII")).collect();
-    let shown = text.lines().filter_map(|line| line.strip_suffix(" Tj ET")?.split_once(" Td "));
-    shown.map(|(_, string)| string[1..string.len() - 1].to_owned()).collect()
+/// How often a name stands in a file, outside what is packed.
+fn count(pdf: &[u8], name: &str) -> usize {
+    pdf.windows(name.len()).filter(|window| *window == name.as_bytes()).count()
 }
 
 #[test]
-fn the_file_is_whole() {
+fn the_file_is_tagged_has_its_fonts_and_pictures_and_is_the_same_each_time() {
     let made = NewElements::of(&bent());
-    let pdf = check_pdf(&made.page(ReportRows::Worst));
-    assert!(pdf.starts_with(b"%PDF-1.5\n") && pdf.ends_with(b"%%EOF\n"));
-    // The table of places points at every object.
-    let table =
-        (0..pdf.len()).rev().find(|&i| pdf[i..].starts_with(b"\nxref\n")).expect("a table") + 1;
-    let text = String::from_utf8(pdf[table..].to_vec()).expect("ASCII");
-    let places = text.lines().filter_map(|line| line.strip_suffix(" 00000 n "));
-    let mut count = 0;
-    for (i, place) in places.enumerate() {
-        let place: usize = place.parse().expect("a number");
-        assert!(pdf[place..].starts_with(format!("{} 0 obj\n", i + 1).as_bytes()));
-        count += 1;
+    let page = made.page(ReportRows::Worst);
+    let pdf = check_pdf(&page);
+    assert!(pdf.starts_with(b"%PDF-1.7\n") && pdf.trim_ascii_end().ends_with(b"%%EOF"));
+    assert_eq!(pdf, check_pdf(&page), "the same bytes each time");
+    let pictures = 3 + 2 * made.pictures.panels.len();
+    assert!(made.pictures.panels.len() > 1);
+    assert_eq!(count(&pdf, "/Subtype/Image"), pictures);
+    for size in ["/Width 1400/Height 640", "/Width 800/Height 600", "/Width 320/Height 240"] {
+        assert!(count(&pdf, size) > 0, "{size}");
     }
-    assert!(text.contains(&format!("/Size {} ", count + 1)));
-    let images = streams(&pdf).into_iter().filter(|(dictionary, _)| dictionary.contains("/Image"));
-    let sizes: Vec<usize> = images.map(|(_, bytes)| bytes.len()).collect();
-    assert_eq!(sizes[..3], [1400 * 640 * 3, 800 * 600 * 3, 800 * 600 * 3]);
-    assert_eq!(sizes.len(), 3 + 2 * made.pictures.panels.len());
-    assert!(made.pictures.panels.len() > 1 && sizes[3..].iter().all(|&size| size == 320 * 240 * 3));
-    assert_eq!(pdf, check_pdf(&made.page(ReportRows::Worst)), "the same bytes each time");
+    // Two fonts, each with the letters that stand behind its glyphs.
+    assert_eq!((count(&pdf, "/FontFile2"), count(&pdf, "/ToUnicode")), (2, 2));
+    assert_eq!(count(&pdf, "/S/H1"), 1);
+    for role in ["/S/H2", "/S/P", "/S/Table", "/S/TR", "/S/TH", "/S/TD"] {
+        assert!(count(&pdf, role) > 1, "{role}");
+    }
+    let charts = |section: &Section<'_>| {
+        section.blocks.iter().filter(|block| matches!(block, Block::Chart(_))).count()
+    };
+    let charts: usize = content(&page).sections.iter().map(charts).sum();
+    assert_eq!(count(&pdf, "/S/Figure"), pictures + charts);
+}
+
+#[test]
+fn signs_without_a_glyph_are_named_at_the_end() {
+    let made = NewElements::of(&bent());
+    let strange = content(&made.page(ReportRows::Worst));
+    let said = texts(&pages(&strange)).concat();
+    assert!(said.contains("no glyph for it: U+65E5."), "{said}");
+    let known = Content { title: "Zażółć Κουτί Коробка.obj", ..strange };
+    assert!(!texts(&pages(&known)).concat().contains("no glyph"));
 }
 
 #[test]
@@ -101,15 +100,14 @@ fn everything_that_the_content_says_is_on_the_pages() {
     let made = NewElements::of(&bent());
     for rows in [ReportRows::Worst, ReportRows::All] {
         let page = made.page(rows);
-        let shown = shown_strings(&check_pdf(&page));
+        let content = content(&page);
+        let shown = texts(&pages(&content));
         let all = shown.concat();
         let is_there = |text: &str| {
             // Lines end between words: spaces at their ends are not printed.
             let bare = |text: &str| text.replace(' ', "");
-            let string = font::string(text);
-            assert!(bare(&all).contains(&bare(&string[1..string.len() - 1])), "{text} is missing");
+            assert!(bare(&all).contains(&bare(text)), "{text} is missing");
         };
-        let content = content(&page);
         is_there(content.title);
         is_there(&content.verdict.1);
         content
@@ -153,19 +151,15 @@ fn long_tables_go_on_with_their_head_and_nothing_leaves_the_paper() {
     let name = "geodesic-4".parse().expect("a name");
     let mesh = solid(&SolidParams { name, edge: None, size: None }).expect("a solid");
     let made = NewElements::of(&mesh);
-    let pdf = check_pdf(&made.page(ReportRows::All));
-    let shown = shown_strings(&pdf);
-    let heads = shown.iter().filter(|s| s.as_str() == "Conical residual, mm/mm").count();
+    let page = made.page(ReportRows::All);
+    let paper = pages(&content(&page));
+    let heads = texts(&paper).iter().filter(|s| s.as_str() == "Conical residual, mm/mm").count();
     assert!(heads >= 3, "{heads} heads for {} nodes", mesh.vertex_count());
-    for (_, page) in streams(&pdf).iter().filter(|(dictionary, _)| !dictionary.contains("/Image")) {
-        let text = String::from_utf8(page.clone()).expect("ASCII");
-        for line in text.lines().filter_map(|line| line.split_once(" Td ")) {
-            let place: Vec<f64> =
-                line.0.rsplit(' ').take(2).filter_map(|n| n.parse().ok()).collect();
-            assert!(
-                (20.0..820.0).contains(&place[0]) && (40.0..560.0).contains(&place[1]),
-                "{line:?}"
-            );
+    for mark in &paper.marks {
+        if let Shape::Text { at: [x, y], pen, text } = &mark.shape {
+            let right = x + pen.font.width(text, pen.size);
+            assert!((20.0..822.0).contains(y) && *x >= LEFT - 1e-6, "{text} at {x}, {y}");
+            assert!(right <= LEFT + WIDTH + 1e-6, "{text} ends at {right}");
         }
     }
 }

@@ -23,6 +23,15 @@ pub fn layer_name(layer: LayerKind) -> &'static str {
 }
 
 /// The text of one DXF file for a sheet; `command` is the command line that made it.
+///
+/// # Example
+/// ```
+/// use kerfold::io::sheet::dxf::write_dxf;
+///
+/// let coupon = kerfold::sheet::kerf_coupon(3.0, "PLY 3 MM")?;
+/// assert!(write_dxf(&coupon, "my program").trim_end().ends_with("EOF"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn write_dxf(drawing: &Drawing, command: &str) -> String {
     let mut handles = Handles::new();
     let mut entities = Pairs::default();

@@ -24,6 +24,16 @@ struct Page {
 
 /// The bytes of a PDF with the sheet at true size on one page; `command` is the command line that
 /// made it.
+///
+/// # Example
+/// ```
+/// use kerfold::io::sheet::pdf::write_pdf;
+/// use kerfold::sheet::Preset;
+///
+/// let coupon = kerfold::sheet::kerf_coupon(3.0, "PLY 3 MM")?;
+/// assert!(write_pdf(&coupon, Preset::RedCut, "my program").starts_with(b"%PDF"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn write_pdf(drawing: &Drawing, style: impl Into<Style>, command: &str) -> Vec<u8> {
     let style = style.into();
     let mut content = String::new();

@@ -72,6 +72,17 @@ impl Tiling {
 ///
 /// # Errors
 /// [`SheetError::NoGlyph`] never, unless a sheet's name has a letter without a glyph.
+///
+/// # Example
+/// ```
+/// use kerfold::io::sheet::pdf::tiles::write_tiles;
+/// use kerfold::sheet::{Paper, Preset};
+///
+/// let coupon = kerfold::sheet::kerf_coupon(3.0, "PLY 3 MM")?;
+/// let pages = write_tiles(&coupon, Paper::A4, Preset::RedCut, "my program")?;
+/// assert!(pages.starts_with(b"%PDF"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn write_tiles(
     drawing: &Drawing,
     paper: Paper,

@@ -2,7 +2,7 @@
 //! wound.
 //!
 //! Source: Gonen 2007, III.A, made exact and general as `docs/operators.md` says. Three steps for
-//! each plane: *reach* (which vertices lie on the normal side and hang together with the chosen
+//! each plane: *reach* (which vertices lie on the normal side and are connected with the chosen
 //! element), *divide* (faces that lie on both sides are divided along the plane, `divide.rs`),
 //! *close* (the region in front is replaced by caps, `section.rs`).
 //!
@@ -49,7 +49,7 @@ impl SlicingPlane {
 pub enum Reach<'a> {
     /// The whole mesh.
     Global,
-    /// Only the part of the normal side that hangs together with these vertices.
+    /// Only the part of the normal side connected with these vertices.
     Local(&'a [VertexId]),
 }
 
@@ -467,7 +467,7 @@ impl Cutter {
     }
 
     /// Passes the walk on to the corners of a face in front. A rim is left where it leaves the
-    /// front: what hangs together only by a rim does not hang together.
+    /// front: what is connected only by a rim is not connected.
     fn reach_corners(&mut self, plane: &SlicingPlane, f: FaceId, queue: &mut Vec<VertexId>) {
         if self.mesh.is_hole(f) {
             return;

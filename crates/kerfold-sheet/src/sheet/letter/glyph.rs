@@ -5,15 +5,15 @@ use glam::DVec2;
 use crate::geom::polygon::bounds;
 use crate::sheet::error::SheetError;
 
-/// Height of a capital letter in table units; a letter is 4 units wide.
-const CAP: f64 = 6.0;
+/// Height of a capital letter in units of [`glyph`]; a letter is 4 units wide.
+pub const CAPITAL: f64 = 6.0;
 
 /// From one letter to the next, in table units.
 const ADVANCE: f64 = 6.0;
 
 /// Strokes are separated by spaces; each is a row of points, a digit for x (0 to 4) and one for y
 /// (0 to 6) each.
-const TABLE: [(char, &str); 45] = [
+const TABLE: [(char, &str); 46] = [
     (' ', ""),
     ('A', "0004264440 0242"),
     ('B', "00063645443303 3342413000"),
@@ -59,6 +59,7 @@ const TABLE: [(char, &str); 45] = [
     (':', "2122 2425"),
     ('_', "0040"),
     ('°', "1526352415"),
+    ('%', "0046 0616150506 4030314140"),
 ];
 
 /// A line of text as strokes.
@@ -72,23 +73,29 @@ pub struct Lettering {
     pub high: DVec2,
 }
 
+/// The strokes of a character, [`CAPITAL`] units high, with its base line on y = 0; `None` for a
+/// character other than A–Z, 0–9, space and `- . / # + : _ ° %`.
+pub fn glyph(character: char) -> Option<Vec<Vec<DVec2>>> {
+    let (_, strokes) = TABLE.iter().find(|(c, _)| *c == character)?;
+    Some(strokes.split_whitespace().map(points).collect())
+}
+
 /// Letters a text with capitals `height` mm high, from (0, 0) on along x, baseline on y = 0. The
 /// figures 6 and 9 are underlined, so that they can be told apart on a loose piece.
 ///
 /// # Errors
-/// [`SheetError::NoGlyph`] for a character other than A–Z, 0–9, space and `- . / # + : _ °`.
+/// [`SheetError::NoGlyph`] for a character other than A–Z, 0–9, space and `- . / # + : _ ° %`.
 pub fn lettering(text: &str, height: f64) -> Result<Lettering, SheetError> {
-    let unit = height / CAP;
+    let unit = height / CAPITAL;
     let mut strokes = Vec::new();
     for (i, character) in text.chars().enumerate() {
         let origin = DVec2::new(i as f64 * ADVANCE, 0.0);
-        let row = TABLE.iter().find(|(c, _)| *c == character);
-        let (_, glyph) =
-            row.ok_or_else(|| SheetError::NoGlyph { character, text: text.to_owned() })?;
+        let glyph = glyph(character)
+            .ok_or_else(|| SheetError::NoGlyph { character, text: text.to_owned() })?;
         let mut add = |points: Vec<DVec2>| {
             strokes.push(points.into_iter().map(|p| (origin + p) * unit).collect())
         };
-        glyph.split_whitespace().for_each(|stroke| add(points(stroke)));
+        glyph.into_iter().for_each(&mut add);
         if matches!(character, '6' | '9') {
             add(vec![DVec2::new(0.0, -1.5), DVec2::new(4.0, -1.5)]);
         }
@@ -113,7 +120,7 @@ mod tests {
     #[test]
     fn every_glyph_is_drawn_inside_its_box_and_no_two_are_alike() {
         let mut seen = Vec::new();
-        for character in ('A'..='Z').chain('0'..='9').chain("-./#+:_°".chars()) {
+        for character in ('A'..='Z').chain('0'..='9').chain("-./#+:_°%".chars()) {
             let text = character.to_string();
             let letter = lettering(&text, 6.0).expect("in the table");
             assert!(letter.low.x >= 0.0 && letter.high.x <= 4.0 && letter.high.y <= 6.0, "{text}");

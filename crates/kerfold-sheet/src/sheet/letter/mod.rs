@@ -6,7 +6,7 @@ mod params;
 mod piece;
 mod stretch;
 
-pub use glyph::{Lettering, lettering};
+pub use glyph::{CAPITAL, Lettering, glyph, lettering};
 pub use params::{Angles, Labels, LetterParams};
 pub(super) use piece::PieceLettering;
 pub use stretch::Stretch;

@@ -27,7 +27,7 @@ impl Mesh {
     ///
     /// Where the boundary passes a vertex several times, `pairing` may choose how the walks go on:
     /// it is given the boundary half-edges that end there, each with its successor around the
-    /// region, and may permute the successors. The fans that no longer hang together then get
+    /// region, and may permute the successors. The fans that are no longer connected then get
     /// vertices of their own.
     pub fn replace_region(
         &mut self,

@@ -1,0 +1,55 @@
+//! `lint`, `kerf-test` and materials.
+
+use serde_json::Value;
+
+use super::harness::{Folder, good_model, run};
+
+#[test]
+fn lint_tells_what_it_finds_and_passes_our_own_sheets() {
+    let folder = Folder::new("lint");
+    let model = good_model(&folder);
+    let out = folder.path("out");
+    let formats = "dxf,pdf,svg,lbrn2";
+    let ran = run(&[
+        "unfold",
+        &model,
+        "--format",
+        formats,
+        "--material",
+        "ply3",
+        "--tile",
+        "a4",
+        "-o",
+        &out,
+    ]);
+    assert_eq!(ran.code, Some(0), "{}", ran.err);
+    assert!(ran.out.contains("min on the machine for Birch plywood 3 mm"), "{}", ran.out);
+    let sheets = ["svg", "dxf", "pdf"].map(|ending| folder.path(&format!("out/sheet-01.{ending}")));
+    let sheets: Vec<&str> = sheets.iter().map(String::as_str).collect();
+    let ran = run(&[&["lint", "--material", "ply3"], &sheets[..]].concat());
+    assert_eq!((ran.code, ran.err.as_str()), (Some(0), ""), "{}", ran.out);
+    assert_eq!(ran.out.matches("600 × 400 mm: pass").count(), 2, "{}", ran.out);
+    let ran = run(&["lint", "fixtures/lint/14-bow-tie.svg", sheets[0], "--json"]);
+    assert_eq!((ran.code, ran.err.as_str()), (Some(1), ""));
+    let told: Value = serde_json::from_str(&ran.out).expect("JSON");
+    let findings = [0, 1].map(|i| told["files"][i]["findings"].as_array().map(Vec::len));
+    assert_eq!((findings, &told["verdict"]), ([Some(1), Some(0)], &Value::from("fail")));
+    assert_eq!(told["files"][0]["findings"][0]["check"], "self-crossing");
+    assert!(run(&["lint", "--quiet", "fixtures/lint/05-text.svg"]).out.is_empty());
+    for (arguments, words) in [
+        (&["lint", "nothing.svg"][..], "cannot be read"),
+        (&["lint", "fixtures/bad/empty.obj"], "empty"),
+        (&["lint", "fixtures/bad/word.obj"], "neither SVG, DXF nor PDF"),
+        (&["lint", sheets[0], "--gap", "0"], "gap is 0 mm"),
+        (&["lint", sheets[0], "--material", "ply"], "did you mean"),
+        (&["unfold", &model, "--format", "svg,png", "-o", &out], "`png`"),
+        (&["unfold", &model, "--material", "unobtainium", "-o", &out], "known are"),
+        (&["kerf-test", "--thickness", "3mm", "-o", "kerf.png"], ".lbrn2"),
+        (&["kerf-test", "-o", "kerf.svg"], "--thickness"),
+        (&["kerf-test", "--thickness", "0.1mm", "-o", "kerf.svg"], "0.3"),
+    ] {
+        let ran = run(arguments);
+        assert_eq!((ran.code, ran.out.as_str()), (Some(2), ""), "{arguments:?}");
+        assert!(ran.err.contains(words), "{arguments:?}: {}", ran.err);
+    }
+}

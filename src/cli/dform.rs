@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::error::CliError;
+use super::output::Clean;
 use super::run::finish;
 use super::terminal::Terminal;
 use super::{Console, Outcome};
@@ -34,6 +35,8 @@ pub(super) struct DformArgs {
     /// The folder for model, picture, report, pieces and sheets; made if it is missing
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
+    #[command(flatten)]
+    clean: Clean,
 }
 
 pub(super) fn run(args: &DformArgs, console: &Console) -> Result<Outcome, CliError> {
@@ -45,7 +48,7 @@ pub(super) fn run(args: &DformArgs, console: &Console) -> Result<Outcome, CliErr
     let recipe = Recipe { name: None, steps: vec![args.start()?, dform] };
     let job = Job::run(&recipe, Path::new(""), &Terminal::new(console.quiet))
         .map_err(|error| *error.cause)?;
-    finish(&job, None, &args.output, console)
+    finish(&job, None, (&args.output, args.clean), console)
 }
 
 impl DformArgs {

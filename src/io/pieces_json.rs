@@ -71,6 +71,7 @@ pub fn write_pieces_json(net: &Net, command: &str) -> String {
 /// See [`PiecesJsonError`]. Unknown keys are ignored. Whether the net is right is for
 /// [`crate::unfold::prove`] to say.
 pub fn read_pieces_json(text: &str) -> Result<(Net, String), PiecesJsonError> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let value: Value = serde_json::from_str(text).map_err(|e| PiecesJsonError::Syntax {
         line: e.line(),
         column: e.column(),

@@ -134,6 +134,8 @@ const DOORS: &[(&str, &[&str])] = &[
     ("parry3d_f64", &["src/op/hull/convex_parts.rs"]),
     ("i_overlay", &["crates/kerfold-sheet/src/sheet/kerf.rs"]),
     ("tobj", &["src/io/read/obj.rs"]),
+    ("tempfile", &["src/io/output/"]),
+    ("annotate_snippets", &["src/cli/"]),
     ("svg", &["src/io/sheet/svg.rs"]),
     ("sysinfo", &["src/memory.rs"]),
     ("roxmltree", &["src/io/read/artwork/svg.rs"]),

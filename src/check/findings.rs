@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use super::{CheckFinding, CheckKind, Element, Report, Requirement, Unit, short};
 use crate::geom::RoundingBound;
-use crate::measure::{self, edge_length, face_area, face_diameter, self_contact};
+use crate::measure::{self, edge_length, face_diameter, face_width, self_contact};
 use crate::mesh::{EdgeId, FaceId, Mesh, VertexId};
 
 /// Vertices that a message names before it says "and more".
@@ -56,8 +56,7 @@ fn degenerate_face(mesh: &Mesh, f: FaceId, bound: f64) -> Option<CheckFinding> {
         ));
     }
     let diameter = face_diameter(mesh, f);
-    // The width of a triangle over its longest side.
-    let width = if diameter > 0.0 { 2.0 * face_area(mesh, f) / diameter } else { 0.0 };
+    let width = face_width(mesh, f);
     (width <= bound).then(|| {
         let message = format!(
             "face {f} has no area: it is {} mm long and {} mm wide",

@@ -84,16 +84,19 @@ fn both_parts(cut: &CutOf<SliceParams>, console: &Console) -> Result<Outcome, Cl
     let parts =
         slice_both(&read.mesh, &cut.params, &OpContext { made: None, progress: &progress })?;
     console.notes(&read.notes);
+    let mut models = Vec::new();
     for (part, side) in parts.into_iter().zip(["reverse", "normal"]) {
         match part {
             Some((mesh, report)) => {
-                cut.finish(mesh, report.notes("plane"), &beside(&cut.output, side), console)?
+                let (mesh, notes) = cut.resolved(mesh, report.notes("plane"))?;
+                models.push((beside(&cut.output, side), mesh, notes));
             }
             None => console.notes(&[format!(
                 "nothing lies on the {side} side of the plane; no file was written for it"
             )]),
         }
     }
+    console.write_models(&models, Vec::new())?;
     Ok(Outcome::Clean)
 }
 
@@ -112,23 +115,23 @@ impl<T: Args> CutOf<T> {
         let (mesh, report) = operator(&read.mesh, &self.params, &context)?;
         let notes =
             read.notes.iter().map(ToString::to_string).chain(report.notes(element)).collect();
-        self.finish(mesh, notes, &self.output, console)?;
+        let (mesh, notes) = self.resolved(mesh, notes)?;
+        console.write_model(&self.output, &mesh, &notes)?;
         Ok(Outcome::Clean)
     }
 
-    fn finish(
+    /// The mesh with its vertices resolved, where that is asked for, and what to say about it.
+    fn resolved(
         &self,
         mut mesh: Mesh,
         mut notes: Vec<String>,
-        output: &Path,
-        console: &Console,
-    ) -> Result<(), CliError> {
+    ) -> Result<(Mesh, Vec<String>), CliError> {
         if let Some(depth) = self.resolve {
             let params = ResolveParams { depth, ..ResolveParams::default() };
             let (resolved, report) = resolve(&mesh, &params, &OpContext::default())?;
             notes.extend(report.notes());
             mesh = resolved;
         }
-        console.write_model(output, &mesh, &notes)
+        Ok((mesh, notes))
     }
 }

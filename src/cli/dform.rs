@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::error::CliError;
 use super::input::read_model;
+use super::output::Clean;
 use super::run::finish;
 use super::terminal::Terminal;
 use super::{Console, Outcome};
@@ -35,6 +36,8 @@ pub(super) struct DformArgs {
     /// The folder for model, picture, report, pieces and sheets; made if it is missing
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
+    #[command(flatten)]
+    clean: Clean,
 }
 
 pub(super) fn run(args: &DformArgs, console: &Console) -> Result<Outcome, CliError> {
@@ -48,7 +51,7 @@ pub(super) fn run(args: &DformArgs, console: &Console) -> Result<Outcome, CliErr
         .start()?
         .carry_on(&recipe, Path::new(""), &Terminal::new(console.quiet))
         .map_err(|error| *error.cause)?;
-    finish(&job, None, &args.output, console)
+    finish(&job, None, (&args.output, args.clean), console)
 }
 
 impl DformArgs {

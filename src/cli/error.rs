@@ -42,7 +42,7 @@ pub(super) enum CliError {
     #[error(transparent)]
     Step(#[from] MakeError),
     #[error("{}: {error}", path.display())]
-    Recipe { path: PathBuf, error: Box<RecipeError> },
+    Recipe { path: PathBuf, error: Box<RecipeError>, text: String },
     #[error("{}: there are no recipes in this folder; put files that end in .toml into it", path.display())]
     NoRecipes { path: PathBuf },
     #[error("no recipe is named {name}; known are {known}")]

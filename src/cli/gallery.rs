@@ -6,14 +6,15 @@ use std::path::{Path, PathBuf};
 use serde_json::json;
 
 use super::error::CliError;
-use super::output::command_line;
+use super::output::{Clean, command_line, write_into};
 use super::terminal::Terminal;
 use super::{Console, Outcome};
 use crate::code::Coded;
 use crate::gallery::{
     Exhibit, GalleryError, GalleryRecipe, bundled, exhibit, gallery_html, side_by_side,
 };
-use crate::io::output::{OutputFolder, write_file};
+use crate::io::decode_text;
+use crate::io::output::OutputFolder;
 use crate::progress::Progress;
 
 /// Build many recipes side by side and show them on one page: those of the papers' figures, or a
@@ -37,6 +38,8 @@ pub(super) struct GalleryArgs {
     /// The folder for the page index.html and a folder for each recipe; made if it is missing
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
+    #[command(flatten)]
+    clean: Clean,
 }
 
 pub(super) fn run(args: &GalleryArgs, console: &Console) -> Result<Outcome, CliError> {
@@ -48,7 +51,7 @@ pub(super) fn run(args: &GalleryArgs, console: &Console) -> Result<Outcome, CliE
     let terminal = Terminal::new(console.quiet);
     let results = side_by_side(&recipes, &terminal, &|recipe, progress| {
         let (exhibit, outputs) = exhibit(recipe, args.width, progress)?;
-        Ok((exhibit, Console::write_folder(&args.output.join(&recipe.name), outputs)))
+        Ok((exhibit, write_into(&args.output.join(&recipe.name), outputs, args.clean)))
     });
     if terminal.is_cancelled() {
         return Err(CliError::Stopped);
@@ -57,7 +60,8 @@ pub(super) fn run(args: &GalleryArgs, console: &Console) -> Result<Outcome, CliE
     for result in results {
         match result {
             Ok((exhibit, written)) => {
-                written?;
+                let (_, note) = written?;
+                console.notes(note.as_slice());
                 exhibits.push(exhibit);
             }
             Err(failure) => failures.push(failure),
@@ -65,7 +69,10 @@ pub(super) fn run(args: &GalleryArgs, console: &Console) -> Result<Outcome, CliE
     }
     let told: Vec<String> = failures.iter().map(|f| format!("{f} ({})", f.code())).collect();
     let page = args.output.join("index.html");
-    write_file(&page, gallery_html(&exhibits, &told, &command_line()).as_bytes())?;
+    // Where every recipe fails, the folder is made for the page.
+    let mut files = OutputFolder::new(&args.output);
+    files.add("index.html", gallery_html(&exhibits, &told, &command_line()));
+    files.commit()?;
     tell(&exhibits, &told, &page, console)?;
     let total = recipes.len();
     let count = failures.len();
@@ -84,7 +91,7 @@ fn tell(
 ) -> Result<(), CliError> {
     if console.json {
         let rows: Vec<_> = exhibits.iter().map(row).collect();
-        let told = json!({ "command": command_line(), "written": page, "recipes": rows, "failures": failures });
+        let told = json!({ "command": command_line(), "written": page.to_string_lossy(), "recipes": rows, "failures": failures });
         return console.result(&format!("{told:#}\n"));
     }
     let mut text = String::new();
@@ -128,10 +135,8 @@ fn recipes_in(folder: &Path) -> Result<Vec<GalleryRecipe>, CliError> {
     let recipe = |path: PathBuf| {
         let bytes = std::fs::read(&path)
             .map_err(|error| CliError::Unreadable { path: path.clone(), error })?;
-        let text = String::from_utf8(bytes).map_err(|error| CliError::NotText {
-            path: path.clone(),
-            at: error.utf8_error().valid_up_to(),
-        })?;
+        let text =
+            decode_text(&bytes).map_err(|at| CliError::NotText { path: path.clone(), at })?;
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         Ok(GalleryRecipe { name, text, folder: folder.to_owned() })
     };

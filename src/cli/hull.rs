@@ -7,7 +7,6 @@ use super::input::read_model;
 use super::terminal::Terminal;
 use super::{Console, Outcome};
 use crate::io::ReadOptions;
-use crate::io::output::write_file;
 use crate::make::solid_of_planes;
 use crate::mesh::Mesh;
 use crate::op::{HullParams, HullReport, HullStep, OpContext, hull};
@@ -50,11 +49,12 @@ pub(super) fn run(args: &HullArgs, console: &Console) -> Result<Outcome, CliErro
     };
     let pictures: Vec<(PathBuf, Vec<u8>)> =
         report.steps.iter().map(picture).collect::<Result<_, _>>()?;
-    for (path, bytes) in &pictures {
-        write_file(path, bytes)?;
-        notes.push(format!("wrote {}", path.display()));
+    if pictures.is_empty() {
+        console.write_model(&args.output, &mesh, &notes)?;
+        return Ok(Outcome::Clean);
     }
-    console.write_model(&args.output, &mesh, &notes)?;
+    notes.extend(pictures.iter().map(|(path, _)| format!("wrote {}", path.display())));
+    console.write_models(&[(args.output.clone(), mesh, notes)], pictures)?;
     Ok(Outcome::Clean)
 }
 

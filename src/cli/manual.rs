@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap_complete::Shell;
 
 use super::error::CliError;
-use super::output::{command_line, print};
+use super::output::{Clean, command_line, print};
 use super::{Console, Outcome};
 
 /// Print a completion script for a shell
@@ -36,14 +36,14 @@ pub(super) fn completions(args: &CompletionsArgs) -> Result<Outcome, CliError> {
 pub(super) fn man(args: &ManArgs, console: &Console) -> Result<Outcome, CliError> {
     let mut pages = Vec::new();
     collect(&super::command(), "kerfold", &mut pages)?;
-    let written = Console::write_folder(&args.output, pages)?;
+    let written = console.write_folder(&args.output, pages, Clean { clean: false })?;
     if console.json {
         let summary = serde_json::json!({ "command": command_line(), "written": written });
         console.result(&format!("{summary:#}\n"))?;
         return Ok(Outcome::Clean);
     }
     for path in &written {
-        console.result(&format!("wrote {}\n", path.display()))?;
+        console.result(&format!("wrote {}\n", path))?;
     }
     Ok(Outcome::Clean)
 }

@@ -23,6 +23,7 @@ mod reference;
 mod render;
 mod run;
 mod seams;
+mod snippet;
 mod solid;
 mod terminal;
 mod unfold;

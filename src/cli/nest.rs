@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use serde_json::json;
 
 use super::error::CliError;
-use super::output::{command_line, short};
+use super::output::{Clean, command_line, short};
 use super::terminal::Terminal;
 use super::{Console, Outcome};
 use crate::make::{
@@ -33,6 +33,8 @@ pub(super) struct NestArgs {
     /// The folder for pieces.json, layout.json and the sheets; made if it is missing
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
+    #[command(flatten)]
+    clean: Clean,
 }
 
 pub(super) fn run(args: &NestArgs, console: &Console) -> Result<Outcome, CliError> {
@@ -40,8 +42,8 @@ pub(super) fn run(args: &NestArgs, console: &Console) -> Result<Outcome, CliErro
     let sheet = with_material(&args.sheet, Path::new("")).map_err(MakeError::from)?;
     let fabrication = nest_files(&args.nest, &sheet, Path::new(""), &progress)?;
     let command = command_line();
-    let written =
-        Console::write_folder(&args.output, fabrication_outputs(&fabrication, &sheet, &command)?)?;
+    let outputs = fabrication_outputs(&fabrication, &sheet, &command)?;
+    let written = console.write_folder(&args.output, outputs, args.clean)?;
     let notes = fabrication.notes();
     if console.json {
         let layout = &fabrication.sheets.layout;

@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 
 use super::error::CliError;
+use super::snippet::recipe_snippet;
 use crate::code::Coded;
-use crate::io::output::OutputFolder;
-use crate::io::{WriteOptions, write_mesh};
+use crate::io::output::{OutputFolder, write_file, write_files};
+use crate::io::{IoError, MeshFormat, WriteOptions, mesh_bytes};
 use crate::measure::size;
 use crate::mesh::Mesh;
 use crate::units::counted;
@@ -23,6 +24,18 @@ pub(super) struct Console {
     #[arg(long, short, global = true)]
     pub quiet: bool,
 }
+
+/// What becomes of files that an earlier run left in the folder.
+#[derive(Debug, Clone, Copy, clap::Args)]
+pub(super) struct Clean {
+    /// Remove sheets and other files of an earlier run that are no part of this one any more; only
+    /// files that kerfold wrote [default: they stay, and a note names them]
+    #[arg(long)]
+    pub clean: bool,
+}
+
+/// A file that is to be written.
+pub(super) type OutputFile = (PathBuf, Vec<u8>);
 
 impl Console {
     /// Prints a result to standard output.
@@ -47,15 +60,30 @@ impl Console {
         mesh: &Mesh,
         notes: &[String],
     ) -> Result<(), CliError> {
-        let command = command_line();
-        write_mesh(
-            path,
-            mesh,
-            &WriteOptions { command: Some(command.clone()), ..WriteOptions::default() },
-        )?;
+        let (path, bytes) = model_file(path, mesh)?;
+        write_file(&path, &bytes)?;
+        self.show_model(&path, mesh, notes)
+    }
+
+    /// Writes meshes and what belongs to them: all files, or none. None is standard output.
+    pub(super) fn write_models(
+        &self,
+        models: &[(PathBuf, Mesh, Vec<String>)],
+        others: Vec<OutputFile>,
+    ) -> Result<(), CliError> {
+        let mut files = others;
+        for (path, mesh, _) in models {
+            files.push(model_file(path, mesh)?);
+        }
+        write_files(&files)?;
+        models.iter().try_for_each(|(path, mesh, notes)| self.show_model(path, mesh, notes))
+    }
+
+    fn show_model(&self, path: &Path, mesh: &Mesh, notes: &[String]) -> Result<(), CliError> {
         let is_stdout = path == Path::new("-");
         if self.json {
-            let model = model_json(mesh);
+            let (command, model) = (command_line(), model_json(mesh));
+            let path = path.to_string_lossy();
             let written =
                 json!({ "command": command, "written": path, "model": model, "notes": notes });
             let text = format!("{written:#}\n");
@@ -75,17 +103,60 @@ impl Console {
         Ok(())
     }
 
-    /// Writes files into a folder, all or none, and returns their paths.
+    /// Writes files into a folder, all or none, and returns their paths as text; says what an
+    /// earlier run has left there.
     pub(super) fn write_folder(
+        &self,
         folder: &Path,
         outputs: Vec<(String, Vec<u8>)>,
-    ) -> Result<Vec<PathBuf>, CliError> {
-        let mut files = OutputFolder::new(folder);
-        for (name, bytes) in outputs {
-            files.add(name, bytes);
-        }
-        Ok(files.commit()?)
+        clean: Clean,
+    ) -> Result<Vec<String>, CliError> {
+        let (written, note) = write_into(folder, outputs, clean)?;
+        self.notes(note.as_slice());
+        Ok(written)
     }
+}
+
+/// Files that a note names before it says "and more".
+const NAMED: usize = 8;
+
+/// Writes files into a folder, all or none; returns their paths and what to say about files of an
+/// earlier run.
+pub(super) fn write_into(
+    folder: &Path,
+    outputs: Vec<(String, Vec<u8>)>,
+    clean: Clean,
+) -> Result<(Vec<String>, Option<String>), IoError> {
+    let mut files = OutputFolder::new(folder);
+    for (name, bytes) in outputs {
+        files.add(name, bytes);
+    }
+    let written = files.commit()?;
+    if clean.clean {
+        written.remove_stale()?;
+    }
+    let paths = written.paths.iter().map(|path| path.to_string_lossy().into_owned()).collect();
+    let names: Vec<_> = written.stale.iter().filter_map(|path| path.file_name()).collect();
+    let named: Vec<_> = names.iter().take(NAMED).map(|name| name.to_string_lossy()).collect();
+    let more = names.len().saturating_sub(NAMED);
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    let list = format!("{}{more}", named.join(", "));
+    let note = match clean.clean {
+        true => format!("removed from {}, left there by an earlier run: {list}", folder.display()),
+        false => format!(
+            "in {} an earlier run has left what is no part of this one: {list}; --clean removes it",
+            folder.display()
+        ),
+    };
+    Ok((paths, (!names.is_empty()).then_some(note)))
+}
+
+/// A mesh as a file in the format of its path.
+fn model_file(path: &Path, mesh: &Mesh) -> Result<OutputFile, IoError> {
+    let format = MeshFormat::of_path(path)
+        .ok_or_else(|| IoError::UnknownFormat { path: path.to_owned() })?;
+    let options = WriteOptions { command: Some(command_line()), ..WriteOptions::default() };
+    Ok((path.to_owned(), mesh_bytes(format, mesh, &options)?))
 }
 
 /// `dir/half.obj` becomes `dir/half-normal.obj`.
@@ -139,7 +210,8 @@ pub(super) fn short(value: f64) -> String {
 /// shell would need it.
 pub(super) fn command_line() -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./,=:+@%".contains(c);
-    let arguments = std::env::args().skip(1).map(|argument| {
+    let arguments = std::env::args_os().skip(1).map(|argument| {
+        let argument = argument.to_string_lossy().into_owned();
         let is_plain = !argument.is_empty() && argument.chars().all(plain);
         if is_plain { argument } else { format!("'{}'", argument.replace('\'', r"'\''")) }
     });
@@ -158,9 +230,14 @@ pub(super) fn say(line: &str) {
     let _ = writeln!(std::io::stderr(), "{line}");
 }
 
-/// Prints an error with its code.
+/// Prints an error with its code, and the place of a fault in a recipe as compilers show it.
 pub(super) fn complain(error: &CliError) {
     let options =
         error.options().map(|options| format!("; options: {options}")).unwrap_or_default();
     say(&format!("kerfold: {error}{options} ({})", error.code()));
+    if let CliError::Recipe { path, error, text } = error
+        && let Some(snippet) = recipe_snippet(path, text, error)
+    {
+        say(&snippet);
+    }
 }

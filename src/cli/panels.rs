@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::error::CliError;
 use super::input::Input;
-use super::output::{command_line, model_json, model_text, short};
+use super::output::{Clean, command_line, model_json, model_text, short};
 use super::terminal::Terminal;
 use super::unfold::summary_json;
 use super::{Console, Outcome};
@@ -40,6 +40,8 @@ pub(super) struct PanelsArgs {
     /// The folder for schedule, sheets, map and 3D files; made if it is missing
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
+    #[command(flatten)]
+    clean: Clean,
 }
 
 pub(super) fn run(args: &PanelsArgs, console: &Console) -> Result<Outcome, CliError> {
@@ -50,7 +52,8 @@ pub(super) fn run(args: &PanelsArgs, console: &Console) -> Result<Outcome, CliEr
     let settings = PanelSettings { panels: &args.panels, files: &args.files, sheet: &sheet };
     let panelled = panel_model(&read.mesh, &settings, &source, &progress)?;
     let command = command_line();
-    let written = Console::write_folder(&args.output, panel_outputs(&panelled, &sheet, &command)?)?;
+    let outputs = panel_outputs(&panelled, &sheet, &command)?;
+    let written = console.write_folder(&args.output, outputs, args.clean)?;
     let notes: Vec<String> =
         read.notes.iter().map(ToString::to_string).chain(panelled.notes()).collect();
     if console.json {

@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 use serde_json::json;
 
 use super::error::CliError;
-use super::output::{command_line, model_json, model_text};
+use super::output::{Clean, command_line, model_json, model_text};
 use super::panels::{panels_json, panels_text};
 use super::terminal::Terminal;
 use super::unfold::{summary_json, summary_text};
 use super::{Console, Outcome};
+use crate::io::decode_text;
 use crate::make::Fabrication;
 use crate::recipe::{Job, Recipe, job_outputs};
 use crate::sheet::SheetParams;
@@ -24,6 +25,8 @@ pub(super) struct RunArgs {
     /// The folder for everything that the recipe makes; made if it is missing
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
+    #[command(flatten)]
+    clean: Clean,
 }
 
 pub(super) fn run(args: &RunArgs, console: &Console) -> Result<Outcome, CliError> {
@@ -31,18 +34,18 @@ pub(super) fn run(args: &RunArgs, console: &Console) -> Result<Outcome, CliError
     let folder = args.recipe.parent().unwrap_or(Path::new(""));
     let job = Job::run(&recipe, folder, &Terminal::new(console.quiet))
         .map_err(|error| CliError::RecipeStep { path: args.recipe.clone(), error })?;
-    finish(&job, recipe.name, &args.output, console)
+    finish(&job, recipe.name, (&args.output, args.clean), console)
 }
 
 /// Writes everything that a job has made into a folder and tells about it.
 pub(super) fn finish(
     job: &Job,
     name: Option<String>,
-    folder: &Path,
+    (folder, clean): (&Path, Clean),
     console: &Console,
 ) -> Result<Outcome, CliError> {
     let command = command_line();
-    let written = Console::write_folder(folder, job_outputs(job, &command)?)?;
+    let written = console.write_folder(folder, job_outputs(job, &command)?, clean)?;
     if let (false, Some(made)) = (job.has_mesh(), &job.fabrication) {
         return nested(made, job, (name, &command, &written), console);
     }
@@ -71,7 +74,7 @@ pub(super) fn finish(
             &job.fabrication.as_ref().map_or_else(String::new, |(f, sheet)| summary_text(f, sheet));
         text += &panelled.map_or_else(String::new, panels_text);
         for path in &written {
-            text += &format!("wrote {}\n", path.display());
+            text += &format!("wrote {path}\n");
         }
         console.result(&text)?;
     }
@@ -85,7 +88,7 @@ pub(super) fn finish(
 fn nested(
     (fabrication, sheet): &(Fabrication, SheetParams),
     job: &Job,
-    (name, command, written): (Option<String>, &str, &[PathBuf]),
+    (name, command, written): (Option<String>, &str, &[String]),
     console: &Console,
 ) -> Result<Outcome, CliError> {
     if console.json {
@@ -95,8 +98,7 @@ fn nested(
     } else {
         console.notes(&job.notes);
         let name = name.map_or_else(String::new, |name| name + "\n");
-        let paths: String =
-            written.iter().map(|path| format!("wrote {}\n", path.display())).collect();
+        let paths: String = written.iter().map(|path| format!("wrote {path}\n")).collect();
         console.result(&format!("{name}{}{paths}", summary_text(fabrication, sheet)))?;
     }
     Ok(Outcome::Clean)
@@ -105,10 +107,11 @@ fn nested(
 fn read_recipe(path: &Path) -> Result<Recipe, CliError> {
     let bytes = std::fs::read(path)
         .map_err(|error| CliError::Unreadable { path: path.to_owned(), error })?;
-    let text = String::from_utf8(bytes).map_err(|error| CliError::NotText {
+    let text =
+        decode_text(&bytes).map_err(|at| CliError::NotText { path: path.to_owned(), at })?;
+    Recipe::parse(&text).map_err(|error| CliError::Recipe {
         path: path.to_owned(),
-        at: error.utf8_error().valid_up_to(),
-    })?;
-    Recipe::parse(&text)
-        .map_err(|error| CliError::Recipe { path: path.to_owned(), error: Box::new(error) })
+        error: Box::new(error),
+        text,
+    })
 }

@@ -16,7 +16,8 @@ static START: OnceLock<Instant> = OnceLock::new();
 const FIRST_MS: u64 = 1000;
 const EVERY_MS: u64 = 200;
 
-/// The first Ctrl-C asks the work to stop cleanly; the second ends the process.
+/// The first Ctrl-C asks the work to stop cleanly; the second ends the process. SIGTERM and SIGHUP,
+/// as job schedulers and closed terminals send them, count as Ctrl-C.
 pub(super) fn watch_for_ctrl_c() {
     START.get_or_init(Instant::now);
     // Without a handler Ctrl-C simply ends the process, which is fine: files are written beside and

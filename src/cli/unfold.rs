@@ -6,7 +6,7 @@ use serde_json::json;
 
 use super::error::CliError;
 use super::input::Input;
-use super::output::{command_line, model_text, short};
+use super::output::{Clean, command_line, model_text, short};
 use super::terminal::Terminal;
 use super::{Console, Outcome};
 use crate::make::{
@@ -37,6 +37,8 @@ pub(super) struct UnfoldArgs {
     /// The folder for pieces.json, layout.json and the sheets; made if it is missing
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
+    #[command(flatten)]
+    clean: Clean,
 }
 
 pub(super) fn run(args: &UnfoldArgs, console: &Console) -> Result<Outcome, CliError> {
@@ -56,7 +58,7 @@ pub(super) fn run(args: &UnfoldArgs, console: &Console) -> Result<Outcome, CliEr
         &RenderParams::default(),
         &command,
     )?);
-    let written = Console::write_folder(&args.output, outputs)?;
+    let written = console.write_folder(&args.output, outputs, args.clean)?;
     let stopped = progress
         .is_cancelled()
         .then(|| "stopped on request; the files hold the best net so far".to_owned());

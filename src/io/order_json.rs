@@ -162,6 +162,7 @@ impl Order {
             column: e.column(),
             message: e.to_string().split(" at line ").next().unwrap_or_default().to_owned(),
         };
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let file: File = serde_json::from_str(text).map_err(syntax)?;
         if let Some(found) = file.units.filter(|u| u != "mm") {
             return Err(OrderError::Units { found });

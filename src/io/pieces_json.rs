@@ -97,6 +97,7 @@ pub fn write_pieces_json(net: &Net, command: &str) -> String {
 /// assert!(error.to_string().contains("pieces.json"), "{error}");
 /// ```
 pub fn read_pieces_json(text: &str) -> Result<(Net, String), PiecesJsonError> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let value: Value = serde_json::from_str(text).map_err(|e| PiecesJsonError::Syntax {
         line: e.line(),
         column: e.column(),

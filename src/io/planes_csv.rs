@@ -112,7 +112,7 @@ fn on_lines(lines: &[usize]) -> String {
 /// # Errors
 /// [`PlanesError`] with file and line.
 pub fn read_planes(file: &Path) -> Result<PlaneFile, PlanesError> {
-    let text = std::fs::read_to_string(file)
+    let text = super::read_text(file)
         .map_err(|source| PlanesError::Read { file: file.to_owned(), source })?;
     parse_planes(&text, file)
 }

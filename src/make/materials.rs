@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crate::code::codes;
+use crate::io::read_text;
 use crate::sheet::{Material, SheetError, SheetParams};
 use crate::units::nearest_word;
 
@@ -71,7 +72,7 @@ pub fn material(name: &str, file: Option<&Path>) -> Result<Material, MaterialErr
     let mut table = read(BUNDLED, Path::new("the bundled table"))?;
     if let Some(path) = file {
         let unreadable = |source| MaterialError::Unreadable { path: path.to_owned(), source };
-        table.extend(read(&std::fs::read_to_string(path).map_err(unreadable)?, path)?);
+        table.extend(read(&read_text(path).map_err(unreadable)?, path)?);
     }
     let Some(found) = table.remove(name) else {
         let known = || table.keys().map(String::as_str);

@@ -8,6 +8,7 @@ use serde::Deserialize;
 use super::{Fabrication, MakeError};
 use crate::code::codes;
 use crate::io::order_json::{Order, OrderError};
+use crate::io::read_text;
 use crate::net::{Net, Piece};
 use crate::progress::Progress;
 use crate::sheet::{PieceKind, SheetParams, lay_out_watched};
@@ -108,7 +109,7 @@ pub fn nest_files(
     let mut order = Order::default();
     for name in &step.pieces {
         let path = folder.join(name);
-        let text = match std::fs::read_to_string(&path) {
+        let text = match read_text(&path) {
             Ok(text) => text,
             Err(error) => return Err(NestError::Unreadable { path, error }.into()),
         };

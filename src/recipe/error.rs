@@ -78,6 +78,29 @@ pub enum RecipeError {
     NoSteps,
 }
 
+impl RecipeError {
+    /// Where the fault is; `None` when the recipe as a whole is meant.
+    pub fn at(&self) -> Option<Position> {
+        match self {
+            Self::Syntax { at, .. }
+            | Self::UnknownKey { at, .. }
+            | Self::NoVerb { at, .. }
+            | Self::TwoVerbs { at, .. }
+            | Self::BadValue { at, .. } => Some(*at),
+            Self::NoSteps => None,
+        }
+    }
+
+    /// What to do about it in a few words, where there are some.
+    pub fn advice(&self) -> Option<&str> {
+        match self {
+            Self::UnknownKey { advice, .. } => Some(advice),
+            Self::TwoVerbs { .. } => Some("make two steps of it"),
+            _ => None,
+        }
+    }
+}
+
 codes!(error RecipeError {
     Syntax = 701,
     UnknownKey = 702,

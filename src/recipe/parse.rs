@@ -20,6 +20,7 @@ impl Recipe {
     /// # Errors
     /// [`RecipeError`] with line and column, and the nearest known name for an unknown one.
     pub fn parse(text: &str) -> Result<Self, RecipeError> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let source = RecipeText { text };
         let table = DeTable::parse(text).map_err(|e| source.syntax(&e))?;
         let mut recipe = Self { name: None, steps: Vec::new() };
@@ -68,7 +69,12 @@ struct Entry<'a> {
 
 impl RecipeText<'_> {
     fn position(&self, offset: usize) -> Position {
-        let before = &self.text[..offset.min(self.text.len())];
+        let mut end = offset.min(self.text.len());
+        // Not every span of the TOML reader ends between characters.
+        while !self.text.is_char_boundary(end) {
+            end -= 1;
+        }
+        let before = &self.text[..end];
         let line_start = before.rfind('\n').map_or(0, |i| i + 1);
         Position {
             line: before.matches('\n').count() + 1,
@@ -192,11 +198,26 @@ impl StepFields<'_> {
         }
     }
 
-    fn value_text<'t>(&'t self, entry: &Entry<'_>, span: &Range<usize>) -> &'t str {
-        let text = &self.source.text[span.clone()];
+    /// The value as it stands in the text. A key with a dot and a table with a header of its own
+    /// have no such place, and no step takes them.
+    fn value_text<'t>(&'t self, entry: &Entry<'_>) -> Result<&'t str, RecipeError> {
+        let opening = match entry.value.get_ref() {
+            DeValue::Table(_) => "{",
+            DeValue::Array(_) => "[",
+            _ => "",
+        };
+        let text = self.source.text.get(entry.value.span()).filter(|t| t.starts_with(opening));
+        // `[[step.key]]` begins with a bracket, too.
+        let Some(text) = text.filter(|t| !t.starts_with("[[step.")) else {
+            let message = format!(
+                "`{0}` takes a value, not a table; write {0} = …, without a dot after it",
+                entry.key
+            );
+            return Err(self.source.bad(entry.key_span.clone(), &message));
+        };
         let words = if entry.key == self.verb.key { self.step.words } else { &[] };
         let word = words.iter().find(|(word, _)| *word == text);
-        word.map_or(text, |(_, switch)| switch)
+        Ok(word.map_or(text, |(_, switch)| switch))
     }
 
     /// Reads one parameter struct from those entries that are its fields. Each value is read from
@@ -212,11 +233,14 @@ impl StepFields<'_> {
             }
             let span = entry.value.span();
             let start = document.len();
-            document += &format!("{field} = {}\n", self.value_text(entry, &span));
+            document += &format!("{field} = {}\n", self.value_text(entry)?);
             places.push((start..document.len(), span.start));
         }
         let deserializer =
-            toml::Deserializer::parse(&document).map_err(|e| self.source.syntax(&e))?;
+            toml::Deserializer::parse(&document).map_err(|e| {
+                // Each value was read once; only together they can be wrong.
+                self.source.bad(self.span.clone(), e.message())
+            })?;
         T::deserialize(deserializer).map_err(|e| {
             // What is wrong with the step as a whole, such as a missing field, spans all of its
             // text or none of it.

@@ -97,6 +97,8 @@ fn mistakes_are_named_with_line_column_and_the_nearest_name() {
             "line 5, column 10: ",
         ),
         ("[[step]\nsolid = 1", "line 1, column "),
+        ("[[step]]\nsolid = \"ä\"\nsize.x=\"ü\"", "line 3, column 1: `size` takes a value"),
+        ("[[step]]\nsolid = \"cube\"\n[[step.size]]\n", "line 3, column 8: `size` takes a value"),
         ("step = 3", "line 1, column 8: steps are written [[step]], with two brackets"),
     ] {
         let message = message(text);

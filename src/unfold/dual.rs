@@ -249,6 +249,10 @@ impl FlatPolygon {
         let face = f.index();
         let points = mesh.face_positions(f);
         let no_area = UnfoldError::FaceWithoutArea { face };
+        // As `check` has it: a corner on the line of the others up to rounding is no area.
+        if measure::face_width(mesh, f) <= rounding {
+            return Err(no_area);
+        }
         let plane = Plane::newell(&points).filter(|_| points.len() >= 3).ok_or(no_area.clone())?;
         let diameter = 2.0 * points.iter().map(|p| p.distance(plane.point())).fold(0.0, f64::max);
         let next = |i: usize| points[(i + 1) % points.len()];

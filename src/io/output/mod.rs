@@ -4,12 +4,19 @@
 //! does so for several files at once: all are written before the first is renamed, and when a
 //! rename fails, the earlier ones are undone.
 
-use std::fs::{self, File, Metadata, OpenOptions};
+use std::fs::{self, File, Metadata};
 use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU32, Ordering};
+
+use tempfile::{NamedTempFile, TempPath};
 
 use super::IoError;
+
+mod stale;
+
+/// The letters and digits of temporary names, drawn by the system's randomness: runs in containers
+/// that share a folder and not their process numbers never meet.
+const RANDOM_LETTERS: usize = 12;
 
 /// Writes `bytes` to `path`: whole, or not at all. An existing file is replaced and keeps its
 /// permissions; a device or a pipe (`/dev/null`) is written to as it is. `-` is standard output.
@@ -28,7 +35,49 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), IoError> {
     if target.is_device() {
         return fs::write(path, bytes).map_err(|source| unwritable(path, source));
     }
-    Staged::write(target, bytes)?.publish()
+    publish_all(vec![Staged::write(target, bytes)?])
+}
+
+/// Writes several files, each to its path: all of them, or none, as [`OutputFolder::commit`] does
+/// in one folder. The folders must exist.
+///
+/// # Errors
+/// As [`write_file`].
+pub fn write_files(files: &[(PathBuf, Vec<u8>)]) -> Result<(), IoError> {
+    let mut staged = Vec::with_capacity(files.len());
+    for (path, bytes) in files {
+        check_parent(path)?;
+        staged.push(Staged::write(Target::of(path)?, bytes)?);
+    }
+    publish_all(staged)
+}
+
+/// What [`OutputFolder::commit`] has done.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Written {
+    /// The files, in the order in which they were added.
+    pub paths: Vec<PathBuf>,
+    /// Files of an earlier run that are no part of this one: sheets beyond the last, parts that are
+    /// gone, formats not asked for any more. By name, in the same folder.
+    pub stale: Vec<PathBuf>,
+}
+
+impl Written {
+    /// Removes the files of an earlier run.
+    ///
+    /// # Errors
+    /// When the system refuses; the files before are gone by then.
+    pub fn remove_stale(&self) -> Result<(), IoError> {
+        for path in &self.stale {
+            match fs::remove_file(path) {
+                Err(source) if source.kind() != ErrorKind::NotFound => {
+                    return Err(unwritable(path, source));
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
 }
 
 /// Collects the files of one run and writes them into a folder together: all of them, or none.
@@ -63,14 +112,14 @@ impl OutputFolder {
         self.files.iter().map(|(name, _)| name.as_str())
     }
 
-    /// Writes all files, making the folder and its parents when they are missing, and returns their
-    /// paths. Other files in the folder stay as they are.
+    /// Writes all files, making the folder and its parents when they are missing. Other files in the
+    /// folder stay as they are; those of an earlier run are named in the result.
     ///
     /// # Errors
     /// When the folder cannot be made, a folder stands where a file should go, or the system
     /// refuses. Then new folders and files are removed again, and files that were there before are
     /// as before.
-    pub fn commit(self) -> Result<Vec<PathBuf>, IoError> {
+    pub fn commit(self) -> Result<Written, IoError> {
         let made = MadeFolders::make(&self.folder)?;
         let mut staged = Vec::with_capacity(self.files.len());
         for (name, bytes) in &self.files {
@@ -78,35 +127,73 @@ impl OutputFolder {
         }
         publish_all(staged)?;
         made.keep();
-        Ok(self.files.iter().map(|(name, _)| self.folder.join(name)).collect())
+        let names: Vec<&str> = self.names().collect();
+        Ok(Written {
+            paths: names.iter().map(|name| self.folder.join(name)).collect(),
+            stale: stale::of_earlier_runs(&self.folder, &names),
+        })
     }
 }
 
-/// Renames all staged files to their places; undoes the earlier renames when one fails.
+/// Renames all staged files to their places; undoes the earlier renames when one fails. The files
+/// are on the disk before, and the names when this returns: a power cut leaves the old or the new.
 fn publish_all(staged: Vec<Staged>) -> Result<(), IoError> {
     let mut backups = Vec::with_capacity(staged.len());
-    for file in &staged {
-        backups.push(file.target.back_up()?);
+    if staged.len() > 1 {
+        for file in &staged {
+            backups.push(file.target.back_up()?);
+        }
     }
     let places: Vec<PathBuf> = staged.iter().map(|file| file.target.path.clone()).collect();
     for (i, file) in staged.into_iter().enumerate() {
         if let Err(error) = file.publish() {
-            places[..i]
-                .iter()
-                .zip(&mut backups)
-                .for_each(|(place, backup)| restore(place, backup.as_mut()));
+            for (place, backup) in places[..i].iter().zip(&mut backups) {
+                restore(place, backup.take());
+            }
             return Err(error);
         }
     }
+    let mut folders: Vec<&Path> = places.iter().filter_map(|place| place.parent()).collect();
+    folders.sort_unstable();
+    folders.dedup();
+    folders.into_iter().for_each(sync_folder);
     Ok(())
 }
 
 /// Puts back what was at `place` before. When even that fails, the backup stays beside its place.
-fn restore(place: &Path, backup: Option<&mut Temporary>) {
+fn restore(place: &Path, backup: Option<TempPath>) {
     match backup {
-        Some(backup) => backup.is_kept = fs::rename(&backup.path, place).is_err(),
+        Some(backup) => {
+            if let Err(failed) = backup.persist(place) {
+                drop(failed.path.keep());
+            }
+        }
         None => drop(fs::remove_file(place)),
     }
+}
+
+/// Brings the names in a folder to the disk, where the system can do so; the files are written
+/// whether or not.
+fn sync_folder(folder: &Path) {
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    if cfg!(unix) {
+        drop(File::open(folder).and_then(|folder| folder.sync_all()));
+    }
+}
+
+/// The folder of a file that is to be written.
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// Makes something beside `path` under a name that nothing has; it is removed when dropped.
+fn beside<T>(
+    path: &Path,
+    make: impl FnMut(&Path) -> std::io::Result<T>,
+) -> std::io::Result<NamedTempFile<T>> {
+    let mut names = tempfile::Builder::new();
+    names.prefix(".kerfold-").suffix(".tmp").rand_bytes(RANDOM_LETTERS);
+    names.make_in(folder_of(path), make)
 }
 
 /// Where a file should go, and what is there now.
@@ -133,75 +220,51 @@ impl Target {
     }
 
     /// A second name (or a copy) of the file that is there now.
-    fn back_up(&self) -> Result<Option<Temporary>, IoError> {
+    fn back_up(&self) -> Result<Option<TempPath>, IoError> {
         if self.existing.is_none() {
             return Ok(None);
         }
-        let backup = Temporary::beside(&self.path);
-        let saved = fs::hard_link(&self.path, &backup.path)
-            .or_else(|_| fs::copy(&self.path, &backup.path).map(drop));
-        saved.map_err(|source| unwritable(&self.path, source)).map(|()| Some(backup))
+        let backup = beside(&self.path, |backup| match fs::hard_link(&self.path, backup) {
+            Err(error) if error.kind() != ErrorKind::AlreadyExists => {
+                fs::copy(&self.path, backup).map(drop)
+            }
+            linked => linked,
+        });
+        let backup = backup.map_err(|source| unwritable(&self.path, source))?;
+        Ok(Some(backup.into_temp_path()))
     }
 }
 
 /// A file that is written, but not yet in its place.
 struct Staged {
-    temporary: Temporary,
+    temporary: TempPath,
     target: Target,
 }
 
 impl Staged {
     fn write(target: Target, bytes: &[u8]) -> Result<Self, IoError> {
-        let temporary = Temporary::beside(&target.path);
-        let written =
-            OpenOptions::new().write(true).create_new(true).open(&temporary.path).and_then(
-                |file| {
-                    fill(file, bytes)?;
-                    target.existing.as_ref().map_or(Ok(()), |there| {
-                        fs::set_permissions(&temporary.path, there.permissions())
-                    })
-                },
-            );
-        match written {
-            Ok(()) => Ok(Self { temporary, target }),
+        match Self::written(&target, bytes) {
+            Ok(temporary) => Ok(Self { temporary, target }),
             Err(source) => Err(unwritable(&target.path, source)),
         }
     }
 
-    fn publish(mut self) -> Result<(), IoError> {
-        fs::rename(&self.temporary.path, &self.target.path)
-            .map_err(|source| unwritable(&self.target.path, source))?;
-        self.temporary.is_kept = true;
-        Ok(())
-    }
-}
-
-fn fill(mut file: File, bytes: &[u8]) -> std::io::Result<()> {
-    file.write_all(bytes)?;
-    file.flush()
-}
-
-/// A file under a temporary name; removed when dropped, unless it is kept.
-struct Temporary {
-    path: PathBuf,
-    is_kept: bool,
-}
-
-impl Temporary {
-    fn beside(path: &Path) -> Self {
-        static COUNT: AtomicU32 = AtomicU32::new(0);
-        let number = COUNT.fetch_add(1, Ordering::Relaxed);
-        let path = path.with_file_name(format!(".kerfold-{}-{number}.tmp", std::process::id()));
-        Self { path, is_kept: false }
-    }
-}
-
-impl Drop for Temporary {
-    fn drop(&mut self) {
-        if !self.is_kept {
-            // It may never have been made.
-            drop(fs::remove_file(&self.path));
+    fn written(target: &Target, bytes: &[u8]) -> std::io::Result<TempPath> {
+        // Made as any program makes files, so that new ones have the permissions that the user
+        // wants for them.
+        let mut file = beside(&target.path, |path| File::create_new(path))?;
+        file.as_file_mut().write_all(bytes)?;
+        if let Some(there) = &target.existing {
+            file.as_file().set_permissions(there.permissions())?;
         }
+        file.as_file().sync_all()?;
+        Ok(file.into_temp_path())
+    }
+
+    fn publish(self) -> Result<(), IoError> {
+        self.temporary
+            .persist(&self.target.path)
+            .map_err(|failed| unwritable(&self.target.path, failed.error))
     }
 }
 

@@ -114,8 +114,9 @@ fn a_folder_is_made_and_filled_at_once() {
     folder.add("a.svg", "two");
     assert_eq!(folder.names().collect::<Vec<_>>(), ["a.svg", "b.svg"]);
     assert!(scratch.names().is_empty());
-    let paths = folder.commit().expect("written");
-    assert_eq!(paths, [scratch.path("out/deep/a.svg"), scratch.path("out/deep/b.svg")]);
+    let written = folder.commit().expect("written");
+    assert_eq!(written.stale, [PathBuf::new(); 0]);
+    assert_eq!(written.paths, [scratch.path("out/deep/a.svg"), scratch.path("out/deep/b.svg")]);
     assert_eq!(scratch.text("out/deep/a.svg"), "two");
 }
 
@@ -158,4 +159,55 @@ fn a_rename_that_fails_undoes_the_ones_before() {
         (scratch.names(), scratch.text("a")),
         (vec!["a".to_owned(), "c".to_owned()], "old".to_owned())
     );
+}
+
+#[test]
+fn files_of_an_earlier_run_are_named_and_removed_and_those_of_others_stay() {
+    let scratch = Scratch::new("stale");
+    let ours = "<!-- kerfold unfold model.obj -o out -->";
+    for (name, text) in [
+        ("sheet-01.svg", ours),
+        ("sheet-02.svg", ours),
+        ("sheet-02.png", "a picture"),
+        ("sheet-03.svg", "drawn by hand"),
+        ("sheet-03.png", "a picture of that"),
+        ("P01.dxf", ours),
+        ("kerf.svg", ours),
+    ] {
+        fs::write(scratch.path(name), text).expect("a file");
+    }
+    // The command line of a PDF stands near its end.
+    fs::write(scratch.path("sheet-04.pdf"), format!("{}{ours}", "%".repeat(100_000))).expect("one");
+    let mut folder = OutputFolder::new(&scratch.0);
+    folder.add("sheet-01.svg", "new");
+    let written = folder.commit().expect("written");
+    let stale = ["P01.dxf", "sheet-02.png", "sheet-02.svg", "sheet-04.pdf"];
+    assert_eq!(written.stale, stale.map(|name| scratch.path(name)));
+    written.remove_stale().expect("removed");
+    assert_eq!(scratch.names(), ["kerf.svg", "sheet-01.svg", "sheet-03.png", "sheet-03.svg"]);
+}
+
+#[test]
+fn several_files_come_together_or_not_at_all_and_leftovers_are_no_obstacle() {
+    let scratch = Scratch::new("several");
+    fs::write(scratch.path(".kerfold-1-0.tmp"), "of a run that was killed").expect("a file");
+    fs::write(scratch.path("a"), "old").expect("a file");
+    fs::create_dir(scratch.path("b")).expect("a folder");
+    let files = |names: [&str; 2]| names.map(|name| (scratch.path(name), b"new".to_vec()));
+    assert!(matches!(write_files(&files(["a", "b"])), Err(IoError::IsFolder { .. })));
+    assert_eq!(scratch.text("a"), "old");
+    write_files(&files(["a", "c"])).expect("written");
+    assert_eq!((scratch.text("a"), scratch.text("c")), ("new".into(), "new".into()));
+    assert_eq!(scratch.names(), [".kerfold-1-0.tmp", "a", "b", "c"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn new_files_have_the_usual_permissions() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let scratch = Scratch::new("mode");
+    write_file(&scratch.path("ours"), b"x").expect("written");
+    fs::write(scratch.path("usual"), "x").expect("a file");
+    let mode = |name| fs::metadata(scratch.path(name)).expect("there").permissions().mode();
+    assert_eq!(mode("ours"), mode("usual"));
 }

@@ -11,6 +11,8 @@ use crate::units::{Length, counted};
 use raw::RawMesh;
 
 pub mod artwork;
+mod decode;
+mod keyhole;
 mod obj;
 mod off;
 mod ply;
@@ -22,8 +24,10 @@ mod stl;
 mod text;
 mod weld;
 
+pub use decode::{decode_text, read_text};
 pub use points::read_points;
 pub use seams::read_seams;
+pub(super) use off::begins_off;
 pub(super) use stl::is_binary as is_binary_stl;
 
 /// How a mesh file is taken.
@@ -126,6 +130,53 @@ pub enum ReadNote {
         /// Two vertices at one point where this is so.
         vertices: [VertexId; 2],
     },
+    /// Faces named a vertex twice in a row; the second was left out.
+    RepeatedCorners {
+        /// How many faces.
+        count: usize,
+        /// The first, by its number in the file.
+        first: usize,
+    },
+    /// Faces that visited a vertex twice (around a hole, for example) were divided.
+    DividedFaces {
+        /// How many.
+        count: usize,
+        /// The first, by its number in the file.
+        first: usize,
+    },
+    /// Coordinates were divided by the weight after them.
+    Weights {
+        /// Of how many vertices.
+        count: usize,
+        /// The first.
+        first: usize,
+    },
+    /// Numbers had a comma where a point is usual.
+    DecimalCommas {
+        /// How many.
+        count: usize,
+        /// The line of the first, from 1.
+        first_line: usize,
+    },
+    /// Lines of a known format that make no face: curves, points, wires, or anything unknown.
+    PassedOver {
+        /// How many.
+        count: usize,
+        /// The first, from 1.
+        first_line: usize,
+    },
+    /// Lines had more numbers than the header says.
+    ExtraColumns {
+        /// How many lines.
+        count: usize,
+        /// The first, from 1.
+        first_line: usize,
+    },
+    /// The file goes on after its last element.
+    Rest {
+        /// How many bytes follow, white space at the ends not counted.
+        bytes: usize,
+    },
 }
 
 impl fmt::Display for ReadNote {
@@ -160,8 +211,56 @@ impl fmt::Display for ReadNote {
                 vertices {a} and {b}; \
                  if the surface is torn there, --weld 0 closes it"
             ),
+            Self::RepeatedCorners { count, first } => write!(
+                f,
+                "{} a vertex twice in a row and {} read without the second, the first of them \
+                face {first}",
+                counted(*count, "face names", "faces name"),
+                were(*count)
+            ),
+            Self::DividedFaces { count, first } => write!(
+                f,
+                "{} a vertex twice (around a hole, for example) and {} divided, the first of \
+                them face {first}; the further parts stand behind the faces of the file",
+                counted(*count, "face visits", "faces visit"),
+                were(*count)
+            ),
+            Self::Weights { count, first } => write!(
+                f,
+                "{} a weight other than 1 after the coordinates, which {} divided by it, the \
+                first of them vertex {first}",
+                counted(*count, "vertex has", "vertices have"),
+                were(2)
+            ),
+            Self::DecimalCommas { count, first_line } => write!(
+                f,
+                "{} a decimal comma, the first of them in line {first_line}",
+                counted(*count, "number has", "numbers have")
+            ),
+            Self::PassedOver { count, first_line } => write!(
+                f,
+                "{} no face and {} passed over, the first of them line {first_line}",
+                counted(*count, "line makes", "lines make"),
+                were(*count)
+            ),
+            Self::ExtraColumns { count, first_line } => write!(
+                f,
+                "{} more numbers than the header says, which were passed over, the first of them \
+                line {first_line}",
+                counted(*count, "line has", "lines have")
+            ),
+            Self::Rest { bytes } => write!(
+                f,
+                "{} after the last element and {} passed over",
+                counted(*bytes, "byte follows", "bytes follow"),
+                were(*bytes)
+            ),
         }
     }
+}
+
+fn were(count: usize) -> &'static str {
+    if count == 1 { "was" } else { "were" }
 }
 
 /// Reads a mesh from a file.
@@ -209,23 +308,27 @@ pub fn read_mesh_bytes(
     options: &ReadOptions,
 ) -> Result<ReadMesh, IoError> {
     check_options(options)?;
-    if bytes.trim_ascii().is_empty() {
+    let text = decode::as_utf8(bytes);
+    if text.trim_ascii().is_empty() {
         return Err(IoError::Empty { path: path.to_owned() });
     }
-    let format = MeshFormat::of_path(path).or_else(|| MeshFormat::of_content(bytes));
-    let mut notes = Vec::new();
+    let format = MeshFormat::of_path(path)
+        .or_else(|| stl::is_binary(bytes).then_some(MeshFormat::Stl))
+        .or_else(|| MeshFormat::of_content(&text));
     let raw = match format.ok_or_else(|| IoError::UnknownFormat { path: path.to_owned() })? {
-        MeshFormat::Obj => obj::read(bytes),
-        MeshFormat::Ply => ply::read(bytes),
-        MeshFormat::Off => off::read(bytes),
-        MeshFormat::Stl => stl::read(bytes).map(|(raw, dropped)| {
-            notes.extend(dropped.map(|(count, first)| ReadNote::DroppedFaces { count, first }));
-            raw
-        }),
+        MeshFormat::Obj => obj::read(&text),
+        // Zeros at the end of a binary file are numbers.
+        MeshFormat::Ply if bytes.starts_with(b"ply") => ply::read(bytes),
+        MeshFormat::Ply => ply::read(&text),
+        MeshFormat::Off => off::read(&text),
+        MeshFormat::Stl => stl::read(bytes, &text),
     };
     let mut source = SourceFile { path, raw: raw.map_err(|located| located.in_file(path))? };
+    let mut notes = std::mem::take(&mut source.raw.notes);
     let scale = source.scale(options)?;
     source.weld(options, &mut notes)?;
+    source.raw.make_faces_simple();
+    notes.append(&mut source.raw.notes);
     let (mesh, splits) = source.build()?;
     source.note_torn(&mesh, &mut notes)?;
     source.note_vertices(&mesh, &splits, &mut notes);

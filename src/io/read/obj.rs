@@ -1,18 +1,12 @@
-//! Wavefront OBJ: polygons, groups and seams.
-//!
-//! The `tobj` crate parses positions and faces. It numbers positions by their first use within each
-//! object and names no lines, and a contract of ours is that the n-th `v` line is vertex n − 1. So
-//! it gets a text with one object, whose first face lists all vertices in order: numbering by first
-//! use then changes nothing. Groups and seams are read here, texture coordinates, normals and
-//! materials are not needed.
+//! Wavefront OBJ: polygons, groups and seams. Texture coordinates, normals and materials are not
+//! needed; what else is passed over is noted.
 
 use std::borrow::Cow;
 
-use glam::DVec3;
-use tobj::LoadError;
-
+use super::ReadNote;
+use super::decode::name_text;
 use super::raw::{GroupRun, RawMesh, SeamSegment};
-use super::text::{Lines, number, without_comment, words};
+use super::text::{Commas, Lines, without_comment, words};
 use crate::io::error::{ContentFault, Located, excerpt};
 
 const VERTEX_EXAMPLE: &str = "v 0 1.5 2";
@@ -21,6 +15,11 @@ const FACE_EXAMPLE: &str = "f 1 2 3";
 const SEAM: &str = "seam";
 /// What OBJ calls faces that belong to no group.
 const NO_GROUP: &str = "default";
+/// Statements that make no shape, so nobody misses them.
+const LOOKS: [&[u8]; 17] = [
+    b"vt", b"vn", b"s", b"mg", b"usemtl", b"mtllib", b"usemap", b"maplib", b"bevel", b"c_interp",
+    b"d_interp", b"lod", b"shadow_obj", b"trace_obj", b"ctech", b"stech", b"vp",
+];
 
 pub(super) fn read(bytes: &[u8]) -> Result<RawMesh, Located> {
     if bytes.contains(&0) {
@@ -30,50 +29,27 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawMesh, Located> {
     for statement in Statements::new(bytes) {
         scan.take(&statement)?;
     }
-    let mut raw = scan.raw;
-    let count = raw.vertex_lines.len();
-    parse(&scan.text, &mut raw).map_err(|error| locate(bytes, &error, count))?;
-    match raw.seams.iter().find(|seam| seam.ends.iter().any(|&v| v as usize >= count)) {
-        Some(seam) => Err(missing_seam_end(bytes, *seam, count)),
+    let raw = scan.finished();
+    let count = raw.positions.len();
+    let is_missing = |&v: &u32| v as usize >= count;
+    let mut faces = 0..raw.ends.len();
+    if let Some(face) = faces.find(|&face| raw.face(face).iter().any(is_missing)) {
+        let index = raw.face(face).iter().copied().find(is_missing).unwrap_or_default();
+        return Err(missing_vertex(bytes, raw.face_lines[face] as usize, index, count));
+    }
+    match raw.seams.iter().find(|seam| seam.ends.iter().any(is_missing)) {
+        Some(seam) => {
+            Err(missing_vertex(bytes, seam.line, seam.ends[0].max(seam.ends[1]), count))
+        }
         None => Ok(raw),
     }
 }
 
-fn missing_seam_end(bytes: &[u8], seam: SeamSegment, count: usize) -> Located {
-    let statement = Statements::new(bytes).find(|statement| statement.line == seam.line);
+/// The fault of the statement in a line that names a vertex beyond the last, counted from 0.
+fn missing_vertex(bytes: &[u8], line: usize, vertex: u32, count: usize) -> Located {
+    let statement = Statements::new(bytes).find(|statement| statement.line == line);
     let text = statement.map_or(Cow::default(), |statement| statement.text);
-    let index = i64::from(seam.ends[0].max(seam.ends[1])) + 1;
-    Located::at(seam.line, no_such_vertex(&text, index, count))
-}
-
-/// Lets tobj read the positions and faces.
-fn parse(statements: &[u8], raw: &mut RawMesh) -> Result<(), LoadError> {
-    let count = raw.vertex_lines.len();
-    let mut all_vertices = String::with_capacity(8 * count + 2);
-    all_vertices.push('f');
-    for i in 1..=count {
-        all_vertices.push(' ');
-        all_vertices.push_str(&i.to_string());
-    }
-    all_vertices.push('\n');
-    let mut text = std::io::Read::chain(all_vertices.as_bytes(), statements);
-    let no_materials = |_: &std::path::Path| Err(LoadError::GenericFailure);
-    let (models, _) = tobj::load_obj_buf(&mut text, &tobj::LoadOptions::default(), no_materials)?;
-    let mesh = models.into_iter().next().ok_or(LoadError::GenericFailure)?.mesh;
-    raw.positions = mesh.positions.chunks_exact(3).map(DVec3::from_slice).collect();
-    raw.corners = mesh.indices.get(count..).unwrap_or_default().to_vec();
-    let mut end = 0;
-    // tobj leaves the numbers of corners out when all faces are triangles.
-    let sides = mesh
-        .face_arities
-        .get(1..)
-        .map(Cow::Borrowed)
-        .unwrap_or_else(|| vec![3; raw.face_lines.len()].into());
-    raw.ends.extend(sides.iter().map(|&n| {
-        end += n as usize;
-        end
-    }));
-    Ok(())
+    Located::at(line, no_such_vertex(&text, i64::from(vertex) + 1, count))
 }
 
 /// One statement: a line with the lines that a backslash ties to it.
@@ -106,7 +82,7 @@ impl<'a> Iterator for Statements<'a> {
     fn next(&mut self) -> Option<Statement<'a>> {
         let (line, first) = self.lines.next()?;
         let mut text = Cow::Borrowed(first);
-        while let Some(tied) = text.trim_ascii_end().strip_suffix(b"\\") {
+        while let Some(tied) = tied_to_next(&text) {
             let mut joined = tied.to_vec();
             joined.push(b' ');
             if let Some((_, more)) = self.lines.next() {
@@ -118,28 +94,48 @@ impl<'a> Iterator for Statements<'a> {
     }
 }
 
-/// What one pass over the statements keeps: the text for tobj, and what tobj does not read.
+/// The text of a statement without its last backslash, when that ties the next line to it. A
+/// backslash in a comment does not, nor one at the end of a name (`usemtl C:\textures\`).
+fn tied_to_next(text: &[u8]) -> Option<&[u8]> {
+    let tied = text.trim_ascii_end().strip_suffix(b"\\")?;
+    let keyword = words(text).next().unwrap_or_default();
+    let has_numbers = matches!(keyword, b"v" | b"vt" | b"vn" | b"vp" | b"f" | b"fo" | b"l" | b"p");
+    let is_apart = tied.last().is_none_or(u8::is_ascii_whitespace);
+    (!tied.contains(&b'#') && (has_numbers || is_apart)).then_some(tied)
+}
+
+/// What one pass over the statements keeps.
 #[derive(Default)]
 struct Scan {
-    text: Vec<u8>,
     raw: RawMesh,
     object: Option<String>,
     group: Option<String>,
+    commas: Commas,
+    weights: Counted,
+    passed_over: Counted,
+}
+
+/// How often something came, and where first.
+#[derive(Default, Clone, Copy)]
+struct Counted {
+    count: usize,
+    first: usize,
+}
+
+impl Counted {
+    fn add(&mut self, at: usize) {
+        self.first = if self.count == 0 { at } else { self.first };
+        self.count += 1;
+    }
 }
 
 impl Scan {
     fn take(&mut self, statement: &Statement) -> Result<(), Located> {
         let (keyword, rest) = statement.parts();
         match keyword {
-            b"v" => {
-                self.raw.vertex_lines.push(statement.line as u32);
-                self.pass_on(b'v', coordinates(without_comment(rest)));
-            }
-            b"f" => {
-                self.raw.face_lines.push(statement.line as u32);
-                self.pass_on(b'f', without_comment(rest));
-            }
-            b"l" => return self.seam(statement),
+            b"v" => self.vertex(statement)?,
+            b"f" | b"fo" => self.face(statement)?,
+            b"l" => self.seam(statement)?,
             b"o" => {
                 self.object = name(rest);
                 self.group = None;
@@ -149,16 +145,72 @@ impl Scan {
                 self.group = name(rest);
                 self.start_group();
             }
-            _ => {}
+            [] | [b'#', ..] => {}
+            _ if LOOKS.contains(&keyword) => {}
+            _ => self.passed_over.add(statement.line),
         }
         Ok(())
     }
 
-    fn pass_on(&mut self, keyword: u8, rest: &[u8]) {
-        self.text.push(keyword);
-        self.text.push(b' ');
-        self.text.extend_from_slice(rest);
-        self.text.push(b'\n');
+    /// The raw mesh with its notes.
+    fn finished(mut self) -> RawMesh {
+        let Counted { count, first } = self.weights;
+        let weights = (count > 0).then_some(ReadNote::Weights { count, first });
+        let Counted { count, first } = self.passed_over;
+        let passed_over =
+            (count > 0).then_some(ReadNote::PassedOver { count, first_line: first });
+        self.raw.notes.extend(self.commas.note().into_iter().chain(weights).chain(passed_over));
+        self.raw
+    }
+
+    /// `v x y z`, with a weight after them or a colour.
+    fn vertex(&mut self, statement: &Statement) -> Result<(), Located> {
+        let (_, rest) = statement.parts();
+        let fault = || {
+            let text = excerpt(&statement.text);
+            let fault = ContentFault::NotAVertex { text, example: VERTEX_EXAMPLE };
+            Located::at(statement.line, fault)
+        };
+        let all: Vec<&[u8]> = words(without_comment(rest)).collect();
+        let mut position =
+            self.commas.point(all.iter().copied(), statement.line).ok_or_else(fault)?;
+        match all.len() {
+            3 | 6.. => {}
+            4 => {
+                let weight = self.commas.number(all[3], statement.line).ok_or_else(fault)?;
+                if weight == 0.0 || !weight.is_finite() {
+                    return Err(fault());
+                }
+                if weight != 1.0 {
+                    position /= weight;
+                    self.weights.add(self.raw.positions.len());
+                }
+            }
+            _ => return Err(fault()),
+        }
+        self.raw.positions.push(position);
+        self.raw.vertex_lines.push(statement.line as u32);
+        Ok(())
+    }
+
+    /// `f 1 2 3`. A number beyond the vertices so far may still come.
+    fn face(&mut self, statement: &Statement) -> Result<(), Located> {
+        let (_, rest) = statement.parts();
+        let count = self.raw.positions.len();
+        for word in words(without_comment(rest)) {
+            let index = index(word).filter(|_| is_corner(word)).ok_or_else(|| {
+                let text = excerpt(&statement.text);
+                let fault = ContentFault::NotAFace { text, example: FACE_EXAMPLE };
+                Located::at(statement.line, fault)
+            })?;
+            let vertex = resolve(index, count).ok_or_else(|| {
+                Located::at(statement.line, no_such_vertex(&statement.text, index, count))
+            })?;
+            self.raw.corners.push(vertex);
+        }
+        self.raw.ends.push(self.raw.corners.len());
+        self.raw.face_lines.push(statement.line as u32);
+        Ok(())
     }
 
     fn start_group(&mut self) {
@@ -171,10 +223,11 @@ impl Scan {
         let is_seam =
             |name: &Option<String>| name.as_ref().is_some_and(|n| n.eq_ignore_ascii_case(SEAM));
         if !is_seam(&self.group) && !is_seam(&self.object) {
+            self.passed_over.add(statement.line);
             return Ok(());
         }
         let (_, rest) = statement.parts();
-        let count = self.raw.vertex_lines.len();
+        let count = self.raw.positions.len();
         let indices: Option<Vec<i64>> = words(without_comment(rest)).map(index).collect();
         let fault = |fault| Located::at(statement.line, fault);
         let not_a_seam = || fault(ContentFault::NotASeam { text: excerpt(&statement.text) });
@@ -193,23 +246,11 @@ impl Scan {
     }
 }
 
-/// The coordinates of a `v` line without a colour after them, which tobj takes only when every
-/// vertex has one.
-fn coordinates(rest: &[u8]) -> &[u8] {
-    let mut ends = rest.iter().enumerate().filter(|&(i, b)| {
-        !b.is_ascii_whitespace() && rest.get(i + 1).is_none_or(u8::is_ascii_whitespace)
-    });
-    match (ends.nth(2), ends.nth(2)) {
-        (Some((third, _)), Some(_)) => &rest[..=third],
-        _ => rest,
-    }
-}
-
 /// The name of a group or object; a comment begins at a `#` after white space.
 fn name(rest: &[u8]) -> Option<String> {
     let comment = rest.windows(2).position(|w| w[0].is_ascii_whitespace() && w[1] == b'#');
     let name = rest[..comment.unwrap_or(rest.len())].trim_ascii();
-    (!name.is_empty()).then(|| String::from_utf8_lossy(name).into_owned())
+    (!name.is_empty()).then(|| name_text(name))
 }
 
 /// The position index of a corner (`7`, `7/1`, `7//3`, `-1`).
@@ -229,49 +270,6 @@ fn no_such_vertex(text: &[u8], index: i64, count: usize) -> ContentFault {
     ContentFault::NoSuchVertex { text: excerpt(text), index, count }
 }
 
-/// The first statement that brings tobj to its error, which carries no line.
-fn locate(bytes: &[u8], error: &LoadError, count: usize) -> Located {
-    let mut vertices = 0;
-    for statement in Statements::new(bytes) {
-        let (keyword, rest) = statement.parts();
-        let fault = match keyword {
-            b"v" => {
-                vertices += 1;
-                let fault = || ContentFault::NotAVertex {
-                    text: excerpt(&statement.text),
-                    example: VERTEX_EXAMPLE,
-                };
-                (!is_vertex(without_comment(rest))).then(fault)
-            }
-            b"f" => face_fault(&statement.text, without_comment(rest), vertices, count),
-            _ => None,
-        };
-        if let Some(fault) = fault {
-            return Located::at(statement.line, fault);
-        }
-    }
-    Located::anywhere(ContentFault::NotThisFormat {
-        format: "OBJ",
-        text: format!("{}; {error}", excerpt(bytes)),
-    })
-}
-
-/// What is wrong with a face after `before` of `count` vertices.
-fn face_fault(text: &[u8], corners: &[u8], before: usize, count: usize) -> Option<ContentFault> {
-    let indices: Option<Vec<i64>> = words(corners).map(index).collect();
-    let Some(indices) = indices.filter(|_| words(corners).all(is_corner)) else {
-        return Some(ContentFault::NotAFace { text: excerpt(text), example: FACE_EXAMPLE });
-    };
-    let is_missing = |&i: &i64| resolve(i, before).is_none_or(|v| v as usize >= count);
-    indices.into_iter().find(is_missing).map(|i| no_such_vertex(text, i, count))
-}
-
-fn is_vertex(rest: &[u8]) -> bool {
-    let numbers: Option<Vec<f64>> = words(coordinates(rest)).map(number).collect();
-    // A fourth number divides the other three.
-    numbers.is_some_and(|n| n.len() == 3 || n.len() == 4 && n[3] != 0.0)
-}
-
 fn is_corner(word: &[u8]) -> bool {
     let mut parts = word.split(|&b| b == b'/');
     let is_index = |part: &[u8]| part.is_empty() || index(part).is_some();
@@ -280,6 +278,8 @@ fn is_corner(word: &[u8]) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
+
     use super::*;
 
     fn faces(raw: &RawMesh) -> Vec<&[u32]> {
@@ -312,6 +312,35 @@ mod tests {
             [(0, Some("thing")), (0, Some("left hand")), (1, Some("thing")), (2, None)]
         );
         assert!(raw.seams.is_empty());
+    }
+
+    #[test]
+    fn a_backslash_in_a_comment_or_a_name_ties_no_line() {
+        for line in ["# floor \\", "#\\", "usemtl C:\\new\\", "g a\\", "v 0 0 1 # above \\"] {
+            let text = format!("v 0 0 0\nv 1 0 0\nv 0 1 0\n{line}\nf 1 2 3\n");
+            let raw = read(text.as_bytes()).expect("an OBJ");
+            assert_eq!(faces(&raw), [[0, 1, 2]], "{line}");
+        }
+        let raw = read(b"v 0 0 0\nv 1 0 0\nv 0 1 0\ng a \\\nb\nfo 1 2 \\\n3\n").expect("an OBJ");
+        assert_eq!(raw.groups[0].name.as_deref(), Some("a  b"));
+        assert_eq!(faces(&raw), [[0, 1, 2]]);
+    }
+
+    #[test]
+    fn weights_divide_and_commas_are_decimal_and_both_are_noted() {
+        let raw = read(b"v 0 0 0 1\nv 3 6 -9 3\nv 1,5 0 2e1 1,0\nf 1 2 3\n").expect("an OBJ");
+        assert_eq!(raw.positions[1..], [DVec3::new(1., 2., -3.), DVec3::new(1.5, 0., 20.)]);
+        let commas = ReadNote::DecimalCommas { count: 2, first_line: 3 };
+        assert_eq!(raw.notes, [commas, ReadNote::Weights { count: 1, first: 1 }]);
+        assert!(read(b"v 1,2,3\n").is_err() && read(b"v 1, 2, 3\n").is_err());
+    }
+
+    #[test]
+    fn what_is_passed_over_is_noted_and_names_may_be_latin() {
+        let text = b"v 0 0 0\nv 1 0 0\nv 0 1 0\ncstype bezier\nl 1 2\ng W\xe4nde\nvt 0 0\nf 1 2 3\n";
+        let raw = read(text).expect("an OBJ");
+        assert_eq!(raw.notes, [ReadNote::PassedOver { count: 2, first_line: 4 }]);
+        assert_eq!(raw.groups[0].name.as_deref(), Some("Wände"));
     }
 
     #[test]

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use glam::DVec3;
 
+use super::decode::as_utf8;
 use super::text::{Lines, number, words};
 use crate::io::error::{ContentFault, IoError, Place, excerpt};
 
@@ -30,7 +31,8 @@ pub fn read_points(path: &Path) -> Result<Vec<DVec3>, IoError> {
     let bytes = std::fs::read(path).map_err(|source| IoError::reading(path, source))?;
     let is_obj = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("obj"));
     let (mut points, mut order) = (Vec::new(), Vec::new());
-    let mut lines = Lines::new(&bytes);
+    let text = as_utf8(&bytes);
+    let mut lines = Lines::new(&text);
     while let Some((line, text)) = lines.next_content() {
         let at = |fault| IoError::Content {
             place: Place { path: path.to_owned(), line: Some(line) },

@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use super::{ReadNote, keyhole};
+
 /// Vertices and faces in the order of the file, with the places where they stand.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct RawMesh {
@@ -16,8 +18,10 @@ pub(super) struct RawMesh {
     pub vertex_lines: Vec<u32>,
     /// The line of each face in the file, dropped ones included; empty in binary files.
     pub face_lines: Vec<u32>,
-    /// The number that each face has in the file, when faces were dropped.
+    /// The number that each face has in the file, when faces were dropped or divided.
     pub face_numbers: Option<Vec<u32>>,
+    /// What the user should know about the file.
+    pub notes: Vec<ReadNote>,
 }
 
 /// The faces from `first_face` on belong to a group, until the next run.
@@ -81,6 +85,72 @@ impl RawMesh {
             self.face_numbers = Some(numbers);
         }
         dropped
+    }
+
+    /// Takes corners away that repeat the one before them, and divides faces that visit a vertex
+    /// twice into simple ones; the further parts stand behind all faces, so that the others keep
+    /// their numbers. What cannot be divided is left for the builder to report.
+    pub fn make_faces_simple(&mut self) {
+        let mut faces = (0..self.ends.len()).map(|face| self.face(face));
+        // Faces of two corners are for the builder to report, with their numbers as they are.
+        if faces.clone().any(|face| face.len() < 3) || !faces.any(keyhole::visits_twice) {
+            return;
+        }
+        self.drop_repeated_corners();
+        self.divide_keyholes();
+    }
+
+    fn drop_repeated_corners(&mut self) {
+        let mut repeated = None;
+        let mut at = 0;
+        let dropped = self.change_faces(|face| {
+            let before = face.len();
+            face.dedup();
+            while face.len() > 1 && face.first() == face.last() {
+                face.pop();
+            }
+            if face.len() < before {
+                let (count, first) = repeated.unwrap_or((0, at));
+                repeated = Some((count + 1, first));
+            }
+            at += 1;
+        });
+        self.notes.extend(repeated.map(|(count, first)| ReadNote::RepeatedCorners { count, first }));
+        self.notes.extend(dropped.map(|(count, first)| ReadNote::DroppedFaces { count, first }));
+    }
+
+    fn divide_keyholes(&mut self) {
+        let mut further: Vec<(usize, Vec<u32>)> = Vec::new();
+        let mut divided: Option<(usize, usize)> = None;
+        let mut faces: Vec<Vec<u32>> =
+            (0..self.ends.len()).map(|face| self.face(face).to_vec()).collect();
+        for (index, face) in faces.iter_mut().enumerate() {
+            if !keyhole::visits_twice(face) {
+                continue;
+            }
+            let Some(parts) = keyhole::simple_parts(face, &self.positions) else { continue };
+            let mut parts = parts.into_iter();
+            *face = parts.next().unwrap_or_default();
+            further.extend(parts.map(|part| (index, part)));
+            let (count, first) = divided.unwrap_or((0, self.file_face(index)));
+            divided = Some((count + 1, first));
+        }
+        let Some((count, first)) = divided else { return };
+        self.notes.push(ReadNote::DividedFaces { count, first });
+        let numbers = (0..faces.len()).map(|face| self.file_face(face) as u32);
+        let numbers: Vec<u32> =
+            numbers.chain(further.iter().map(|&(face, _)| self.file_face(face) as u32)).collect();
+        (self.corners, self.ends) = (Vec::new(), Vec::new());
+        faces.into_iter().for_each(|face| self.push_face(face));
+        for (face, part) in further {
+            if !self.groups.is_empty() {
+                let run = self.groups.iter().rev().find(|run| run.first_face <= face);
+                let name = run.and_then(|run| run.name.clone());
+                self.groups.push(GroupRun { first_face: self.ends.len(), name });
+            }
+            self.push_face(part);
+        }
+        self.face_numbers = Some(numbers);
     }
 
     /// The number that a face has in the file.

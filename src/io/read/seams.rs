@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::decode::as_utf8;
 use super::text::{Lines, words};
 use crate::io::error::{ContentFault, IoError, Place, excerpt};
 use crate::mesh::{EdgeId, Mesh, SplitVertex, VertexId};
@@ -37,7 +38,8 @@ pub fn read_seams(
     let is_obj = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("obj"));
     let given = mesh.vertex_slots() - splits.len();
     let mut edges = Vec::new();
-    let mut lines = Lines::new(&bytes);
+    let text = as_utf8(&bytes);
+    let mut lines = Lines::new(&text);
     while let Some((line, text)) = lines.next_content() {
         let place = || Place { path: path.to_owned(), line: Some(line) };
         let chain = if is_obj { obj_chain(text, given) } else { edge(text).map(Some) };

@@ -3,8 +3,9 @@
 
 use glam::{DVec3, Vec3};
 
+use super::ReadNote;
 use super::raw::RawMesh;
-use super::text::{Lines, number, words};
+use super::text::{Commas, Lines, words};
 use super::weld::first_equal;
 use crate::io::error::{ContentFault, Located, excerpt};
 
@@ -17,12 +18,13 @@ struct Soup {
     corners: Vec<DVec3>,
     corner_lines: Vec<u32>,
     triangle_lines: Vec<u32>,
+    notes: Vec<ReadNote>,
 }
 
-/// Returns the mesh, and the number of triangles that were dropped because two of their corners are
-/// one, with the first.
-pub(super) fn read(bytes: &[u8]) -> Result<(RawMesh, Option<(usize, usize)>), Located> {
-    let soup = if is_binary(bytes) || !is_text(bytes) { binary(bytes)? } else { text(bytes)? };
+/// Reads `bytes` as binary STL or else their `text`, which has lost its mark and its padding.
+/// Triangles of which two corners are one are dropped and noted.
+pub(super) fn read(bytes: &[u8], text: &[u8]) -> Result<RawMesh, Located> {
+    let soup = if is_binary(bytes) || !is_text(text) { binary(bytes)? } else { of_text(text)? };
     if let Some(corner) = soup.corners.iter().position(|p| !p.is_finite()) {
         let line = soup.corner_lines.get(corner).map(|&line| line as usize);
         return Err(Located {
@@ -40,9 +42,11 @@ pub(in crate::io) fn is_binary(bytes: &[u8]) -> bool {
         .is_some_and(|count| (bytes.len() - HEADER - 4) as u64 == count * TRIANGLE as u64)
 }
 
-fn is_text(bytes: &[u8]) -> bool {
-    bytes.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"))
-        && !bytes.contains(&0)
+/// Whether this is STL as text: it begins with `solid`, or with `facet` where that line is missing.
+fn is_text(text: &[u8]) -> bool {
+    let start = text.trim_ascii_start().get(..5).unwrap_or_default();
+    let begins = [b"solid", b"facet"].iter().any(|word| start.eq_ignore_ascii_case(*word));
+    begins && !text.contains(&0)
 }
 
 fn announced(bytes: &[u8]) -> Option<u64> {
@@ -70,24 +74,30 @@ fn binary(bytes: &[u8]) -> Result<Soup, Located> {
         // The first three numbers are the normal.
         [3, 6, 9].map(|i| Vec3::new(coordinate(i), coordinate(i + 1), coordinate(i + 2)).as_dvec3())
     });
-    Ok(Soup { corners: corners.collect(), ..Soup::default() })
+    let rest = body[count as usize * TRIANGLE..].iter().rposition(|&b| b != 0);
+    Ok(Soup {
+        corners: corners.collect(),
+        notes: rest.map(|last| ReadNote::Rest { bytes: last + 1 }).into_iter().collect(),
+        ..Soup::default()
+    })
 }
 
-fn text(bytes: &[u8]) -> Result<Soup, Located> {
+fn of_text(text: &[u8]) -> Result<Soup, Located> {
     let mut soup = Soup::default();
-    for (line, text) in Lines::new(bytes) {
+    let mut commas = Commas::default();
+    for (line, text) in Lines::new(text) {
         let mut words = words(text);
-        let Some(keyword) = words.next() else { continue };
-        let is = |name: &[u8]| keyword.eq_ignore_ascii_case(name);
+        let Some(first) = words.next() else { continue };
+        let keyword = keyword(first, &mut words);
+        let is = |name: &[u8]| keyword == name;
         let started = soup.corners.len() - 3 * soup.triangle_lines.len();
         let fault = |wanted| {
             let triangle = soup.triangle_lines.len();
             Located::at(line, ContentFault::BadTriangle { text: excerpt(text), triangle, wanted })
         };
         if is(b"vertex") {
-            let mut coordinate = || words.next().and_then(number);
-            let corner = (|| Some(DVec3::new(coordinate()?, coordinate()?, coordinate()?)))();
-            let corner = corner
+            let corner = commas
+                .point(words, line)
                 .ok_or_else(|| fault("a vertex needs three numbers, as in `vertex 0 1.5 2`"))?;
             soup.corners.push(corner);
             soup.corner_lines.push(line as u32);
@@ -96,7 +106,7 @@ fn text(bytes: &[u8]) -> Result<Soup, Located> {
                 return Err(fault("a triangle needs three `vertex` lines"));
             }
             soup.triangle_lines.push(line as u32 - 3);
-        } else if [&b"solid"[..], b"facet", b"outer", b"endfacet", b"endsolid"].into_iter().any(is)
+        } else if [&b"solid"[..], b"facet", b"outerloop", b"endfacet", b"endsolid"].into_iter().any(is)
         {
             if started != 0 {
                 return Err(fault("a triangle needs three `vertex` lines and an `endloop`"));
@@ -106,7 +116,10 @@ fn text(bytes: &[u8]) -> Result<Soup, Located> {
         }
     }
     match soup.corners.len() - 3 * soup.triangle_lines.len() {
-        0 => Ok(soup),
+        0 => {
+            soup.notes.extend(commas.note());
+            Ok(soup)
+        }
         _ => {
             let index = soup.triangle_lines.len();
             Err(Located::anywhere(ContentFault::CutShort {
@@ -118,11 +131,21 @@ fn text(bytes: &[u8]) -> Result<Soup, Located> {
     }
 }
 
+/// The keyword of a line in small letters; `end loop` is `endloop`.
+fn keyword<'a>(first: &[u8], rest: &mut impl Iterator<Item = &'a [u8]>) -> Vec<u8> {
+    let mut keyword = first.to_ascii_lowercase();
+    if [&b"end"[..], b"outer"].contains(&&*keyword) {
+        keyword.extend(rest.next().unwrap_or_default().to_ascii_lowercase());
+    }
+    keyword
+}
+
 /// Gives equal corners one number, in the order in which they first come, and drops triangles that
 /// lose a corner.
-fn welded(soup: Soup) -> (RawMesh, Option<(usize, usize)>) {
+fn welded(soup: Soup) -> RawMesh {
     let first = first_equal(soup.corners.iter());
-    let mut raw = RawMesh { face_lines: soup.triangle_lines, ..RawMesh::default() };
+    let mut raw =
+        RawMesh { face_lines: soup.triangle_lines, notes: soup.notes, ..RawMesh::default() };
     let mut numbers = vec![0; first.len()];
     for (corner, &at) in first.iter().enumerate() {
         if at as usize == corner {
@@ -135,21 +158,25 @@ fn welded(soup: Soup) -> (RawMesh, Option<(usize, usize)>) {
     raw.ends = (1..=first.len() / 3).map(|triangle| 3 * triangle).collect();
     let is_flat = |t: &[u32]| t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
     let has_flat = raw.corners.chunks_exact(3).any(is_flat);
-    let dropped = if has_flat {
-        raw.change_faces(|face| {
+    if has_flat {
+        let dropped = raw.change_faces(|face| {
             if is_flat(face) {
                 face.clear()
             }
-        })
-    } else {
-        None
-    };
-    (raw, dropped)
+        });
+        raw.notes.extend(dropped.map(|(count, first)| ReadNote::DroppedFaces { count, first }));
+    }
+    raw
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::decode::as_utf8;
     use super::*;
+
+    fn read(bytes: &[u8]) -> Result<RawMesh, Located> {
+        super::read(bytes, &as_utf8(bytes))
+    }
 
     const TEXT: &str = "solid two parts\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   \
     vertex 1 0 0\n   vertex 0 1 0\n  endloop\n \
@@ -172,8 +199,8 @@ mod tests {
         let triangles =
             [[0., 0., 0., 1., 0., 0., 0., 1., 0.], [1., 0., -0., 1., 1., 0., 0., 1., 0.]];
         // The header of a binary file may begin as a text file does.
-        let (from_binary, _) = read(&binary_file(b"solid two parts", &triangles)).expect("an STL");
-        let (from_text, _) = read(TEXT.as_bytes()).expect("an STL");
+        let from_binary = read(&binary_file(b"solid two parts", &triangles)).expect("an STL");
+        let from_text = read(TEXT.as_bytes()).expect("an STL");
         assert_eq!(
             from_binary.positions,
             [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::new(1., 1., 0.)]
@@ -193,9 +220,29 @@ mod tests {
     fn triangles_that_lose_a_corner_are_dropped_and_counted() {
         let flat = [1., 1., 1., 1., 1., 1., 2., 2., 2.];
         let good = [0., 0., 0., 1., 0., 0., 0., 1., 0.];
-        let (raw, dropped) = read(&binary_file(b"", &[flat, good, flat])).expect("an STL");
-        assert_eq!((raw.ends.len(), dropped), (1, Some((2, 0))));
+        let raw = read(&binary_file(b"", &[flat, good, flat])).expect("an STL");
+        let dropped = ReadNote::DroppedFaces { count: 2, first: 0 };
+        assert_eq!((raw.ends.len(), raw.notes.as_slice()), (1, &[dropped][..]));
         assert_eq!(raw.file_face(0), 1);
+    }
+
+    #[test]
+    fn dialects_and_padding_are_read() {
+        let plain = read(TEXT.as_bytes()).expect("an STL");
+        let apart = TEXT.replace("endloop", "end loop").replace("endfacet", "end facet");
+        for text in [
+            format!("\u{feff}{TEXT}"),
+            format!("{TEXT}\0\0\0"),
+            TEXT.replace("solid two parts\n facet", "facet"),
+            apart.replace("endsolid", "end solid"),
+            TEXT.replace("0 1 0", "0,0 1,0 0"),
+        ] {
+            let raw = read(text.as_bytes()).expect(&text);
+            assert_eq!((&raw.positions, &raw.corners), (&plain.positions, &plain.corners), "{text}");
+        }
+        let mut longer = binary_file(b"", &[[0., 0., 0., 1., 0., 0., 0., 1., 0.]]);
+        longer.extend([7, 7, 0, 0]);
+        assert_eq!(read(&longer).expect("an STL").notes, [ReadNote::Rest { bytes: 2 }]);
     }
 
     #[test]
@@ -221,6 +268,6 @@ mod tests {
         let cut = fault(&TEXT.as_bytes()[..TEXT.find("VERTEX 0 1").expect("there")]);
         assert!(matches!(cut.fault, ContentFault::CutShort { index: 1, .. }));
         // A file that ends between its triangles is only seen by its rims.
-        assert!(read(b"solid\nendsolid\n").expect("an STL").0.ends.is_empty());
+        assert!(read(b"solid\nendsolid\n").expect("an STL").ends.is_empty());
     }
 }

@@ -1,11 +1,12 @@
 //! The proof of a net: measured against the mesh by code that shares nothing with the unfolder but
 //! the types.
 //!
-//! Four questions, each answered by its own method: is everything there once (structure), is every
+//! Five questions, each answered by its own method: is everything there once (structure), is every
 //! face and every edge as large as on the mesh (congruence), do two faces of a piece share area
-//! (overlap), and do the pieces fold back up into the mesh from nothing but their own folds and
-//! angles (refold).
+//! (overlap), do the pieces fold back up into the mesh from nothing but their own folds and angles
+//! (refold), and are the angles of seams and the names of folds those of the mesh (angles).
 
+mod angles;
 mod congruence;
 mod overlap;
 mod refold;
@@ -210,6 +211,27 @@ pub enum EdgeFault {
         /// vertices, in mm; not a number when the face has no such side.
         by: f64,
     },
+    /// Its angle is not that between the faces of the mesh.
+    #[error(
+        "its fold angle is {given}°, on the mesh it is {angle}°; correct it (180° less the \
+        dihedral angle, positive for a mountain)"
+    )]
+    Angle {
+        /// What the net says, in degrees.
+        given: f64,
+        /// On the mesh, in degrees.
+        angle: f64,
+    },
+    /// A fold that is named against its angle.
+    #[error(
+        "it is called {named} and folds by {angle}°; above 0° it is a mountain, below a valley"
+    )]
+    Kind {
+        /// What it is called.
+        named: &'static str,
+        /// On the mesh, in degrees.
+        angle: f64,
+    },
 }
 
 codes!(finding EdgeFault {
@@ -219,18 +241,22 @@ codes!(finding EdgeFault {
     Neighbours = 424,
     Piece = 425,
     Segment = 426,
+    Angle = 427,
+    Kind = 428,
 });
 
 /// Measures a net against the mesh that it was made of.
 ///
 /// # Errors
-/// The first fault, in the order structure, congruence, overlap, refold; see [`ProofError`].
+/// The first fault, in the order structure, congruence, overlap, refold, angles;
+/// see [`ProofError`].
 pub fn prove(mesh: &Mesh, net: &Net) -> Result<Proof, ProofError> {
     let size = size(mesh);
     structure::check(mesh, net, size)?;
     let congruence_mm = congruence::check(mesh, net, size)?;
     overlap::check(net, size)?;
     let refold_mm = refold::check(mesh, net, size)?;
+    angles::check(mesh, net, size)?;
     Ok(Proof { congruence_mm, refold_mm, overlaps: 0 })
 }
 

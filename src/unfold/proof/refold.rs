@@ -55,7 +55,7 @@ fn refold(
     let mut seen: HashMap<usize, ()> = HashMap::from([(root.face, ())]);
     let (mut worst, mut slope) = (0.0, 0.0);
     while let Some((flat, pose, depth)) = queue.pop_front() {
-        slope = f64::max(slope, unevenness(mesh, flat));
+        slope = f64::max(slope, unevenness(mesh, FaceId::new(flat.face)));
         // Every fold may be off by the slope that flattening has taken out of its faces.
         let limit = size * (REFOLD + 4.0 * slope * f64::from(depth + 1));
         worst = f64::max(worst, check_face(mesh, flat, &pose, limit)?);
@@ -76,8 +76,8 @@ fn refold(
 
 /// How far a face is from planar: its corners' distance from their plane, relative to its extent.
 /// Zero for triangles.
-fn unevenness(mesh: &Mesh, flat: &FlatFace) -> f64 {
-    let points = mesh.face_positions(FaceId::new(flat.face));
+pub(super) fn unevenness(mesh: &Mesh, f: FaceId) -> f64 {
+    let points = mesh.face_positions(f);
     let Some(plane) = Some(&points).filter(|p| p.len() > 3).and_then(|p| fit_plane(p)) else {
         return 0.0;
     };

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::*;
-use crate::net::PieceId;
+use crate::net::{FoldKind, PieceId};
 use crate::progress::Silent;
 use crate::unfold::{MeshSource, Seams, UnfoldParams, unfold};
 
@@ -109,6 +109,24 @@ fn distances_and_angles() {
         fault_of(|net| net.folds[0].fold_angle = f64::NAN),
         ProofError::Refold { .. }
     ));
+}
+
+#[test]
+fn angles_of_seams_and_names_of_folds() {
+    let bent = edge_fault(fault_of(|net| net.seams[0].fold_angle += 1e-3));
+    assert!(matches!(bent, EdgeFault::Angle { .. }), "{bent}");
+    let turned = edge_fault(fault_of(|net| net.seams[1].fold_angle *= -1.0));
+    assert!(matches!(turned, EdgeFault::Angle { .. }), "{turned}");
+    let none = edge_fault(fault_of(|net| net.seams[0].fold_angle = f64::NAN));
+    assert!(matches!(none, EdgeFault::Angle { .. }), "{none}");
+    for kind in [FoldKind::Flat, FoldKind::Mountain, FoldKind::Valley] {
+        let (mesh, mut net) = box_and_net();
+        if net.folds[0].kind != kind {
+            net.folds[0].kind = kind;
+            let fault = edge_fault(prove(&mesh, &net).expect_err("named wrongly"));
+            assert!(matches!(fault, EdgeFault::Kind { .. }), "{fault}");
+        }
+    }
 }
 
 fn points(net: &mut Net) -> Vec<&mut DVec2> {

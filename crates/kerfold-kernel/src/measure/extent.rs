@@ -32,6 +32,13 @@ pub fn face_diameter(mesh: &Mesh, f: FaceId) -> f64 {
     pairs.fold(0.0, f64::max).sqrt()
 }
 
+/// The width of a face over its longest diagonal or side, twice its area over that: the height of
+/// a triangle. 0 for a face without area.
+pub fn face_width(mesh: &Mesh, f: FaceId) -> f64 {
+    let diameter = face_diameter(mesh, f);
+    if diameter > 0.0 { 2.0 * face_area(mesh, f) / diameter } else { 0.0 }
+}
+
 /// The area of all faces, holes not counted.
 pub fn surface_area(mesh: &Mesh) -> f64 {
     mesh.faces().map(|f| face_area(mesh, f)).sum()

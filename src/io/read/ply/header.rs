@@ -2,6 +2,7 @@
 
 use super::words;
 use super::{ContentFault, Located, excerpt};
+use crate::units::nearest_word;
 
 /// How the values are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,6 +44,8 @@ pub(super) struct Element {
 pub(super) struct Header {
     pub encoding: Encoding,
     pub elements: Vec<Element>,
+    /// Lines that are no statement: how many, and the first.
+    pub passed_over: Option<(usize, usize)>,
 }
 
 impl Scalar {
@@ -72,9 +75,14 @@ impl Scalar {
 }
 
 impl Element {
+    /// Whether its lists are strips of triangles.
+    pub fn is_strips(&self) -> bool {
+        self.name == "tristrips"
+    }
+
     /// Whether a mesh is made of it.
     pub fn is_needed(&self) -> bool {
-        self.name == "vertex" || self.name == "face"
+        self.name == "vertex" || self.name == "face" || self.is_strips()
     }
 }
 
@@ -90,6 +98,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Header, usize, &[u8]), Located> {
     }
     let mut encoding = None;
     let mut elements = Vec::new();
+    let mut passed_over: Option<(usize, usize)> = None;
+    let mut is_after_comment = false;
     for number in 2.. {
         let Some(line) = take_line(&mut rest) else { break };
         let fault = |wanted| {
@@ -99,8 +109,10 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Header, usize, &[u8]), Located> {
             )
         };
         let parts: Vec<&[u8]> = words(line).collect();
+        let was_after_comment = std::mem::replace(&mut is_after_comment, false);
         match parts[..] {
-            [] | [b"comment" | b"obj_info", ..] => {}
+            [] => {}
+            [b"comment" | b"obj_info", ..] => is_after_comment = true,
             [b"format", name, ..] => {
                 let known = encoding_of(name);
                 encoding = Some(known.ok_or_else(|| {
@@ -125,12 +137,27 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Header, usize, &[u8]), Located> {
             [b"end_header"] => {
                 let encoding = encoding
                     .ok_or_else(|| fault("a line like `format ascii 1.0` must come before it"))?;
-                return Ok((Header { encoding, elements }, number, rest));
+                return Ok((Header { encoding, elements, passed_over }, number, rest));
+            }
+            // A comment that runs over several lines. In a text it may stand anywhere: a statement
+            // that went lost with it would leave numbers over.
+            [word, ..]
+                if !is_misspelt(word) && (was_after_comment || encoding == Some(Encoding::Text)) =>
+            {
+                let (count, first) = passed_over.unwrap_or((0, number));
+                passed_over = Some((count + 1, first));
+                is_after_comment = was_after_comment;
             }
             _ => return Err(fault("write a comment as `comment ...`")),
         }
     }
     Err(Located::anywhere(ContentFault::CutShort { element: "header".into(), index: 0, count: 1 }))
+}
+
+/// Whether a word is nearly a statement of headers, or is one with the wrong words after it.
+fn is_misspelt(word: &[u8]) -> bool {
+    let known = ["format", "element", "property", "end_header", "comment", "obj_info"];
+    nearest_word(&String::from_utf8_lossy(word), known).is_some()
 }
 
 /// The next line. Binary values may follow right after its end, which is LF, CR LF or CR.

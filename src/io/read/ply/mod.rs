@@ -3,6 +3,7 @@
 
 use glam::DVec3;
 
+use super::ReadNote;
 use super::raw::RawMesh;
 use super::text::words;
 use crate::io::error::{ContentFault, Located, excerpt};
@@ -15,10 +16,29 @@ use values::{Binary, Text, Values};
 
 pub(super) fn read(bytes: &[u8]) -> Result<RawMesh, Located> {
     let (header, body_line, body) = header::read(bytes)?;
-    match header.encoding {
-        Encoding::Text => elements(&header, Text::new(body, body_line)),
+    let mut raw = match header.encoding {
+        Encoding::Text => text(&header, body, body_line),
         Encoding::BinaryLittleEndian => elements(&header, Binary::new(body, false)),
         Encoding::BinaryBigEndian => elements(&header, Binary::new(body, true)),
+    }?;
+    let passed_over = header.passed_over;
+    raw.notes.extend(
+        passed_over.map(|(count, first_line)| ReadNote::PassedOver { count, first_line }),
+    );
+    Ok(raw)
+}
+
+/// Numbers in any lines, as long as they come out to the last; or else elements in lines of their
+/// own that may have more numbers than the header says.
+fn text(header: &Header, body: &[u8], body_line: usize) -> Result<RawMesh, Located> {
+    let is_left_over = |raw: &RawMesh| raw.notes.iter().any(|n| matches!(n, ReadNote::Rest { .. }));
+    let in_a_row = elements(header, Text::new(body, body_line));
+    if in_a_row.as_ref().is_ok_and(|raw| !is_left_over(raw)) {
+        return in_a_row;
+    }
+    match elements(header, Text::by_lines(body, body_line)) {
+        Ok(by_lines) if in_a_row.is_err() || !is_left_over(&by_lines) => Ok(by_lines),
+        _ => in_a_row,
     }
 }
 
@@ -29,6 +49,7 @@ fn elements(header: &Header, mut values: impl Values) -> Result<RawMesh, Located
         match element.name.as_str() {
             "vertex" => vertices(element, &mut values, &mut raw)?,
             "face" => faces(element, &mut values, &mut raw)?,
+            _ if element.is_strips() => strips(element, &mut values, &mut raw)?,
             // Elements without properties have nothing to skip.
             _ if element.properties.is_empty() => {}
             _ => {
@@ -36,10 +57,12 @@ fn elements(header: &Header, mut values: impl Values) -> Result<RawMesh, Located
                     for property in &element.properties {
                         skip(element, index, property, &mut values)?;
                     }
+                    values.end_element();
                 }
             }
         }
     }
+    raw.notes.extend(values.notes());
     Ok(raw)
 }
 
@@ -86,14 +109,12 @@ fn vertices(element: &Element, values: &mut impl Values, raw: &mut RawMesh) -> R
         }
         raw.positions.push(position);
         raw.vertex_lines.extend(values.line().map(|line| line as u32));
+        values.end_element();
     }
     Ok(())
 }
 
 fn faces(element: &Element, values: &mut impl Values, raw: &mut RawMesh) -> Result<(), Located> {
-    let is_corners = |p: &Property| {
-        p.list_count.is_some() && ["vertex_indices", "vertex_index"].contains(&&*p.name)
-    };
     if element.count > 0 && !element.properties.iter().any(is_corners) {
         let property = "vertex_indices";
         return Err(Located::anywhere(ContentFault::NoProperty { element: "face", property }));
@@ -110,8 +131,44 @@ fn faces(element: &Element, values: &mut impl Values, raw: &mut RawMesh) -> Resu
             }
         }
         raw.face_lines.extend(values.line().map(|line| line as u32));
+        values.end_element();
     }
     Ok(())
+}
+
+/// Strips of triangles: each vertex makes a triangle with the two before it, every second one
+/// turned round; −1 begins a new strip.
+fn strips(element: &Element, values: &mut impl Values, raw: &mut RawMesh) -> Result<(), Located> {
+    for index in 0..element.count as usize {
+        for property in &element.properties {
+            if !is_corners(property) {
+                skip(element, index, property, values)?;
+                continue;
+            }
+            let mut strip: Vec<u32> = Vec::new();
+            for _ in 0..list_length(element, index, property, values)? {
+                let value = values.next(property.item).map_err(|e| e.within(element, index))?;
+                if value == -1.0 {
+                    strip.clear();
+                    continue;
+                }
+                strip.push(checked_vertex(element, index, value, values.line())?);
+                let [.., a, b, c] = strip[..] else { continue };
+                // A vertex that comes twice only leads the strip to another place.
+                if a == b || b == c || c == a {
+                    continue;
+                }
+                raw.push_face(if strip.len() % 2 == 1 { [a, b, c] } else { [b, a, c] });
+                raw.face_lines.extend(values.line().map(|line| line as u32));
+            }
+        }
+        values.end_element();
+    }
+    Ok(())
+}
+
+fn is_corners(property: &Property) -> bool {
+    property.list_count.is_some() && ["vertex_indices", "vertex_index"].contains(&&*property.name)
 }
 
 /// Vertex numbers beyond the vertices are left for the builder to tell.
@@ -122,11 +179,18 @@ fn vertex_number(
     values: &mut impl Values,
 ) -> Result<u32, Located> {
     let value = values.next(property.item).map_err(|e| e.within(element, index))?;
+    checked_vertex(element, index, value, values.line())
+}
+
+fn checked_vertex(
+    element: &Element,
+    index: usize,
+    value: f64,
+    line: Option<usize>,
+) -> Result<u32, Located> {
     let is_number = value >= 0.0 && value < f64::from(u32::MAX) && value.fract() == 0.0;
-    let fault = || {
-        bad_value(element, index, value, "the number of a vertex, counted from 0", values.line())
-    };
-    if is_number { Ok(value as u32) } else { Err(fault()) }
+    let wanted = "the number of a vertex, counted from 0";
+    if is_number { Ok(value as u32) } else { Err(bad_value(element, index, value, wanted, line)) }
 }
 
 /// The number of items in a list, which the rest of the file must be able to hold.
@@ -225,6 +289,45 @@ mod tests {
         }
         let raw = read(text().as_bytes()).expect("a PLY");
         assert_eq!((raw.vertex_lines, raw.face_lines), (vec![16, 17, 19], vec![21]));
+    }
+
+    const CORNERS: &str = "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
+    const POINTS: &str = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+
+    #[test]
+    fn strips_make_triangles_that_run_one_way() {
+        let text = format!(
+            "ply\nformat ascii 1.0\n{CORNERS}element tristrips 1\nproperty list int int \
+            vertex_indices\nend_header\n{POINTS}11 0 2 1 3 -1 0 3 2 2 -1 1\n"
+        );
+        let raw = read(text.as_bytes()).expect("a PLY");
+        assert_eq!(raw.corners, [0, 2, 1, 1, 2, 3, 0, 3, 2]);
+        let low = text.replace("-1 1\n", "-2 1\n");
+        assert!(matches!(read(low.as_bytes()), Err(Located { line: Some(_), .. })));
+    }
+
+    #[test]
+    fn columns_and_header_lines_too_many_are_noted() {
+        let faces = "element face 2\nproperty list uchar int vertex_indices\nend_header\n";
+        let text = format!("ply\nformat ascii 1.0\nMade by hand\n{CORNERS}{faces}{POINTS}");
+        let raw = read(format!("{text}3 0 1 2 255\n3 1 2 3 9 9\n").as_bytes()).expect("a PLY");
+        assert_eq!(raw.corners, [0, 1, 2, 1, 2, 3]);
+        let extra = ReadNote::ExtraColumns { count: 2, first_line: 14 };
+        let header = ReadNote::PassedOver { count: 1, first_line: 3 };
+        assert_eq!(raw.notes, [extra, header]);
+        // In a row, whatever the lines.
+        let raw = read(format!("{text}3 0\n1 2 3 1 2\n3 \n").as_bytes()).expect("a PLY");
+        assert_eq!((raw.corners, raw.notes), (vec![0, 1, 2, 1, 2, 3], vec![header]));
+        // A statement that is misspelt is none of this.
+        for line in ["propertee float x", "element face", "format"] {
+            let bad = text.replace("Made by hand", line);
+            assert!(read(bad.as_bytes()).is_err(), "{line}");
+        }
+        let binary = text.replace("ascii", "binary_little_endian");
+        assert!(matches!(
+            read(binary.as_bytes()),
+            Err(Located { line: Some(3), fault: ContentFault::BadHeader { .. } })
+        ));
     }
 
     #[test]

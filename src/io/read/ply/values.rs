@@ -2,7 +2,8 @@
 
 use super::header::{Element, Property, Scalar};
 use super::{ContentFault, Located, excerpt};
-use crate::io::read::text::number;
+use crate::io::read::ReadNote;
+use crate::io::read::text::Commas;
 
 /// Numbers in the order of the file. All types fit into f64 without loss.
 pub(super) trait Values {
@@ -14,6 +15,10 @@ pub(super) trait Values {
     fn least_item_bytes(&self, kind: Scalar) -> usize;
     /// The line of the last number; `None` in binary files.
     fn line(&self) -> Option<usize>;
+    /// Called after each element: what stands behind it in its line, if lines hold one each.
+    fn end_element(&mut self) {}
+    /// What to note, once all is read.
+    fn notes(&self) -> Vec<ReadNote>;
 
     /// The fewest bytes that a property takes.
     fn least_bytes(&self, property: &Property) -> usize {
@@ -49,12 +54,23 @@ impl Missing {
 pub(super) struct Text<'a> {
     rest: &'a [u8],
     line: usize,
+    commas: Commas,
+    /// Whether each element has a line of its own, of which what is left over is passed over.
+    is_by_lines: bool,
+    extra: Option<(usize, usize)>,
 }
 
 impl<'a> Text<'a> {
     /// The words of `rest`, which begins after `lines_before` lines.
     pub fn new(rest: &'a [u8], lines_before: usize) -> Self {
-        Self { rest, line: lines_before + 1 }
+        let commas = Commas::default();
+        Self { rest, line: lines_before + 1, commas, is_by_lines: false, extra: None }
+    }
+
+    /// The same where each element has a line of its own, which may have more numbers than the
+    /// header says.
+    pub fn by_lines(rest: &'a [u8], lines_before: usize) -> Self {
+        Self { is_by_lines: true, ..Self::new(rest, lines_before) }
     }
 }
 
@@ -70,7 +86,31 @@ impl Values for Text<'_> {
         let end = from_word.iter().position(u8::is_ascii_whitespace).unwrap_or(from_word.len());
         let (word, rest) = from_word.split_at(end);
         self.rest = rest;
-        number(word).ok_or_else(|| Missing::NotANumber { text: excerpt(word), line: self.line })
+        let line = self.line;
+        let missing = || Missing::NotANumber { text: excerpt(word), line };
+        self.commas.number(word, line).ok_or_else(missing)
+    }
+
+    fn end_element(&mut self) {
+        if !self.is_by_lines {
+            return;
+        }
+        let is_end = |&b: &u8| b == b'\n' || b == b'\r';
+        let end = self.rest.iter().position(is_end).unwrap_or(self.rest.len());
+        let (extra, rest) = self.rest.split_at(end);
+        if !extra.trim_ascii().is_empty() {
+            let (count, first) = self.extra.unwrap_or((0, self.line));
+            self.extra = Some((count + 1, first));
+        }
+        self.rest = rest;
+    }
+
+    fn notes(&self) -> Vec<ReadNote> {
+        let extra = self.extra;
+        let extra = extra.map(|(count, first_line)| ReadNote::ExtraColumns { count, first_line });
+        let bytes = self.rest.trim_ascii().len();
+        let rest = (bytes > 0).then_some(ReadNote::Rest { bytes });
+        self.commas.note().into_iter().chain(extra).chain(rest).collect()
     }
 
     fn remaining(&self) -> usize {
@@ -134,5 +174,10 @@ impl Values for Binary<'_> {
 
     fn line(&self) -> Option<usize> {
         None
+    }
+
+    fn notes(&self) -> Vec<ReadNote> {
+        let last = self.rest.iter().rposition(|&b| b != 0);
+        last.map(|last| ReadNote::Rest { bytes: last + 1 }).into_iter().collect()
     }
 }

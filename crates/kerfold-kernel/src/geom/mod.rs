@@ -3,6 +3,7 @@
 mod bending;
 mod fit;
 mod frame;
+mod grid;
 pub mod hull;
 mod meet;
 mod meet_three;
@@ -10,6 +11,7 @@ mod plane;
 pub mod polygon;
 pub mod predicate;
 mod rounding;
+pub mod segments;
 #[cfg(feature = "sparse")]
 pub mod sparse;
 mod triangulate;
@@ -18,6 +20,7 @@ mod triple;
 pub use bending::bending_patterns;
 pub use fit::fit_plane;
 pub use frame::Frame;
+pub use grid::{Cell, Grid};
 pub use meet::{meet_planes, meet_planes_near};
 pub use meet_three::meet_three;
 pub use plane::Plane;

@@ -9,7 +9,7 @@ use crate::gallery::GalleryError;
 use crate::io::IoError;
 use crate::io::artwork::ArtError;
 use crate::io::pieces_json::PiecesJsonError;
-use crate::lint::LimitError;
+use crate::lint::{LimitError, LintError};
 use crate::make::MakeError;
 use crate::op::OpError;
 use crate::picture::PictureError;
@@ -36,6 +36,8 @@ pub(super) enum CliError {
     Limit(LimitError),
     #[error("{}: {error}", path.display())]
     Artwork { path: PathBuf, error: ArtError },
+    #[error("{}: {error}", path.display())]
+    Lint { path: PathBuf, error: LintError },
     #[error("{}: sheets are written as SVG, DXF, PDF or LightBurn project; name the file \
     something.svg, .dxf, .pdf or .lbrn2", path.display())]
     UnknownSheetFormat { path: PathBuf },
@@ -107,6 +109,7 @@ codes!(error CliError {
     Seam.0,
     Limit.0,
     Artwork.error,
+    Lint.error,
     Step.0,
     Recipe.error,
     RecipeStep.error,

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use glam::DVec3;
 
 use super::raw::RawMesh;
+use crate::geom::Grid;
 
 /// What welding did.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,35 +59,25 @@ fn nearest_earlier(positions: &[DVec3], distance: f64) -> Vec<u32> {
     // Cells may be larger than the distance, never smaller, so that only neighbours are searched
     // and the numbers stay small.
     let cell = distance.max((high - low).max_element() / (1_u64 << 40) as f64);
-    let cell_of = |p: DVec3| ((p - low) / cell).floor().to_array().map(|x| x as i64);
-    // For each cell the last vertex that stays there; for each such vertex the one before it.
-    let mut last: HashMap<[i64; 3], u32> = HashMap::new();
-    let mut before = vec![u32::MAX; positions.len()];
+    let mut grid = Grid::new(low.to_array(), cell);
+    // The vertices that stay, by their numbers in the grid.
+    let mut staying: Vec<u32> = Vec::new();
     let mut target = Vec::with_capacity(positions.len());
     for (v, &p) in positions.iter().enumerate() {
-        let home = cell_of(p);
-        let mut nearest = None;
-        for neighbour in cells_around(home) {
-            let mut w = last.get(&neighbour).copied().unwrap_or(u32::MAX);
-            while w != u32::MAX {
-                let d = p.distance(positions[w as usize]);
-                if d <= distance && nearest.is_none_or(|(e, x)| (d, w) < (e, x)) {
-                    nearest = Some((d, w));
-                }
-                w = before[w as usize];
+        let mut nearest: Option<(f64, u32)> = None;
+        for w in grid.around(p.to_array()).map(|number| staying[number as usize]) {
+            let d = p.distance(positions[w as usize]);
+            if d <= distance && nearest.is_none_or(|n| (d, w) < n) {
+                nearest = Some((d, w));
             }
         }
         if nearest.is_none() {
-            before[v] = last.insert(home, v as u32).unwrap_or(u32::MAX);
+            grid.insert(p.to_array());
+            staying.push(v as u32);
         }
         target.push(nearest.map_or(v as u32, |(_, w)| w));
     }
     target
-}
-
-fn cells_around([x, y, z]: [i64; 3]) -> impl Iterator<Item = [i64; 3]> {
-    (-1..=1)
-        .flat_map(move |i| (-1..=1).flat_map(move |j| (-1..=1).map(move |k| [x + i, y + j, z + k])))
 }
 
 /// Removes corners that repeat the one before, and spikes that run out and back: neither bounds any

@@ -15,6 +15,10 @@ pub struct Artwork {
     pub texts: Vec<ArtText>,
     /// What the file holds besides, by kind: not judged.
     pub unread: Vec<(String, usize)>,
+    /// What was taken to be so without the file saying it, or read in part, in words.
+    pub notes: Vec<String>,
+    /// How many lines do not lie flat, and a place where one is; they are seen from above.
+    pub not_flat: Option<(usize, DVec2)>,
 }
 
 /// What a file says about its unit.
@@ -51,6 +55,8 @@ pub struct ArtText {
     pub text: String,
     /// Where it begins.
     pub at: DVec2,
+    /// What is done with it; a note on a layer that is never machined does no harm.
+    pub operation: Operation,
 }
 
 /// What is done along a line, in working order.
@@ -114,31 +120,6 @@ impl Operation {
             Self::Cut => "cut",
             Self::CutOuter => "cut-outer",
             Self::Info => "info",
-        }
-    }
-}
-
-impl Artwork {
-    /// Gives every path without a telling layer an operation by its colour: where red is used, blue
-    /// is scored, black and green are engraved; everything else is cut. `colours` are those of the
-    /// paths, `None` where the layer told.
-    pub fn operations_by_colour(&mut self, colours: &[Option<[u8; 3]>]) {
-        let is = |c: [u8; 3], want: [bool; 3]| {
-            (0..3).all(|i| if want[i] { c[i] > 200 } else { c[i] < 60 })
-        };
-        let red = |c: &Option<[u8; 3]>| c.is_some_and(|c| is(c, [true, false, false]));
-        let has_red = colours.iter().any(red);
-        for (path, colour) in self.paths.iter_mut().zip(colours) {
-            let Some(colour) = *colour else { continue };
-            path.operation = if !has_red {
-                Operation::Cut
-            } else if is(colour, [false, false, true]) {
-                Operation::Score
-            } else if is(colour, [false; 3]) || is(colour, [false, true, false]) {
-                Operation::Engrave
-            } else {
-                Operation::Cut
-            };
         }
     }
 }

@@ -4,11 +4,11 @@ use glam::DVec2;
 
 use super::artwork::{Artwork, Operation, UnitState};
 use super::contours::Contours;
-use super::lines::{Line, On, label};
-use super::pairs::{Pairs, distance};
+use super::lines::{Line, On, Twin, label};
+use super::pairs::{Common, Pairs};
 use super::params::LintParams;
 use super::report::{Check, LintReport};
-use crate::geom::polygon::{Location, bounds, locate, signed_area};
+use crate::geom::polygon::bounds;
 
 /// Extents that nobody means: below a millimetre, above the largest glass.
 const PLAUSIBLE: [f64; 2] = [1.0, 20_000.0];
@@ -37,8 +37,16 @@ pub(super) fn units(artwork: &Artwork, report: &mut LintReport) {
     }
 }
 
+pub(super) fn not_flat(artwork: &Artwork, report: &mut LintReport) {
+    if let Some((count, at)) = artwork.not_flat {
+        let lines = if count == 1 { "line does" } else { "lines do" };
+        let words = format!("{count} {lines} not lie flat; seen from above its length is not true");
+        report.add(Check::NotFlat, Some(at), "", words);
+    }
+}
+
 pub(super) fn texts(artwork: &Artwork, report: &mut LintReport) {
-    for text in &artwork.texts {
+    for text in artwork.texts.iter().filter(|t| t.operation != Operation::Info) {
         let shown: String = text.text.chars().take(40).collect();
         report.add(Check::Text, Some(text.at), "", format!("live text {shown:?}"));
     }
@@ -101,21 +109,33 @@ pub(super) fn stray_points(artwork: &Artwork, lines: &[Line], report: &mut LintR
     }
 }
 
+/// Lines drawn again, point by point.
+pub(super) fn twins(lines: &[Line], twins: &[Twin], report: &mut LintReport) {
+    for twin in twins {
+        let first = &lines[twin.of];
+        let words = format!("lies on {} over its whole length", first.label);
+        let numbers = Some((first.length(), 0.0));
+        report.measured(Check::Duplicate, Some(twin.at), &twin.label, words, numbers);
+    }
+}
+
 pub(super) fn open_contours(
     lines: &[Line],
     contours: &Contours,
+    is_dash: &[bool],
     params: &LintParams,
     report: &mut LintReport,
 ) {
     let on = On::of(lines, params.gap.mm());
     for (i, line) in lines.iter().enumerate().filter(|(_, l)| !l.closed && l.operation.is_cut()) {
-        // A slit in a part: on the layer of inner cuts, inside an outline.
-        if line.operation == Operation::CutInner && contours.parent[i].is_some() {
+        // A slit in a part: on the layer of inner cuts, inside an outline; or one of a hinge.
+        let is_slit = line.operation == Operation::CutInner && contours.parent[i].is_some();
+        if is_slit || is_dash[i] {
             continue;
         }
         let (Some(&a), Some(&b)) = (line.points.first(), line.points.last()) else { continue };
         // A cut from one cut to another closes what these leave open: lines that two parts share.
-        if on.is_closed_by_cuts(i) {
+        if on.is_closed_by_cuts(i, line) {
             continue;
         }
         let words = format!("its ends are {} mm apart", short(a.distance(b)));
@@ -143,8 +163,7 @@ pub(super) fn doubled(lines: &[Line], pairs: &Pairs, report: &mut LintReport) {
             continue;
         };
         let shorter = lines[i].length().min(lines[j].length());
-        let longer = lines[i].length().max(lines[j].length());
-        if i != j && length >= 0.95 * longer {
+        if i != j && is_duplicate(&lines[i], &lines[j], common) {
             let words = format!("lies on {} over its whole length", lines[i].label);
             report.measured(
                 Check::Duplicate,
@@ -161,9 +180,17 @@ pub(super) fn doubled(lines: &[Line], pairs: &Pairs, report: &mut LintReport) {
     }
 }
 
+/// Whether two lines run on one another from end to end.
+fn is_duplicate(a: &Line, b: &Line, common: &Common) -> bool {
+    common.overlap.is_some_and(|(length, _)| length >= 0.95 * a.length().max(b.length()))
+}
+
 pub(super) fn crossings(lines: &[Line], pairs: &Pairs, report: &mut LintReport) {
     for (&(i, j), common) in &pairs.common {
-        let Some(at) = common.crossing else { continue };
+        let Some(at) = common.crossing.filter(|_| !is_duplicate(&lines[i], &lines[j], common))
+        else {
+            continue;
+        };
         let both_engraved =
             lines[i].operation == Operation::Engrave && lines[j].operation == Operation::Engrave;
         if i == j && !both_engraved {
@@ -179,126 +206,8 @@ pub(super) fn crossings(lines: &[Line], pairs: &Pairs, report: &mut LintReport) 
     }
 }
 
-pub(super) fn small_holes(
-    lines: &[Line],
-    contours: &Contours,
-    params: &LintParams,
-    report: &mut LintReport,
-) {
-    let Some(thickness) = params.thickness else { return };
-    let least = 1.5 * thickness.mm();
-    for (i, line) in lines.iter().enumerate() {
-        if !(line.closed && line.operation.is_cut() && contours.is_hole(i)) {
-            continue;
-        }
-        let width = least_width(&line.points) + params.kerf();
-        if width < least {
-            let words = format!(
-                "this hole is {} mm wide, at least {} is wanted",
-                short(width),
-                short(least)
-            );
-            report.measured(
-                Check::SmallHole,
-                line.points.first().copied(),
-                &line.label,
-                words,
-                Some((width, least)),
-            );
-        }
-    }
-}
-
-/// The least distance between two parallel lines along an edge that hold a contour between them.
-fn least_width(points: &[DVec2]) -> f64 {
-    let n = points.len();
-    let across = |i: usize| {
-        let normal = (points[(i + 1) % n] - points[i]).normalize_or_zero().perp();
-        let spans = points.iter().map(|p| normal.dot(*p - points[i]));
-        let (low, high) = spans.fold((0.0_f64, 0.0_f64), |(l, h), s| (l.min(s), h.max(s)));
-        if normal == DVec2::ZERO { f64::INFINITY } else { high - low }
-    };
-    // A large contour is no small hole; its box tells enough.
-    if n > 400 {
-        return bounds(points).map_or(0.0, |(low, high)| (high - low).min_element());
-    }
-    (0..n).map(across).fold(f64::INFINITY, f64::min)
-}
-
-pub(super) fn thin_webs(
-    lines: &[Line],
-    contours: &Contours,
-    pairs: &Pairs,
-    params: &LintParams,
-    report: &mut LintReport,
-) {
-    let limit = params.web();
-    let mut tell = |at: DVec2, label: &str, distance: f64, other: &str| {
-        let width = distance - params.kerf();
-        let words = format!("{} mm of material are left to {other}", short(width.max(0.0)));
-        report.measured(Check::ThinWeb, Some(at), label, words, Some((width, limit)));
-    };
-    let is_contour = |i: usize| lines[i].closed && lines[i].operation.is_cut();
-    for (&(i, j), common) in &pairs.common {
-        let Some((distance, at)) =
-            common.nearest.filter(|_| i != j && is_contour(i) && is_contour(j))
-        else {
-            continue;
-        };
-        if contours.share_material(i, j) && common.overlap.is_none() && common.crossing.is_none() {
-            tell(at, &lines[j].label, distance, &lines[i].label);
-        }
-    }
-    for i in (0..lines.len()).filter(|&i| is_contour(i)) {
-        if let Some((distance, at)) =
-            neck(&lines[i].points, contours.is_hole(i), params.web() + params.kerf())
-        {
-            tell(at, &lines[i].label, distance, "itself");
-        }
-    }
-}
-
-/// The thinnest neck of a contour below a width: from a corner that points into the material to
-/// another stretch of the contour, through the material. Tips, which are thin everywhere, are none.
-fn neck(points: &[DVec2], is_hole: bool, web: f64) -> Option<(f64, DVec2)> {
-    let n = points.len();
-    let turn = if (signed_area(points) > 0.0) != is_hole { 1.0 } else { -1.0 };
-    let mut along = vec![0.0; n + 1];
-    for i in 0..n {
-        along[i + 1] = along[i] + points[i].distance(points[(i + 1) % n]);
-    }
-    let total = along[n];
-    let mut least: Option<(f64, DVec2)> = None;
-    for i in 0..n {
-        let (p, before, after) = (points[i], points[(i + n - 1) % n], points[(i + 1) % n]);
-        let (into, out) = ((p - before).normalize_or_zero(), (after - p).normalize_or_zero());
-        // Corners of flattened curves turn less than that; a neck between two curves has none and
-        // is not looked for.
-        if turn * into.perp_dot(out) > -0.2 {
-            continue;
-        }
-        for j in 0..n {
-            let ends = [points[j], points[(j + 1) % n]];
-            if ends[0].min(ends[1]).cmpgt(p + DVec2::splat(web)).any()
-                || ends[0].max(ends[1]).cmplt(p - DVec2::splat(web)).any()
-            {
-                continue;
-            }
-            let (width, foot) = distance(p, ends);
-            let way = (along[j] + ends[0].distance(foot) - along[i]).abs();
-            let is_apart = way.min(total - way) > 4.0 * web;
-            let middle = locate(points, p.midpoint(foot));
-            let is_through = (middle == Location::Inside) != is_hole;
-            if width < web && is_apart && is_through && least.is_none_or(|(w, _)| width < w) {
-                least = Some((width, p.midpoint(foot)));
-            }
-        }
-    }
-    least
-}
-
 /// Four significant digits are enough to find a place.
-fn short(value: f64) -> String {
+pub(super) fn short(value: f64) -> String {
     let text = format!("{value:.3}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }

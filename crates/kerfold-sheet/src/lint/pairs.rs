@@ -1,66 +1,15 @@
-//! Which segments come near one another, found on a grid; and what pairs of lines have in common.
+//! Which lines come near one another, and what each pair has in common.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 use glam::DVec2;
 
-use super::lines::Line;
+use super::artwork::Operation;
+use super::lines::{Line, Strokes};
+use super::work::{LintError, Work, ended, flow};
 use crate::geom::polygon::segments_cross;
-
-/// Boxes in the cells of a grid.
-pub(super) struct Cells {
-    boxes: Vec<(DVec2, DVec2)>,
-    low: DVec2,
-    cell: DVec2,
-    side: usize,
-    cells: Vec<Vec<u32>>,
-}
-
-impl Cells {
-    /// About as many cells as boxes, at most a million.
-    pub fn of(boxes: Vec<(DVec2, DVec2)>) -> Self {
-        let low = boxes.iter().fold(DVec2::INFINITY, |l, b| l.min(b.0));
-        let high = boxes.iter().fold(DVec2::NEG_INFINITY, |h, b| h.max(b.1));
-        let side = ((boxes.len() as f64).sqrt() as usize).clamp(1, 1000);
-        let cell = ((high - low) / side as f64).max(DVec2::splat(f64::MIN_POSITIVE));
-        let mut grid = Self { boxes, low, cell, side, cells: vec![Vec::new(); side * side] };
-        for i in 0..grid.boxes.len() {
-            let (a, b) = (grid.at(grid.boxes[i].0), grid.at(grid.boxes[i].1));
-            for y in a[1]..=b[1] {
-                for x in a[0]..=b[0] {
-                    grid.cells[y * side + x].push(i as u32);
-                }
-            }
-        }
-        grid
-    }
-
-    fn at(&self, p: DVec2) -> [usize; 2] {
-        // Numbers beyond the grid, and those that are none, go to its border.
-        ((p - self.low) / self.cell).to_array().map(|x| (x.max(0.0) as usize).min(self.side - 1))
-    }
-
-    /// Calls `meet` once for every pair of boxes that touch, the smaller index first, in a fixed
-    /// order.
-    pub fn pairs(&self, mut meet: impl FnMut(usize, usize)) {
-        for (c, cell) in self.cells.iter().enumerate() {
-            let here = [c % self.side, c / self.side];
-            for (k, &b) in cell.iter().enumerate() {
-                for &a in &cell[..k] {
-                    let (p, q) = (self.boxes[a as usize], self.boxes[b as usize]);
-                    if p.0.cmpgt(q.1).any() || q.0.cmpgt(p.1).any() {
-                        continue;
-                    }
-                    // A pair that shares several cells counts in the one with the lower left corner
-                    // of its common box.
-                    if self.at(p.0.max(q.0)) == here {
-                        meet(a as usize, b as usize);
-                    }
-                }
-            }
-        }
-    }
-}
+use crate::geom::segments::PairOfGroups;
 
 /// What two lines, or one line with itself, have in common.
 #[derive(Debug, Clone, Copy, Default)]
@@ -69,6 +18,8 @@ pub(super) struct Common {
     pub overlap: Option<(f64, DVec2)>,
     /// A place where they cross.
     pub crossing: Option<DVec2>,
+    /// A place where they cross while they run along one another.
+    pub flat_crossing: Option<DVec2>,
     /// The least distance, where it is below the reach, and its place; 0 where they touch.
     pub nearest: Option<(f64, DVec2)>,
 }
@@ -79,37 +30,66 @@ pub(super) struct Pairs {
     pub common: BTreeMap<(usize, usize), Common>,
 }
 
-struct Segment {
-    line: usize,
-    index: usize,
-    ends: [DVec2; 2],
+/// What a group of segments in the tree may hold.
+mod kind {
+    /// Engraved: only lines along one another matter there.
+    pub const ENGRAVED: u8 = 1;
+    /// Anything else.
+    pub const OTHER: u8 = 2;
 }
 
+/// Lines that turn less than that against one another, in radians, may run along one another.
+const SLIGHT: f64 = 0.11;
+
+/// Stretches shorter than that many gaps are where two ends meet at a flat angle.
+const SHORTEST: f64 = 20.0;
+
 impl Pairs {
-    /// `gap` is how near lines count as one, `reach` how far apart they may be to be kept.
-    pub fn of(lines: &[Line], gap: f64, reach: f64) -> Self {
-        let own = |(line, l): (usize, &Line)| {
-            l.segments()
-                .enumerate()
-                .map(|(index, ends)| Segment { line, index, ends })
-                .collect::<Vec<_>>()
-        };
-        let is_judged = |l: &&(usize, &Line)| l.1.operation != super::Operation::Info;
-        let segments: Vec<Segment> =
-            lines.iter().enumerate().filter(|l| is_judged(&l)).flat_map(own).collect();
-        let grow = DVec2::splat(reach.max(gap) / 2.0);
-        let boxes = segments
-            .iter()
-            .map(|s| (s.ends[0].min(s.ends[1]) - grow, s.ends[0].max(s.ends[1]) + grow));
-        let mut common: BTreeMap<(usize, usize), Common> = BTreeMap::new();
-        Cells::of(boxes.collect()).pairs(|i, j| {
-            let (a, b) = (&segments[i], &segments[j]);
-            if let Some(found) = compare(a, b, lines, gap, reach) {
-                common.entry((a.line, b.line)).or_default().add(&found);
+    /// `gap` is how near lines count as one, `reach` how far apart closed cuts may be to be kept.
+    pub fn of(lines: &[Line], gap: f64, reach: f64, work: &mut Work) -> Result<Self, LintError> {
+        let strokes = Strokes::of(lines, |line| match line.operation {
+            Operation::Info => None,
+            Operation::Engrave => Some((gap / 2.0, kind::ENGRAVED)),
+            _ if line.closed && line.operation.is_cut() => {
+                Some((reach.max(gap) / 2.0, kind::OTHER))
             }
+            _ => Some((gap / 2.0, kind::OTHER)),
         });
-        Self { common }
+        let wants = |groups: PairOfGroups| {
+            let all = groups.kinds[0] | groups.kinds[1];
+            all != kind::ENGRAVED || groups.angle <= SLIGHT
+        };
+        let mut common: BTreeMap<(usize, usize), Common> = BTreeMap::new();
+        let meet = |i: usize, j: usize| {
+            let [a, b] = [i, j].map(|s| {
+                let (line, index) = strokes.owner(s);
+                Stroke { line, index, ends: strokes.tree.segments()[s].ends }
+            });
+            flow(work.compare(1).and_then(|()| match compare(&a, &b, lines, gap, reach) {
+                Some(found) => keep(&mut common, (a.line, b.line), &found, work),
+                None => Ok(()),
+            }))
+        };
+        ended(strokes.tree.pairs(wants, meet))?;
+        common.values_mut().for_each(|c| c.settle(gap));
+        Ok(Self { common })
     }
+}
+
+fn keep(
+    common: &mut BTreeMap<(usize, usize), Common>,
+    pair: (usize, usize),
+    found: &Common,
+    work: &mut Work,
+) -> Result<(), LintError> {
+    match common.entry(pair) {
+        Entry::Occupied(mut known) => known.get_mut().add(found),
+        Entry::Vacant(place) => {
+            work.keep_pair()?;
+            place.insert(*found);
+        }
+    }
+    Ok(())
 }
 
 impl Common {
@@ -119,42 +99,67 @@ impl Common {
             (a, b) => a.or(b),
         };
         self.crossing = self.crossing.or(other.crossing);
+        self.flat_crossing = self.flat_crossing.or(other.flat_crossing);
         let nearer = |a: (f64, DVec2), b: (f64, DVec2)| if b.0 < a.0 { b } else { a };
         self.nearest = match (self.nearest, other.nearest) {
             (Some(a), Some(b)) => Some(nearer(a, b)),
             (a, b) => a.or(b),
         };
     }
+
+    /// Once all is added: stretches too short in all are where the lines touch, and then a crossing
+    /// at a flat angle is one.
+    fn settle(&mut self, gap: f64) {
+        self.overlap = self.overlap.filter(|o| o.0 > SHORTEST * gap);
+        if self.overlap.is_none() {
+            self.crossing = self.crossing.or(self.flat_crossing);
+        }
+    }
 }
 
-fn compare(a: &Segment, b: &Segment, lines: &[Line], gap: f64, reach: f64) -> Option<Common> {
+/// A segment with the line that it belongs to.
+struct Stroke {
+    line: usize,
+    index: usize,
+    ends: [DVec2; 2],
+}
+
+fn compare(a: &Stroke, b: &Stroke, lines: &[Line], gap: f64, reach: f64) -> Option<Common> {
+    // Within a line the earlier segment comes first.
+    let (a, b) = if (a.line, a.index) <= (b.line, b.index) { (a, b) } else { (b, a) };
     let is_own = a.line == b.line;
     let count = lines[a.line].points.len();
     let closes = lines[a.line].closed && a.index == 0 && b.index + 1 == count;
     let is_neighbour = is_own && (a.index + 1 == b.index || closes);
+    // Two curves that are one, cut into pieces at other places, have short stretches in common.
+    let shortest = if is_own { SHORTEST * gap } else { 0.0 };
+    let mut found =
+        Common { overlap: overlap(a.ends, b.ends, gap, shortest), ..Common::default() };
     let [p, q] = a.ends;
     let [r, s] = b.ends;
-    let mut found = Common { overlap: overlap(a.ends, b.ends, gap), ..Common::default() };
-    if found.overlap.is_none()
-        && !is_neighbour
-        && segments_cross(p, q, r, s)
-        && !is_touch(a.ends, b.ends, gap)
-    {
-        found.crossing = Some(crossing_point(a.ends, b.ends));
+    if !is_neighbour && segments_cross(p, q, r, s) && !is_touch(a.ends, b.ends, gap) {
+        let at = Some(crossing_point(a.ends, b.ends));
+        match found.overlap {
+            None => found.crossing = at,
+            Some(_) => found.flat_crossing = at,
+        }
     }
     if !is_own {
         let (distance, at) = nearest(a.ends, b.ends);
-        if distance < reach {
-            found.nearest = Some((distance, at));
-        }
+        found.nearest = (distance < reach).then_some((distance, at));
     }
-    (found.overlap.is_some() || found.crossing.is_some() || found.nearest.is_some())
-        .then_some(found)
+    let is_any = found.overlap.is_some() || found.crossing.is_some() || found.nearest.is_some();
+    is_any.then_some(found)
 }
 
 /// The length along which two segments run on one another, and its middle. Ends that only meet are
 /// no overlap.
-fn overlap(a: [DVec2; 2], b: [DVec2; 2], gap: f64) -> Option<(f64, DVec2)> {
+fn overlap(
+    a: [DVec2; 2],
+    b: [DVec2; 2],
+    gap: f64,
+    shortest: f64,
+) -> Option<(f64, DVec2)> {
     let (long, short) = if a[0].distance(a[1]) >= b[0].distance(b[1]) { (a, b) } else { (b, a) };
     let length = long[0].distance(long[1]);
     let along = (long[1] - long[0]) / length;
@@ -165,13 +170,14 @@ fn overlap(a: [DVec2; 2], b: [DVec2; 2], gap: f64) -> Option<(f64, DVec2)> {
     let common = last - first;
     // The stretch of the shorter one beside the longer one must be near it at both ends.
     let span = (to - from).abs().max(f64::MIN_POSITIVE);
+    let rise = beside(short[1]) - beside(short[0]);
     let side = |t: f64| {
         let share = ((t - from) / (to - from)).clamp(0.0, 1.0);
-        beside(short[0]) + share * (beside(short[1]) - beside(short[0]))
+        beside(short[0]) + share * rise
     };
     let is_near = common > 0.0 && side(first).abs() <= gap && side(last).abs() <= gap;
-    // A stretch that is not much longer than the gap is where two ends meet at a flat angle.
-    (is_near && common > 20.0 * gap && span > gap)
+    let is_along = rise.abs() <= SLIGHT * span;
+    (is_near && is_along && common > shortest && span > gap)
         .then(|| (common, long[0] + along * (first + last) / 2.0))
 }
 

@@ -2,6 +2,7 @@
 
 use serde::Deserialize;
 
+use super::report::Check;
 use crate::code::codes;
 use crate::units::Length;
 
@@ -13,8 +14,8 @@ pub struct LintParams {
     #[arg(long, value_name = "SIZE")]
     #[serde(default)]
     pub sheet: Option<SheetLimit>,
-    /// Thickness of the material: holes narrower than 1.5 times it are findings; not judged without
-    /// it
+    /// Thickness of the material: holes narrower than 1.5 times it are findings, but
+    /// for the slots of tabs; not judged without it
     #[arg(long, value_name = "LENGTH")]
     #[serde(default)]
     pub thickness: Option<Length>,
@@ -34,6 +35,10 @@ pub struct LintParams {
     #[arg(long, value_name = "LENGTH", default_value = "0.005mm")]
     #[serde(default = "default_gap")]
     pub gap: Length,
+    /// Checks that are not made, by their names, as in text,order
+    #[arg(long, value_name = "CHECKS", value_delimiter = ',')]
+    #[serde(default)]
+    pub skip: Vec<Check>,
 }
 
 /// Width and height, both positive.
@@ -54,7 +59,15 @@ fn default_gap() -> Length {
 
 impl Default for LintParams {
     fn default() -> Self {
-        Self { sheet: None, thickness: None, kerf: None, web: None, tabs: None, gap: default_gap() }
+        Self {
+            sheet: None,
+            thickness: None,
+            kerf: None,
+            web: None,
+            tabs: None,
+            gap: default_gap(),
+            skip: Vec::new(),
+        }
     }
 }
 

@@ -1,7 +1,12 @@
 //! What was found, as data.
 
-use crate::code::codes;
+use std::collections::BTreeMap;
+
 use glam::DVec2;
+use serde::Deserialize;
+
+use crate::code::codes;
+use crate::units::nearest_word;
 
 /// What is looked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -31,6 +36,8 @@ pub enum Check {
     SelfCrossing,
     /// Two lines that cross.
     Crossing,
+    /// Lines at a slope, whose lengths are not true.
+    NotFlat,
 }
 
 codes!(finding Check {
@@ -46,9 +53,27 @@ codes!(finding Check {
     StrayPoint = 210,
     SelfCrossing = 211,
     Crossing = 212,
+    NotFlat = 213,
 });
 
 impl Check {
+    /// All of them.
+    pub const ALL: [Self; 13] = [
+        Self::OpenContour,
+        Self::Duplicate,
+        Self::Overlap,
+        Self::Text,
+        Self::Units,
+        Self::OffSheet,
+        Self::SmallHole,
+        Self::ThinWeb,
+        Self::Order,
+        Self::StrayPoint,
+        Self::SelfCrossing,
+        Self::Crossing,
+        Self::NotFlat,
+    ];
+
     /// Its name in reports.
     pub const fn name(self) -> &'static str {
         match self {
@@ -64,6 +89,7 @@ impl Check {
             Self::StrayPoint => "stray-point",
             Self::SelfCrossing => "self-crossing",
             Self::Crossing => "crossing",
+            Self::NotFlat => "not-flat",
         }
     }
 
@@ -89,7 +115,39 @@ impl Check {
             Self::StrayPoint => "delete it",
             Self::SelfCrossing => "draw it without the crossing; a crossed contour bounds no part",
             Self::Crossing => "move one of them, or cut it where it crosses",
+            Self::NotFlat => "lay the part flat in the drawing program, all at one height",
         }
+    }
+}
+
+/// A word that names no check.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("`{name}` is no check{}; the checks are {}", nearest(.name), names().join(", "))]
+pub struct UnknownCheck {
+    /// The word.
+    pub name: String,
+}
+
+fn names() -> [&'static str; 13] {
+    Check::ALL.map(Check::name)
+}
+
+fn nearest(name: &str) -> String {
+    nearest_word(name, names()).map_or_else(String::new, |near| format!("; did you mean `{near}`?"))
+}
+
+impl std::str::FromStr for Check {
+    type Err = UnknownCheck;
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let name = text.trim().to_ascii_lowercase();
+        let found = Self::ALL.into_iter().find(|check| check.name() == name);
+        found.ok_or(UnknownCheck { name })
+    }
+}
+
+impl<'de> Deserialize<'de> for Check {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        String::deserialize(deserializer)?.parse().map_err(serde::de::Error::custom)
     }
 }
 
@@ -110,17 +168,45 @@ pub struct LintFinding {
     pub words: String,
 }
 
-/// All findings of one page, and what was not judged.
+/// All findings of one page.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LintReport {
     /// In the order of the checks.
     pub findings: Vec<LintFinding>,
+    /// Checks that were not made since nobody wanted them.
+    pub skipped: Vec<Check>,
 }
 
 impl LintReport {
+    pub(super) fn new(skipped: &[Check]) -> Self {
+        Self { findings: Vec::new(), skipped: skipped.to_vec() }
+    }
+
     /// Whether the drawing can be sent off.
     pub fn is_clean(&self) -> bool {
         self.findings.is_empty()
+    }
+
+    /// How many findings of each check there are.
+    pub fn counts(&self) -> BTreeMap<Check, usize> {
+        let mut counts = BTreeMap::new();
+        self.findings.iter().for_each(|f| *counts.entry(f.check).or_default() += 1);
+        counts
+    }
+
+    /// The findings, but of each check no more than the given number.
+    pub fn at_most(&self, most: usize) -> impl Iterator<Item = &LintFinding> {
+        let mut counts: BTreeMap<Check, usize> = BTreeMap::new();
+        self.findings.iter().filter(move |finding| {
+            let count = counts.entry(finding.check).or_default();
+            *count += 1;
+            *count <= most
+        })
+    }
+
+    /// Whether one of these checks is to be made.
+    pub(super) fn wants_any(&self, checks: &[Check]) -> bool {
+        checks.iter().any(|check| !self.skipped.contains(check))
     }
 
     pub(super) fn add(&mut self, check: Check, at: Option<DVec2>, element: &str, words: String) {
@@ -136,14 +222,11 @@ impl LintReport {
         words: String,
         numbers: Option<(f64, f64)>,
     ) {
+        if !self.wants_any(&[check]) {
+            return;
+        }
         let (measured, limit) = numbers.unzip();
-        self.findings.push(LintFinding {
-            check,
-            at,
-            element: element.to_owned(),
-            measured,
-            limit,
-            words,
-        });
+        let element = element.to_owned();
+        self.findings.push(LintFinding { check, at, element, measured, limit, words });
     }
 }

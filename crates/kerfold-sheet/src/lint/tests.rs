@@ -10,7 +10,7 @@ fn path(points: &[(f64, f64)], closed: bool, operation: Operation) -> ArtPath {
 
 fn checks(paths: Vec<ArtPath>) -> Vec<Check> {
     let artwork = Artwork { size: Some(DVec2::new(200.0, 100.0)), paths, ..Artwork::default() };
-    lint(&artwork, &LintParams::default()).findings.iter().map(|f| f.check).collect()
+    lint(&artwork, &LintParams::default()).expect("little").findings.iter().map(|f| f.check).collect()
 }
 
 const SQUARE: [(f64, f64); 4] = [(10.0, 10.0), (50.0, 10.0), (50.0, 50.0), (10.0, 50.0)];
@@ -105,7 +105,7 @@ fn everything_scales_but_the_limits() {
         let paths = vec![path(&moved, true, Operation::Cut), path(&moved, true, Operation::Cut)];
         let artwork = Artwork { paths, ..Artwork::default() };
         let params = LintParams { gap: Length::from_mm(0.005 * scale), ..LintParams::default() };
-        lint(&artwork, &params).findings.iter().map(|f| f.check).collect::<Vec<_>>()
+        lint(&artwork, &params).expect("little").findings.iter().map(|f| f.check).collect::<Vec<_>>()
     };
     assert_eq!(at(1.0, 0.0), [Check::Duplicate]);
     assert_eq!(at(100.0, 1e6), [Check::Duplicate]);

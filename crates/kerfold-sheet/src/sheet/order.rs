@@ -11,6 +11,7 @@ use glam::DVec2;
 
 use super::drawing::{Drawing, Layer, LayerKind, Mark, MarkKind, Stroke};
 use crate::geom::polygon::{Location, bounds, locate};
+use crate::geom::{Cell, Grid};
 
 /// How many lines a stretch that is turned around may have.
 const WINDOW: usize = 60;
@@ -230,15 +231,24 @@ fn enter_nearest(marks: &mut [Mark], from: DVec2) {
     }
 }
 
-/// The places where marks can be entered, in the cells of a grid.
+/// A place where a mark can be entered.
+#[derive(Debug, Clone, Copy)]
+struct Entry {
+    mark: usize,
+    corner: usize,
+    /// Whether the mark would be drawn backwards.
+    is_reversed: bool,
+}
+
+/// The places where marks can be entered, in a grid.
 struct Nearest<'a> {
     marks: &'a [Mark],
     is_taken: Vec<bool>,
-    low: DVec2,
-    cell: f64,
+    /// Cells on a side of the grid.
     side: i64,
-    /// Mark, corner, and whether the mark would be drawn backwards.
-    cells: Vec<Vec<(usize, usize, bool)>>,
+    grid: Grid<2>,
+    /// By their numbers in the grid.
+    entries: Vec<Entry>,
     left: usize,
 }
 
@@ -248,37 +258,42 @@ impl<'a> Nearest<'a> {
             .unwrap_or_default();
         let side = ((marks.len() as f64).sqrt().ceil() as i64).clamp(1, 256);
         let cell = ((high - low).max_element() / side as f64).max(f64::MIN_POSITIVE);
-        let cells = vec![Vec::new(); (side * side) as usize];
-        let mut grid =
-            Self { marks, is_taken: vec![false; marks.len()], low, cell, side, cells, left: 0 };
+        let mut nearest = Self {
+            marks,
+            is_taken: vec![false; marks.len()],
+            side,
+            grid: Grid::new(low.to_array(), cell),
+            entries: Vec::new(),
+            left: 0,
+        };
         for (i, mark) in marks.iter().enumerate() {
             let Some([first, last]) = ends(mark) else { continue };
-            grid.left += 1;
+            nearest.left += 1;
             if is_ring(mark) {
                 for (corner, &p) in mark.strokes[0].points.iter().enumerate() {
-                    let at = grid.index(p);
-                    grid.cells[at].push((i, corner, false));
+                    nearest.add(p, Entry { mark: i, corner, is_reversed: false });
                 }
             } else {
                 for (p, is_reversed) in [(first, false), (last, true)] {
-                    let at = grid.index(p);
-                    grid.cells[at].push((i, 0, is_reversed));
+                    nearest.add(p, Entry { mark: i, corner: 0, is_reversed });
                 }
             }
         }
-        grid
+        nearest
     }
 
-    fn cell_of(&self, p: DVec2) -> [i64; 2] {
-        ((p - self.low) / self.cell).to_array().map(|x| (x as i64).clamp(0, self.side - 1))
+    fn add(&mut self, p: DVec2, entry: Entry) {
+        self.grid.insert_into(self.cell_of(p));
+        self.entries.push(entry);
     }
 
-    fn index(&self, p: DVec2) -> usize {
-        let [x, y] = self.cell_of(p);
-        (y * self.side + x) as usize
+    /// The cell of a place, or the one at the border that is nearest to it.
+    fn cell_of(&self, p: DVec2) -> Cell<2> {
+        self.grid.cell_of(p.to_array()).map(|x| x.clamp(0, self.side - 1))
     }
 
-    fn way(&self, (mark, corner, is_reversed): (usize, usize, bool)) -> Option<Way> {
+    fn way(&self, entry: Entry) -> Option<Way> {
+        let Entry { mark, corner, is_reversed } = entry;
         let [a, b] = ends(&self.marks[mark])?;
         let ends = match (is_ring(&self.marks[mark]), is_reversed) {
             (true, _) => [self.marks[mark].strokes[0].points[corner]; 2],
@@ -294,40 +309,52 @@ impl<'a> Nearest<'a> {
         if self.left == 0 {
             return None;
         }
-        let [cx, cy] = self.cell_of(at);
+        let centre = self.cell_of(at);
         let mut best: Option<(f64, Way)> = None;
         for ring in 0..=self.side {
             // Everything in this ring is at least that far away.
-            if best.as_ref().is_some_and(|b| b.0 < (ring - 1).max(0) as f64 * self.cell) {
+            let reach = (ring - 1).max(0) as f64 * self.grid.cell_size();
+            if best.as_ref().is_some_and(|b| b.0 < reach) {
                 break;
             }
-            for y in (cy - ring).max(0)..=(cy + ring).min(self.side - 1) {
-                let is_edge = (y - cy).abs() == ring;
-                let step = if is_edge || ring == 0 { 1 } else { 2 * ring };
-                for x in (cx - ring..=cx + ring)
-                    .step_by(step as usize)
-                    .filter(|x| (0..self.side).contains(x))
-                {
-                    let c = (y * self.side + x) as usize;
-                    let is_taken = &self.is_taken;
-                    self.cells[c].retain(|e| !is_taken[e.0]);
-                    for &entry in &self.cells[c] {
-                        let Some(way) = self.way(entry) else { continue };
-                        let distance = at.distance(way.ends[0]);
-                        let is_nearer = best.as_ref().is_none_or(|b| {
-                            distance.total_cmp(&b.0).then(way.mark.cmp(&b.1.mark)).is_lt()
-                        });
-                        if is_nearer {
-                            best = Some((distance, way));
-                        }
-                    }
-                }
+            for cell in self.ring(centre, ring) {
+                self.nearest_in(cell, at, &mut best);
             }
         }
         let (_, way) = best?;
         self.is_taken[way.mark] = true;
         self.left -= 1;
         Some(way)
+    }
+
+    /// The cells of the grid that are so many steps away from one, row by row.
+    fn ring(&self, [cx, cy]: Cell<2>, ring: i64) -> impl Iterator<Item = Cell<2>> + use<> {
+        let side = self.side;
+        ((cy - ring).max(0)..=(cy + ring).min(side - 1)).flat_map(move |y| {
+            let is_edge = (y - cy).abs() == ring;
+            let step = if is_edge || ring == 0 { 1 } else { 2 * ring };
+            let columns = (cx - ring..=cx + ring).step_by(step as usize);
+            columns.filter(move |x| (0..side).contains(x)).map(move |x| [x, y])
+        })
+    }
+
+    /// Puts the nearest mark of a cell in the place of one that is farther; the earlier of two that
+    /// are as near.
+    fn nearest_in(&self, cell: Cell<2>, at: DVec2, best: &mut Option<(f64, Way)>) {
+        for number in self.grid.in_cell(cell) {
+            let entry = self.entries[number as usize];
+            if self.is_taken[entry.mark] {
+                continue;
+            }
+            let Some(way) = self.way(entry) else { continue };
+            let distance = at.distance(way.ends[0]);
+            let is_nearer = best.as_ref().is_none_or(|b| {
+                distance.total_cmp(&b.0).then(way.mark.cmp(&b.1.mark)).is_lt()
+            });
+            if is_nearer {
+                *best = Some((distance, way));
+            }
+        }
     }
 }
 

@@ -1,32 +1,35 @@
-//! DXF as text, any version: header, layers, blocks, entities of the model space.
+//! DXF as text or binary, any version: header, layers, blocks, entities of the model space.
 
-use std::collections::BTreeMap;
+use std::borrow::Cow;
+use std::collections::HashMap;
 
-use glam::{DAffine2, DVec2};
+use glam::{DAffine2, DVec2, DVec3};
 
-use super::dxf_entity::outline;
+use super::budget::{Budget, Cost};
+use super::dxf_binary;
+use super::dxf_entity::{Outline, outline};
 use super::{ArtError, Collector, DEEPEST, Place};
 use crate::lint::{Artwork, Operation, UnitState};
 
-/// Group codes with their values.
-pub(super) type Pairs = Vec<(i32, String)>;
+/// A group code with its value.
+pub(super) type Pair<'a> = (i32, Cow<'a, str>);
 
 /// A thing with its values.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Entity {
-    pub kind: String,
-    pub pairs: Pairs,
+pub(super) struct Entity<'a> {
+    pub kind: &'a str,
+    pub pairs: &'a [Pair<'a>],
     /// Vertices of an old polyline.
-    pub vertices: Vec<Entity>,
+    pub vertices: Vec<Entity<'a>>,
 }
 
-impl Entity {
+impl Entity<'_> {
     pub fn text(&self, code: i32) -> Option<&str> {
-        self.pairs.iter().find(|p| p.0 == code).map(|p| p.1.as_str())
+        self.pairs.iter().find(|p| p.0 == code).map(|p| p.1.trim())
     }
 
     pub fn number(&self, code: i32) -> Option<f64> {
-        self.text(code)?.trim().parse().ok()
+        self.text(code)?.parse().ok()
     }
 
     pub fn flags(&self, code: i32) -> i64 {
@@ -40,152 +43,195 @@ impl Entity {
     pub fn point(&self, code: i32) -> Option<DVec2> {
         Some(DVec2::new(self.number(code)?, self.number(code + 10).unwrap_or(0.0)))
     }
+
+    /// The direction that its plane looks to; upwards unless said.
+    pub fn normal(&self) -> DVec3 {
+        let of = |code, default| self.number(code).unwrap_or(default);
+        DVec3::new(of(210, 0.0), of(220, 0.0), of(230, 1.0)).normalize_or(DVec3::Z)
+    }
+
+    /// From its own coordinates to those of the world, seen from above (the "arbitrary axis" of the
+    /// format). Some entities are in the world's from the start.
+    fn to_world(&self) -> DAffine2 {
+        let is_in_world = match self.kind {
+            "LINE" | "POINT" | "ELLIPSE" | "SPLINE" | "MTEXT" => true,
+            "POLYLINE" => self.flags(70) & 8 != 0,
+            _ => false,
+        };
+        let normal = self.normal();
+        if is_in_world || normal == DVec3::Z {
+            return DAffine2::IDENTITY;
+        }
+        let is_steep = normal.truncate().abs().max_element() < 1.0 / 64.0;
+        let x = if is_steep { DVec3::Y } else { DVec3::Z }.cross(normal).normalize_or(DVec3::X);
+        let y = normal.cross(x);
+        let lift = self.number(38).or_else(|| self.number(30)).unwrap_or(0.0);
+        DAffine2::from_cols(x.truncate(), y.truncate(), (normal * lift).truncate())
+    }
 }
 
 #[derive(Default)]
-struct Block {
+struct Block<'a> {
     base: DVec2,
-    entities: Vec<Entity>,
+    entities: Vec<Entity<'a>>,
+}
+
+/// How the entities of a layer are drawn.
+#[derive(Debug, Clone, Copy)]
+struct Layer {
+    colour: i64,
+    /// Why they are not, if so; frozen layers hide what is put on them, too.
+    hidden: Option<&'static str>,
+}
+
+const FROZEN: &str = "entity on a layer that is frozen";
+const OFF: &str = "entity on a layer that is off";
+const NOT_PLOTTED: &str = "entity on a layer that is not plotted";
+
+impl Layer {
+    fn of(entity: &Entity<'_>) -> Self {
+        let colour = entity.flags(62);
+        let hidden = if entity.flags(70) & 1 != 0 {
+            Some(FROZEN)
+        } else if colour < 0 {
+            Some(OFF)
+        } else if entity.number(290) == Some(0.0) {
+            Some(NOT_PLOTTED)
+        } else {
+            None
+        };
+        Self { colour: colour.abs().max(1), hidden }
+    }
+}
+
+/// Names of layers and blocks know no upper and lower case.
+fn folded(name: &str) -> String {
+    name.trim().to_uppercase()
 }
 
 #[derive(Default)]
-struct Drawing {
-    header: BTreeMap<String, String>,
-    /// Layers with their colour numbers; negative means switched off.
-    layers: BTreeMap<String, i64>,
-    blocks: BTreeMap<String, Block>,
-    entities: Vec<Entity>,
+struct Drawing<'a> {
+    header: HashMap<&'a str, &'a str>,
+    layers: HashMap<String, Layer>,
+    blocks: HashMap<String, Block<'a>>,
+    entities: Vec<Entity<'a>>,
 }
 
-pub(super) fn read(bytes: &[u8]) -> Result<Artwork, ArtError> {
-    let drawing = parse(&pairs(bytes)?);
+pub(super) fn read(bytes: &[u8], budget: &Budget) -> Result<Artwork, ArtError> {
+    let text;
+    let pairs = match dxf_binary::pairs(bytes, budget)? {
+        Some(pairs) => pairs,
+        None => {
+            // Names in old code pages do not matter here.
+            text = super::decode::utf16(bytes)
+                .map_or_else(|| String::from_utf8_lossy(bytes), Cow::Owned);
+            text_pairs(&text, budget)?
+        }
+    };
+    let drawing = Drawing::of(&pairs);
     let (factor, unit) = unit(&drawing);
-    let mut out = Collector::default();
-    let scale = DAffine2::from_scale(DVec2::splat(factor));
-    let inherited = Inherited { layer: None, colour: 7 };
+    let mut insertion = Insertion { out: Collector::new(budget), budget, drawing: &drawing };
+    let place = Placement {
+        transform: DAffine2::from_scale(DVec2::splat(factor)),
+        layer: None,
+        colour: 7,
+        depth: 0,
+    };
     for entity in &drawing.entities {
-        add(&mut out, &drawing, entity, (&scale, &inherited), 0)?;
+        insertion.add(entity, &place)?;
     }
-    Ok(out.finish(None, unit))
+    insertion.out.finish(None, unit)
 }
 
-fn pairs(bytes: &[u8]) -> Result<Pairs, ArtError> {
-    if bytes.starts_with(b"AutoCAD Binary DXF") {
-        return Err(ArtError::Dxf {
-            line: 1,
-            fault: "this is binary DXF; save it as text (ASCII) DXF",
-        });
-    }
-    // Names in old code pages do not matter here.
-    let text = String::from_utf8_lossy(bytes);
-    let mut lines = text.lines().enumerate();
-    let mut pairs = Pairs::new();
+/// Group codes and values up to the end of the file; what comes after is no part of it.
+fn text_pairs<'a>(text: &'a str, budget: &Budget) -> Result<Vec<Pair<'a>>, ArtError> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let mut lines = text.split(if text.contains('\n') { '\n' } else { '\r' }).enumerate();
+    let mut pairs: Vec<Pair<'a>> = Vec::new();
     while let Some((i, code)) = lines.next() {
-        if code.trim().is_empty() && pairs.last().is_some_and(|p| p.1.trim() == "EOF") {
+        let fault = "here a group code, a whole number, should stand; export the drawing again";
+        let is_end = code.trim().is_empty() && lines.clone().all(|(_, l)| l.trim().is_empty());
+        if is_end {
             break;
         }
-        let fault = "here a group code, a whole number, should stand; export the drawing again";
         let code = code.trim().parse().map_err(|_| ArtError::Dxf { line: i + 1, fault })?;
         let fault = "the file breaks off after a group code; export the drawing again";
         let (_, value) = lines.next().ok_or(ArtError::Dxf { line: i + 1, fault })?;
-        pairs.push((code, value.trim_end_matches('\r').to_owned()));
+        if code == 0 && value.trim() == "EOF" {
+            return Ok(pairs);
+        }
+        budget.spend(Cost::Values, 1)?;
+        pairs.push((code, Cow::Borrowed(value.trim_end_matches('\r'))));
     }
-    if pairs.last().is_none_or(|p| p.1.trim() != "EOF") {
-        let fault = "the file breaks off before its EOF; export the drawing again";
-        return Err(ArtError::Dxf { line: 2 * pairs.len(), fault });
-    }
-    Ok(pairs)
+    let fault = "the file breaks off before its EOF; export the drawing again";
+    Err(ArtError::Dxf { line: 2 * pairs.len(), fault })
 }
 
-fn parse(pairs: &Pairs) -> Drawing {
-    let mut drawing = Drawing::default();
-    let mut section = String::new();
-    let mut i = 0;
-    while i < pairs.len() {
-        let (code, value) = (pairs[i].0, pairs[i].1.trim());
-        if code == 0 && value == "SECTION" {
-            section = pairs.get(i + 1).map(|p| p.1.trim().to_owned()).unwrap_or_default();
-            i += 2;
-            if section == "HEADER" {
-                i = header(&mut drawing, pairs, i);
+impl<'a> Drawing<'a> {
+    fn of(pairs: &'a [Pair<'a>]) -> Self {
+        let mut drawing = Self::default();
+        let mut section = "";
+        let mut open: Option<(String, Block<'a>)> = None;
+        let mut i = 0;
+        while i < pairs.len() {
+            let (code, kind) = (pairs[i].0, pairs[i].1.trim());
+            let end = (i + 1..pairs.len()).find(|&k| pairs[k].0 == 0).unwrap_or(pairs.len());
+            let entity = Entity { kind, pairs: &pairs[i + 1..end], vertices: Vec::new() };
+            i = end;
+            match (section, kind) {
+                _ if code != 0 => {}
+                (_, "SECTION") => {
+                    section = entity.pairs.first().map_or("", |p| p.1.trim());
+                    if section == "HEADER" {
+                        drawing.read_header(entity.pairs);
+                    }
+                }
+                (_, "ENDSEC") => section = "",
+                ("TABLES", "LAYER") => {
+                    let name = folded(entity.text(2).unwrap_or_default());
+                    drawing.layers.insert(name, Layer::of(&entity));
+                }
+                ("BLOCKS", "BLOCK") => {
+                    let name = folded(entity.text(2).unwrap_or("?"));
+                    let base = entity.point(10).unwrap_or_default();
+                    open = Some((name, Block { base, entities: Vec::new() }));
+                }
+                ("BLOCKS", "ENDBLK") => drawing.blocks.extend(open.take()),
+                ("BLOCKS", _) => {
+                    if let Some((_, block)) = &mut open {
+                        append(&mut block.entities, entity);
+                    }
+                }
+                ("ENTITIES", _) => append(&mut drawing.entities, entity),
+                _ => {}
             }
-            continue;
         }
-        if code != 0 {
-            i += 1;
-            continue;
-        }
-        let end = (i + 1..pairs.len()).find(|&k| pairs[k].0 == 0).unwrap_or(pairs.len());
-        let entity = Entity {
-            kind: value.to_owned(),
-            pairs: pairs[i + 1..end].to_vec(),
-            vertices: Vec::new(),
-        };
-        i = end;
-        match (section.as_str(), entity.kind.as_str()) {
-            (_, "ENDSEC") => section.clear(),
-            ("TABLES", "LAYER") => {
-                let frozen = entity.flags(70) & 1 != 0;
-                let colour = entity.flags(62);
-                let colour = if frozen { -colour.abs().max(1) } else { colour };
-                drawing.layers.insert(entity.text(2).unwrap_or_default().to_owned(), colour);
-            }
-            ("BLOCKS", _) => in_blocks(&mut drawing, entity, &mut Vec::new()),
-            ("ENTITIES", _) => append(&mut drawing.entities, entity),
-            _ => {}
-        }
+        drawing
     }
-    drawing
-}
 
-fn header(drawing: &mut Drawing, pairs: &Pairs, mut i: usize) -> usize {
-    let mut name = String::new();
-    while i < pairs.len() && pairs[i].0 != 0 {
-        if pairs[i].0 == 9 {
-            name = pairs[i].1.trim().to_owned();
-        } else {
-            drawing.header.entry(name.clone()).or_insert_with(|| pairs[i].1.trim().to_owned());
-        }
-        i += 1;
-    }
-    i
-}
-
-/// Blocks come one after the other; the one that is open is kept under the empty name.
-fn in_blocks(drawing: &mut Drawing, entity: Entity, _: &mut Vec<String>) {
-    const OPEN: &str = "";
-    match entity.kind.as_str() {
-        "BLOCK" => {
-            let base = entity.point(10).unwrap_or_default();
-            let name = entity.text(2).unwrap_or("?").to_owned();
-            let mut block = Block { base, entities: Vec::new() };
-            block.entities.push(Entity { kind: name, ..Entity::default() });
-            drawing.blocks.insert(OPEN.to_owned(), block);
-        }
-        "ENDBLK" => {
-            if let Some(mut block) = drawing.blocks.remove(OPEN) {
-                let name = block.entities.remove(0).kind;
-                drawing.blocks.insert(name, block);
-            }
-        }
-        _ => {
-            if let Some(block) = drawing.blocks.get_mut(OPEN) {
-                append(&mut block.entities, entity);
+    /// The first value of every variable.
+    fn read_header(&mut self, pairs: &'a [Pair<'a>]) {
+        let mut name = "";
+        for (code, value) in pairs {
+            if *code == 9 {
+                name = value.trim();
+            } else {
+                self.header.entry(name).or_insert_with(|| value.trim());
             }
         }
     }
 }
 
 /// Vertices go to the polyline before them.
-fn append(entities: &mut Vec<Entity>, entity: Entity) {
-    match (entity.kind.as_str(), entities.last_mut()) {
+fn append<'a>(entities: &mut Vec<Entity<'a>>, entity: Entity<'a>) {
+    match (entity.kind, entities.last_mut()) {
         ("VERTEX", Some(last)) if last.kind == "POLYLINE" => last.vertices.push(entity),
         ("SEQEND", _) => {}
         _ => entities.push(entity),
     }
 }
 
-fn unit(drawing: &Drawing) -> (f64, UnitState) {
+fn unit(drawing: &Drawing<'_>) -> (f64, UnitState) {
     let of = |name: &str| drawing.header.get(name).and_then(|v| v.parse::<i64>().ok());
     let metric = of("$MEASUREMENT");
     let contradiction = "$INSUNITS says a metric unit and $MEASUREMENT says inches";
@@ -213,96 +259,130 @@ fn unit(drawing: &Drawing) -> (f64, UnitState) {
     }
 }
 
-/// What the entities of a block take from where it is put.
-struct Inherited {
-    layer: Option<String>,
+/// Where entities are put, and what they take from there.
+#[derive(Clone, Copy)]
+struct Placement<'a> {
+    transform: DAffine2,
+    layer: Option<&'a str>,
     colour: i64,
+    depth: usize,
 }
 
-fn add(
-    out: &mut Collector,
-    drawing: &Drawing,
-    entity: &Entity,
-    (transform, inherited): (&DAffine2, &Inherited),
-    depth: usize,
-) -> Result<(), ArtError> {
-    if depth > DEEPEST {
-        return Err(ArtError::TooDeep);
-    }
-    // Paper space holds frames and views, not the drawing.
-    if entity.flags(67) == 1 || entity.flags(60) == 1 {
-        return Ok(());
-    }
-    let own = entity.text(8).unwrap_or("0");
-    let layer = match &inherited.layer {
-        Some(outer) if own == "0" => outer.as_str(),
-        _ => own,
-    };
-    let of_layer = drawing.layers.get(layer).copied().unwrap_or(7);
-    if of_layer < 0 {
-        return Ok(());
-    }
-    let colour = match entity.number(62).map(|c| c as i64) {
-        None | Some(256) => of_layer,
-        Some(0) => inherited.colour,
-        Some(own) => own,
-    };
-    // An extrusion downwards looks at the entity from behind.
-    let mirrored = entity.number(230).is_some_and(|z| z < 0.0);
-    let transform = if mirrored && entity.kind != "LINE" && entity.kind != "POINT" {
-        *transform * DAffine2::from_scale(DVec2::new(-1.0, 1.0))
-    } else {
-        *transform
-    };
-    let at = |p: DVec2| transform.transform_point2(p);
-    match entity.kind.as_str() {
-        "INSERT" => return insert(out, drawing, entity, (&transform, layer, colour), depth),
-        "TEXT" | "MTEXT" | "ATTRIB" => {
-            let text = entity.text(1).unwrap_or_default().to_owned();
-            out.text(text, at(entity.point(10).unwrap_or_default()));
-        }
-        "ATTDEF" | "VIEWPORT" | "SEQEND" => {}
-        _ => match outline(entity, &transform) {
-            Some((points, closed)) => {
-                let operation = Operation::of_name(layer);
-                let place = Place { layer, name: None, operation, colour: index_colour(colour) };
-                out.path((points.into_iter().map(at).collect(), closed), &place);
-            }
-            None => out.unread(&entity.kind),
-        },
-    }
-    Ok(())
+/// Puts entities and blocks in their places.
+struct Insertion<'a> {
+    out: Collector<'a>,
+    budget: &'a Budget,
+    drawing: &'a Drawing<'a>,
 }
 
-fn insert(
-    out: &mut Collector,
-    drawing: &Drawing,
-    entity: &Entity,
-    (transform, layer, colour): (&DAffine2, &str, i64),
-    depth: usize,
-) -> Result<(), ArtError> {
-    let Some(block) = entity.text(2).and_then(|name| drawing.blocks.get(name)) else {
-        return Ok(());
-    };
-    let scale = DVec2::new(entity.number(41).unwrap_or(1.0), entity.number(42).unwrap_or(1.0));
-    let turn = DAffine2::from_angle(entity.number(50).unwrap_or(0.0).to_radians());
-    let at = entity.point(10).unwrap_or_default();
-    let count = |code| entity.number(code).unwrap_or(1.0).clamp(1.0, 1000.0) as usize;
-    let step = DVec2::new(entity.number(44).unwrap_or(0.0), entity.number(45).unwrap_or(0.0));
-    let inherited = Inherited { layer: Some(layer.to_owned()), colour };
-    for row in 0..count(71) {
-        for column in 0..count(70) {
-            let place = DAffine2::from_translation(at)
-                * turn
-                * DAffine2::from_translation(step * DVec2::new(column as f64, row as f64))
-                * DAffine2::from_scale(scale)
-                * DAffine2::from_translation(-block.base);
-            for inner in &block.entities {
-                add(out, drawing, inner, (&(*transform * place), &inherited), depth + 1)?;
-            }
+impl<'a> Insertion<'a> {
+    fn add(&mut self, entity: &'a Entity<'a>, place: &Placement<'a>) -> Result<(), ArtError> {
+        if place.depth > DEEPEST {
+            return Err(ArtError::TooDeep);
+        }
+        self.budget.spend(Cost::Steps, entity.pairs.len() + 1)?;
+        // Paper space holds frames and views, not the drawing.
+        if entity.flags(67) == 1 || entity.flags(60) == 1 {
+            return Ok(());
+        }
+        let own = entity.text(8).unwrap_or("0");
+        let layer = place.layer.filter(|_| own == "0").unwrap_or(own);
+        let known = self.drawing.layers.get(&folded(layer)).copied();
+        let known = known.unwrap_or(Layer { colour: 7, hidden: None });
+        // What is put on a layer that is only switched off may lie on others.
+        let is_hidden = |why| entity.kind != "INSERT" || why == FROZEN;
+        if let Some(why) = known.hidden.filter(|why| is_hidden(*why)) {
+            self.out.unread(why);
+            return Ok(());
+        }
+        let colour = match entity.number(62).map(|c| c as i64) {
+            None | Some(256) => known.colour,
+            Some(0) => place.colour,
+            Some(own) => own,
+        };
+        let transform = place.transform * entity.to_world();
+        let here = Placement { transform, layer: Some(layer), colour, ..*place };
+        match entity.kind {
+            "INSERT" => self.insert(entity, &here),
+            "TEXT" | "MTEXT" | "ATTRIB" => self.text(entity, layer, &here),
+            "ATTDEF" | "VIEWPORT" => Ok(()),
+            _ => self.line(entity, layer, &here),
         }
     }
-    Ok(())
+
+    fn text(
+        &mut self,
+        entity: &Entity<'_>,
+        layer: &str,
+        here: &Placement<'_>,
+    ) -> Result<(), ArtError> {
+        // Long texts come in pieces, the last one under code 1.
+        let pieces = entity.pairs.iter().filter(|p| matches!(p.0, 1 | 3));
+        let text: String = pieces.map(|p| p.1.trim()).collect();
+        let at = here.transform.transform_point2(entity.point(10).unwrap_or_default());
+        let (operation, colour) = (Operation::of_name(layer), index_colour(here.colour));
+        self.out.text(&text, at, &Place { layer, name: None, operation, colour })
+    }
+
+    fn line(
+        &mut self,
+        entity: &Entity<'_>,
+        layer: &str,
+        here: &Placement<'_>,
+    ) -> Result<(), ArtError> {
+        let Some(Outline { points, closed, is_flat, is_exact }) =
+            outline(entity, &here.transform, self.budget)?
+        else {
+            self.out.unread(entity.kind);
+            return Ok(());
+        };
+        let points: Vec<DVec2> =
+            points.into_iter().map(|p| here.transform.transform_point2(p)).collect();
+        let first = points.first().copied();
+        let (operation, colour) = (Operation::of_name(layer), index_colour(here.colour));
+        self.out.path((points, closed), &Place { layer, name: None, operation, colour })?;
+        if !is_exact {
+            self.out.unread("spline through points, taken as straight lines between them");
+        }
+        if let Some(at) = first.filter(|_| !is_flat) {
+            self.out.not_flat(at);
+        }
+        Ok(())
+    }
+
+    fn insert(&mut self, entity: &'a Entity<'a>, here: &Placement<'a>) -> Result<(), ArtError> {
+        let name = entity.text(2).unwrap_or_default();
+        let drawing = self.drawing;
+        let Some(block) = drawing.blocks.get(&folded(name)) else {
+            self.out.unread(&format!("INSERT of block `{name}`, which is not in the file"));
+            return Ok(());
+        };
+        let of = |code, default| entity.number(code).unwrap_or(default);
+        let scale = DVec2::new(of(41, 1.0), of(42, 1.0));
+        let turn = DAffine2::from_angle(of(50, 0.0).to_radians());
+        let at = DAffine2::from_translation(entity.point(10).unwrap_or_default());
+        let step = DVec2::new(of(44, 0.0), of(45, 0.0));
+        let count = |code| of(code, 1.0).max(1.0) as usize;
+        let (columns, rows) = (count(70), count(71));
+        self.budget.expect(Cost::Instances, columns.saturating_mul(rows))?;
+        for row in 0..rows {
+            for column in 0..columns {
+                self.budget.spend(Cost::Instances, 1)?;
+                let shift = step * DVec2::new(column as f64, row as f64);
+                let put = at
+                    * turn
+                    * DAffine2::from_translation(shift)
+                    * DAffine2::from_scale(scale)
+                    * DAffine2::from_translation(-block.base);
+                let transform = here.transform * put;
+                let inside = Placement { transform, depth: here.depth + 1, ..*here };
+                for inner in &block.entities {
+                    self.add(inner, &inside)?;
+                }
+            }
+        }
+        Ok(())
+    }
 }
 
 /// The colours of the index that mean something to laser programs.

@@ -1,25 +1,44 @@
 //! Drawings of others: SVG, DXF and PDF as lines in millimetres for [`crate::lint`].
 //!
 //! Curves are flattened to within [`FLATNESS`]; transforms, blocks and nested pages are carried
-//! out; what is not lines is counted. One page of a file is one [`Artwork`].
+//! out; what is not lines is counted. One page of a file is one [`Artwork`]. All readers spend from
+//! one budget, so that no file takes long or much memory, however small it is.
 
+mod budget;
+mod collect;
 mod curve;
+mod decode;
 mod dxf;
+mod dxf_binary;
 mod dxf_entity;
 mod pdf;
 mod pdf_object;
 mod pdf_page;
+mod pdf_unpack;
 mod svg;
+mod svg_page;
 mod svg_path;
+mod svg_style;
 
 use std::path::Path;
 
 use crate::code::codes;
-use crate::lint::{ArtPath, ArtText, Artwork, Operation, UnitState};
-use glam::DVec2;
+use crate::lint::Artwork;
+
+use budget::Budget;
+use collect::{Collector, Place};
 
 /// How far a flattened curve may be from the true one, in mm.
-pub const FLATNESS: f64 = 0.01;
+///
+/// Less than half the gap within which `lint` takes lines for one, so that two flattenings of the
+/// same curve are one line to it.
+pub const FLATNESS: f64 = 0.002;
+
+/// Files larger than that, in bytes, are not read.
+pub const LARGEST_FILE: u64 = 64 << 20;
+
+/// Coordinates beyond that, in mm, are a mistake.
+const FARTHEST: f64 = 1e7;
 
 /// How deep blocks, groups and forms may be nested before the file is taken to be malicious.
 const DEEPEST: usize = 32;
@@ -64,6 +83,25 @@ pub enum ArtError {
         "groups or blocks are nested deeper than {DEEPEST} levels; they may contain themselves"
     )]
     TooDeep,
+    /// More than any drawing needs: the file is broken or malicious.
+    #[error(
+        "it needs more than {limit} {what}; explode blocks and groups that are put many times, \
+        leave out what is not cut, or divide the drawing"
+    )]
+    TooMuch {
+        /// What there is too much of.
+        what: &'static str,
+        /// The most that is read.
+        limit: usize,
+    },
+    /// A number that is none, or beyond every machine.
+    #[error(
+        "{what} has numbers that are not finite or beyond {FARTHEST} mm; export the drawing again"
+    )]
+    OutOfRange {
+        /// Which line, text or attribute.
+        what: String,
+    },
 }
 
 codes!(error ArtError {
@@ -73,12 +111,16 @@ codes!(error ArtError {
     Dxf = 154,
     Pdf = 155,
     TooDeep = 156,
+    TooMuch = 157,
+    OutOfRange = 158,
 });
 
 impl ArtFormat {
     /// The format by the beginning of the content, else by the name.
     pub fn of(path: &Path, bytes: &[u8]) -> Option<Self> {
         let start = &bytes[..bytes.len().min(2048)];
+        // Without zeros UTF-16 shows its letters.
+        let start: Vec<u8> = start.iter().copied().filter(|b| *b != 0).collect();
         let has = |what: &[u8]| start.windows(what.len()).any(|w| w == what);
         if has(b"%PDF-") {
             return Some(Self::Pdf);
@@ -90,7 +132,7 @@ impl ArtFormat {
             return Some(Self::Dxf);
         }
         match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
-            "svg" => Some(Self::Svg),
+            "svg" | "svgz" => Some(Self::Svg),
             "dxf" => Some(Self::Dxf),
             "pdf" => Some(Self::Pdf),
             _ => None,
@@ -108,11 +150,11 @@ impl ArtFormat {
 }
 
 /// Reads the pages of a drawing. The path serves only to tell the format where the content does
-/// not.
+/// not. Packed SVG (`.svgz`) is unpacked.
 ///
 /// # Errors
-/// [`ArtError`] for files that cannot be followed; strange but readable content is left to the
-/// judge.
+/// [`ArtError`] for files that cannot be followed or take too much; strange but readable content is
+/// left to the judge.
 ///
 /// # Example
 /// ```
@@ -126,66 +168,23 @@ impl ArtFormat {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn read_artwork(path: &Path, bytes: &[u8]) -> Result<(ArtFormat, Vec<Artwork>), ArtError> {
+    if bytes.len() as u64 > LARGEST_FILE {
+        let limit = LARGEST_FILE as usize;
+        return Err(ArtError::TooMuch { what: "bytes", limit });
+    }
+    let budget = Budget::default();
+    let unpacked = decode::gunzipped(bytes, &budget)?;
+    let bytes = unpacked.as_deref().unwrap_or(bytes);
     if bytes.iter().all(u8::is_ascii_whitespace) {
         return Err(ArtError::Empty);
     }
     let format = ArtFormat::of(path, bytes).ok_or(ArtError::UnknownFormat)?;
     let pages = match format {
-        ArtFormat::Svg => vec![svg::read(bytes)?],
-        ArtFormat::Dxf => vec![dxf::read(bytes)?],
-        ArtFormat::Pdf => pdf::read(bytes)?,
+        ArtFormat::Svg => vec![svg::read(bytes, &budget)?],
+        ArtFormat::Dxf => vec![dxf::read(bytes, &budget)?],
+        ArtFormat::Pdf => pdf::read(bytes, &budget)?,
     };
     Ok((format, pages))
-}
-
-/// Gathers the lines of a page with their colours.
-#[derive(Default)]
-struct Collector {
-    art: Artwork,
-    colours: Vec<Option<[u8; 3]>>,
-}
-
-impl Collector {
-    /// A line; `operation` as far as its layer tells.
-    fn path(&mut self, (points, closed): (Vec<DVec2>, bool), place: &Place<'_>) {
-        self.colours.push(place.operation.is_none().then_some(place.colour));
-        self.art.paths.push(ArtPath {
-            points,
-            closed,
-            operation: place.operation.unwrap_or(Operation::Cut),
-            layer: place.layer.to_owned(),
-            name: place.name.map(str::to_owned),
-        });
-    }
-
-    fn text(&mut self, text: String, at: DVec2) {
-        self.art.texts.push(ArtText { text, at });
-    }
-
-    fn unread(&mut self, kind: &str) {
-        match self.art.unread.iter_mut().find(|(k, _)| k == kind) {
-            Some((_, count)) => *count += 1,
-            None => self.art.unread.push((kind.to_owned(), 1)),
-        }
-    }
-
-    fn finish(mut self, size: Option<DVec2>, unit: UnitState) -> Artwork {
-        self.art.size = size;
-        self.art.unit = unit;
-        self.art.operations_by_colour(&self.colours);
-        // Numbers that are none have no place anywhere.
-        self.art.paths.iter_mut().for_each(|p| p.points.retain(|q| q.is_finite()));
-        self.art.paths.retain(|p| !p.points.is_empty());
-        self.art
-    }
-}
-
-/// Where a line stands in its file.
-struct Place<'a> {
-    layer: &'a str,
-    name: Option<&'a str>,
-    operation: Option<Operation>,
-    colour: [u8; 3],
 }
 
 #[cfg(test)]

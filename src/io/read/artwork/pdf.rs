@@ -3,8 +3,10 @@
 
 use std::collections::BTreeMap;
 
-use super::pdf_object::{Dict, Lexer, Object, unpack};
+use super::budget::{Budget, Cost};
+use super::pdf_object::{Dict, Lexer, Object};
 use super::pdf_page::page;
+use super::pdf_unpack::unpack;
 use super::{ArtError, DEEPEST};
 use crate::lint::Artwork;
 
@@ -29,77 +31,110 @@ impl Objects {
     }
 }
 
-pub(super) fn read(bytes: &[u8]) -> Result<Vec<Artwork>, ArtError> {
-    let objects = scan(bytes)?;
-    let root = objects
-        .0
-        .values()
-        .rev()
-        .filter_map(Object::dict)
-        .find(|d| d.get("Type").and_then(Object::name) == Some("Catalog"));
+/// A page with what it inherits from the nodes above it.
+#[derive(Clone)]
+pub(super) struct PageNode<'a> {
+    own: &'a Dict,
+    inherited: [Option<&'a Object>; INHERITED.len()],
+}
+
+/// What the pages of a node have in common unless they say otherwise.
+const INHERITED: [&str; 4] = ["MediaBox", "Resources", "Rotate", "UserUnit"];
+
+impl<'a> PageNode<'a> {
+    /// An entry of the page itself, else of the nodes above it, followed.
+    pub fn entry(&self, objects: &'a Objects, name: &str) -> Option<&'a Object> {
+        let inherited = INHERITED.iter().position(|known| *known == name);
+        let above = inherited.and_then(|i| self.inherited[i]);
+        objects.entry(self.own, name).or(above.map(|o| objects.get(o)))
+    }
+}
+
+pub(super) fn read(bytes: &[u8], budget: &Budget) -> Result<Vec<Artwork>, ArtError> {
+    let objects = scan(bytes, budget)?;
+    let root = objects.0.values().rev().find(|o| type_of(o) == Some("Catalog"));
+    let root = root.and_then(Object::dict);
     let root = root.ok_or(ArtError::Pdf("it has no catalogue; export the drawing again"))?;
+    let hidden = hidden_layers(&objects, root);
     let mut pages = Vec::new();
-    let inherited = Dict::new();
     let top = objects.entry(root, "Pages").and_then(Object::dict);
-    collect(&objects, top.ok_or(ArtError::Pdf("it has no pages"))?, &inherited, &mut pages, 0)?;
+    let top = PageNode { own: top.ok_or(ArtError::Pdf("it has no pages"))?, inherited: [None; 4] };
+    collect(&objects, &top, &mut pages, (budget, 0))?;
     if pages.is_empty() {
         return Err(ArtError::Pdf("it has no pages"));
     }
-    pages.iter().map(|dict| page(&objects, dict)).collect()
+    pages.iter().map(|node| page(&objects, node, &hidden, budget)).collect()
 }
 
-/// The dictionaries of the pages with what they inherit.
-fn collect(
-    objects: &Objects,
-    node: &Dict,
-    inherited: &Dict,
-    pages: &mut Vec<Dict>,
-    depth: usize,
+/// Numbers of the optional content groups that are switched off.
+fn hidden_layers(objects: &Objects, root: &Dict) -> Vec<u32> {
+    let default = objects
+        .entry(root, "OCProperties")
+        .and_then(Object::dict)
+        .and_then(|properties| objects.entry(properties, "D"))
+        .and_then(Object::dict);
+    let off = default.and_then(|d| objects.entry(d, "OFF"));
+    let Some(Object::Array(groups)) = off else { return Vec::new() };
+    let number = |o: &Object| if let Object::Reference(id) = o { Some(*id) } else { None };
+    let mut numbers: Vec<u32> = groups.iter().filter_map(number).collect();
+    numbers.sort_unstable();
+    numbers
+}
+
+/// The pages below a node.
+fn collect<'a>(
+    objects: &'a Objects,
+    node: &PageNode<'a>,
+    pages: &mut Vec<PageNode<'a>>,
+    (budget, depth): (&Budget, usize),
 ) -> Result<(), ArtError> {
     if depth > DEEPEST {
         return Err(ArtError::TooDeep);
     }
-    let mut here = inherited.clone();
-    for name in ["MediaBox", "CropBox", "Resources", "Rotate", "UserUnit"] {
-        here.extend(node.get(name).map(|value| (name.to_owned(), value.clone())));
-    }
-    let Some(Object::Array(kids)) = objects.entry(node, "Kids") else {
-        here.extend(node.iter().map(|(k, v)| (k.clone(), v.clone())));
-        pages.push(here);
+    budget.spend(Cost::Instances, 1)?;
+    let Some(Object::Array(kids)) = objects.entry(node.own, "Kids") else {
+        budget.spend(Cost::Pages, 1)?;
+        pages.push(node.clone());
         return Ok(());
     };
-    kids.iter()
-        .filter_map(|kid| objects.get(kid).dict())
-        .try_for_each(|kid| collect(objects, kid, &here, pages, depth + 1))
+    let mut inherited = node.inherited;
+    for (slot, name) in inherited.iter_mut().zip(INHERITED) {
+        *slot = node.own.get(name).or(*slot);
+    }
+    kids.iter().filter_map(|kid| objects.get(kid).dict()).try_for_each(|own| {
+        collect(objects, &PageNode { own, inherited }, pages, (budget, depth + 1))
+    })
 }
 
-fn scan(bytes: &[u8]) -> Result<Objects, ArtError> {
+fn scan(bytes: &[u8], budget: &Budget) -> Result<Objects, ArtError> {
     let mut objects = BTreeMap::new();
     let mut at = 0;
     while let Some(found) = find(bytes, b" obj", at) {
         at = found + 4;
         let Some(id) = number_before(bytes, found) else { continue };
-        let mut lexer = Lexer { bytes, at };
-        let Some(object) = lexer.object() else { continue };
+        let mut lexer = Lexer::new(bytes, at, budget);
+        let Some(object) = lexer.object()? else { continue };
         let object = match object {
             Object::Dict(dict) => stream(bytes, &mut lexer, dict),
             other => other,
         };
         at = lexer.at.max(at);
+        budget.spend(Cost::Values, 4)?;
         objects.insert(id, object);
     }
     let is_locked = |d: &Dict| d.contains_key("Encrypt");
-    let trailer = find(bytes, b"trailer", 0).map(|t| Lexer { bytes, at: t + 7 }.object());
+    let trailer = find(bytes, b"trailer", 0);
+    let trailer = trailer.map(|t| Lexer::new(bytes, t + 7, budget).object()).transpose()?;
     if objects.values().filter_map(Object::dict).any(is_locked)
-        || matches!(trailer, Some(Some(Object::Dict(d))) if is_locked(&d))
+        || matches!(trailer.flatten(), Some(Object::Dict(d)) if is_locked(&d))
     {
         return Err(ArtError::Pdf("it is encrypted; save it without a password"));
     }
-    let packed: Vec<Object> =
-        objects.values().filter(|o| type_of(o) == Some("ObjStm")).cloned().collect();
-    for object in &packed {
+    let packed: Vec<u32> =
+        objects.iter().filter(|(_, o)| type_of(o) == Some("ObjStm")).map(|(id, _)| *id).collect();
+    for stream in packed {
         // Objects that stand by themselves are the newer ones.
-        for (id, inner) in unpacked(object)? {
+        for (id, inner) in unpacked(&objects[&stream], budget)? {
             objects.entry(id).or_insert(inner);
         }
     }
@@ -132,11 +167,14 @@ fn stream(bytes: &[u8], lexer: &mut Lexer<'_>, dict: Dict) -> Object {
     let mut start = lexer.at + 6;
     start += usize::from(bytes.get(start) == Some(&b'\r'));
     start += usize::from(bytes.get(start) == Some(&b'\n'));
-    let said = dict.get("Length").and_then(Object::number).map(|n| start + n.max(0.0) as usize);
+    let said = dict.get("Length").and_then(Object::number);
+    let said = said.map(|length| start.saturating_add(length.max(0.0) as usize));
     // The length may be wrong, or stand elsewhere: what counts is where the stream says that it
     // ends.
-    let is_end =
-        |e: &usize| *e <= bytes.len() && find(bytes, b"endstream", *e).is_some_and(|f| f <= e + 2);
+    let is_end = |e: &usize| {
+        let after = bytes.get(*e..).unwrap_or_default();
+        (0..=2).any(|skipped| after.get(skipped..).is_some_and(|a| a.starts_with(b"endstream")))
+    };
     let end =
         said.filter(is_end).or_else(|| find(bytes, b"endstream", start)).unwrap_or(bytes.len());
     lexer.at = end;
@@ -144,21 +182,24 @@ fn stream(bytes: &[u8], lexer: &mut Lexer<'_>, dict: Dict) -> Object {
 }
 
 /// The objects inside an object stream.
-fn unpacked(object: &Object) -> Result<Vec<(u32, Object)>, ArtError> {
+fn unpacked(object: &Object, budget: &Budget) -> Result<Vec<(u32, Object)>, ArtError> {
     let Object::Stream(dict, raw) = object else { return Ok(Vec::new()) };
-    let bytes = unpack(dict, raw).map_err(ArtError::Pdf)?;
+    let bytes = unpack(dict, raw, budget)?;
     let of = |name: &str| dict.get(name).and_then(Object::number).unwrap_or(0.0).max(0.0) as usize;
     let (count, first) = (of("N"), of("First"));
-    let mut head = Lexer { bytes: &bytes, at: 0 };
+    let mut head = Lexer::new(&bytes, 0, budget);
     let mut inner = Vec::new();
     for _ in 0..count.min(bytes.len()) {
         let (Some(Object::Number(id)), Some(Object::Number(offset))) =
-            (head.object(), head.object())
+            (head.object()?, head.object()?)
         else {
             break;
         };
-        let at = first + offset.max(0.0) as usize;
-        inner.extend(Lexer { bytes: &bytes, at }.object().map(|o| (id as u32, o)));
+        let at = first.saturating_add(offset.max(0.0) as usize);
+        if let Some(object) = Lexer::new(&bytes, at, budget).object()? {
+            budget.spend(Cost::Values, 4)?;
+            inner.push((id as u32, object));
+        }
     }
     Ok(inner)
 }

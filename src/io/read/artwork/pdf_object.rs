@@ -2,10 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use miniz_oxide::inflate::decompress_to_vec_zlib_with_limit;
-
-/// No page of lines needs more once it is unpacked.
-const MOST_BYTES: usize = 256 << 20;
+use super::ArtError;
+use super::budget::{Budget, Cost};
 
 /// How deep arrays and dictionaries may be nested.
 const DEEPEST: usize = 64;
@@ -50,6 +48,7 @@ impl Object {
 pub(super) struct Lexer<'a> {
     pub bytes: &'a [u8],
     pub at: usize,
+    budget: &'a Budget,
 }
 
 fn is_delimiter(b: u8) -> bool {
@@ -60,7 +59,11 @@ fn is_space(b: u8) -> bool {
     matches!(b, 0 | 9 | 10 | 12 | 13 | 32)
 }
 
-impl Lexer<'_> {
+impl<'a> Lexer<'a> {
+    pub fn new(bytes: &'a [u8], at: usize, budget: &'a Budget) -> Self {
+        Self { bytes, at, budget }
+    }
+
     pub fn skip(&mut self) {
         while let Some(&b) = self.bytes.get(self.at) {
             if b == b'%' {
@@ -76,32 +79,30 @@ impl Lexer<'_> {
     }
 
     /// The next object; nothing at the end or at a closing bracket.
-    pub fn object(&mut self) -> Option<Object> {
-        self.nested(0)
+    pub fn object(&mut self) -> Result<Option<Object>, ArtError> {
+        let start = self.at;
+        let object = self.nested(0)?;
+        self.budget.spend(Cost::Steps, self.at.saturating_sub(start) + 1)?;
+        Ok(object)
     }
 
-    fn nested(&mut self, depth: usize) -> Option<Object> {
+    fn nested(&mut self, depth: usize) -> Result<Option<Object>, ArtError> {
         self.skip();
         if depth > DEEPEST {
-            return None;
+            return Err(ArtError::TooDeep);
         }
-        match *self.bytes.get(self.at)? {
+        let Some(&byte) = self.bytes.get(self.at) else { return Ok(None) };
+        Ok(match byte {
             b'/' => Some(Object::Name(self.name())),
             b'(' => Some(Object::Text(self.string())),
             b'<' if self.bytes.get(self.at + 1) == Some(&b'<') => {
                 self.at += 2;
-                Some(Object::Dict(self.dict(depth)))
+                Some(Object::Dict(self.dict(depth)?))
             }
             b'<' => Some(Object::Text(self.hex())),
             b'[' => {
                 self.at += 1;
-                let mut items = Vec::new();
-                while let Some(item) = self.nested(depth + 1) {
-                    items.push(item);
-                }
-                self.skip();
-                self.at += usize::from(self.bytes.get(self.at) == Some(&b']'));
-                Some(Object::Array(items))
+                Some(Object::Array(self.array(depth)?))
             }
             b']' | b'>' | b')' | b'}' => None,
             b'{' => {
@@ -109,13 +110,26 @@ impl Lexer<'_> {
                 Some(Object::Null)
             }
             _ => Some(self.word()),
-        }
+        })
     }
 
-    fn dict(&mut self, depth: usize) -> Dict {
+    fn array(&mut self, depth: usize) -> Result<Vec<Object>, ArtError> {
+        let mut items = Vec::new();
+        while let Some(item) = self.nested(depth + 1)? {
+            self.budget.spend(Cost::Values, 1)?;
+            items.push(item);
+        }
+        self.skip();
+        self.at += usize::from(self.bytes.get(self.at) == Some(&b']'));
+        Ok(items)
+    }
+
+    fn dict(&mut self, depth: usize) -> Result<Dict, ArtError> {
         let mut dict = Dict::new();
-        while let Some(Object::Name(key)) = self.nested(depth + 1) {
-            if let Some(value) = self.nested(depth + 1) {
+        while let Some(Object::Name(key)) = self.nested(depth + 1)? {
+            if let Some(value) = self.nested(depth + 1)? {
+                // An entry takes about as much as that many numbers.
+                self.budget.spend(Cost::Values, 4)?;
                 dict.insert(key, value);
             }
         }
@@ -123,7 +137,7 @@ impl Lexer<'_> {
         if self.bytes[self.at.min(self.bytes.len())..].starts_with(b">>") {
             self.at += 2;
         }
-        dict
+        Ok(dict)
     }
 
     fn name(&mut self) -> String {
@@ -170,7 +184,7 @@ impl Lexer<'_> {
         text
     }
 
-    fn hex(&mut self) -> Vec<u8> {
+    pub fn hex(&mut self) -> Vec<u8> {
         self.at += 1;
         let mut digits = Vec::new();
         while let Some(&b) = self.bytes.get(self.at) {
@@ -192,7 +206,10 @@ impl Lexer<'_> {
             "null" => return Object::Null,
             _ => {}
         }
-        let Ok(number) = word.parse::<f64>() else { return Object::Word(word) };
+        // No power of ten, and neither `inf` nor `nan`: those are words here.
+        let is_of_number = |b: u8| b.is_ascii_digit() || matches!(b, b'+' | b'-' | b'.');
+        let number = word.parse::<f64>().ok().filter(|_| word.bytes().all(is_of_number));
+        let Some(number) = number else { return Object::Word(word) };
         if word.bytes().all(|b| b.is_ascii_digit()) {
             let after = self.at;
             self.skip();
@@ -219,119 +236,4 @@ impl Lexer<'_> {
         }
         String::from_utf8_lossy(&self.bytes[start..self.at]).into_owned()
     }
-}
-
-/// The bytes of a stream, unpacked.
-pub(super) fn unpack(dict: &Dict, raw: &[u8]) -> Result<Vec<u8>, &'static str> {
-    let list = |object: Option<&Object>| match object {
-        Some(Object::Array(items)) => items.clone(),
-        Some(other) => vec![other.clone()],
-        None => Vec::new(),
-    };
-    let filters = list(dict.get("Filter"));
-    let parameters = list(dict.get("DecodeParms"));
-    let mut bytes = raw.to_vec();
-    for (i, filter) in filters.iter().enumerate() {
-        bytes = match filter.name() {
-            Some("FlateDecode" | "Fl") => {
-                let plain = decompress_to_vec_zlib_with_limit(&bytes, MOST_BYTES);
-                // What could be unpacked before a fault at the end is used, as other readers do.
-                let plain = plain.unwrap_or_else(|e| e.output);
-                predicted(plain, parameters.get(i).and_then(Object::dict))
-            }
-            Some("ASCIIHexDecode" | "AHx") => {
-                Lexer { bytes: &[b"<", &bytes[..]].concat(), at: 0 }.hex()
-            }
-            Some("ASCII85Decode" | "A85") => ascii85(&bytes),
-            _ => {
-                return Err(
-                    "a page is packed in a way that is not read (LZW or encrypted); export it \
-                    again as PDF 1.4 or later",
-                );
-            }
-        };
-    }
-    Ok(bytes)
-}
-
-/// Undoes the PNG predictors, which compressed tables of objects use.
-fn predicted(bytes: Vec<u8>, parameters: Option<&Dict>) -> Vec<u8> {
-    let of = |name: &str, default: f64| {
-        parameters
-            .and_then(|p| p.get(name))
-            .and_then(Object::number)
-            .unwrap_or(default)
-            .clamp(0.0, 65536.0) as usize
-    };
-    if of("Predictor", 1.0) < 10 {
-        return bytes;
-    }
-    let width =
-        (of("Columns", 1.0) * of("Colors", 1.0) * of("BitsPerComponent", 8.0)).div_ceil(8).max(1);
-    let step = (of("Colors", 1.0) * of("BitsPerComponent", 8.0)).div_ceil(8).max(1);
-    let mut before = vec![0_u8; width];
-    let mut plain = Vec::with_capacity(bytes.len());
-    for row in bytes.chunks(width + 1) {
-        let mut line = row[1..].to_vec();
-        for i in 0..line.len() {
-            let left = if i >= step { line[i - step] } else { 0 };
-            let corner = if i >= step { before[i - step] } else { 0 };
-            let up = before[i];
-            let guess = match row[0] {
-                1 => left,
-                2 => up,
-                3 => ((u16::from(left) + u16::from(up)) / 2) as u8,
-                4 => paeth(left, up, corner),
-                _ => 0,
-            };
-            line[i] = line[i].wrapping_add(guess);
-        }
-        plain.extend_from_slice(&line);
-        before[..line.len()].copy_from_slice(&line);
-    }
-    plain
-}
-
-fn paeth(left: u8, up: u8, corner: u8) -> u8 {
-    let [a, b, c] = [left, up, corner].map(i16::from);
-    let guess = a + b - c;
-    let [da, db, dc] = [a, b, c].map(|x| (guess - x).abs());
-    if da <= db && da <= dc {
-        left
-    } else if db <= dc {
-        up
-    } else {
-        corner
-    }
-}
-
-fn ascii85(bytes: &[u8]) -> Vec<u8> {
-    let mut plain = Vec::new();
-    let mut group: Vec<u32> = Vec::new();
-    let mut flush = |group: &mut Vec<u32>| {
-        let kept = group.len().saturating_sub(1);
-        group.resize(5, 84);
-        let value = group.iter().fold(0_u32, |v, d| v.wrapping_mul(85).wrapping_add(*d));
-        plain.extend_from_slice(&value.to_be_bytes()[..kept]);
-        group.clear();
-    };
-    for &b in bytes.iter().take_while(|b| **b != b'~') {
-        match b {
-            b'z' if group.is_empty() => {
-                group = vec![0; 5];
-                flush(&mut group);
-            }
-            b'!'..=b'u' => {
-                group.push(u32::from(b - b'!'));
-                if group.len() == 5 {
-                    flush(&mut group);
-                }
-            }
-            _ => {}
-        }
-    }
-    if group.len() > 1 {
-        flush(&mut group);
-    }
-    plain
 }

@@ -2,9 +2,11 @@
 
 use glam::{DAffine2, DVec2};
 
+use super::budget::{Budget, Cost};
 use super::curve::Flattener;
-use super::pdf::Objects;
-use super::pdf_object::{Dict, Lexer, Object, unpack};
+use super::pdf::{Objects, PageNode};
+use super::pdf_object::{Dict, Lexer, Object};
+use super::pdf_unpack::unpack;
 use super::svg_path::Subpaths;
 use super::{ArtError, Collector, DEEPEST, Place};
 use crate::geom::polygon::bounds;
@@ -23,19 +25,57 @@ struct State {
     clip: Option<(DVec2, DVec2)>,
 }
 
+/// States that may be saved at a time, layers that may be open, and values before an operator.
+const MOST_OPEN: usize = 4096;
+
+/// A layer, or other marked content.
+#[derive(Clone, Default)]
+struct Layer {
+    /// Nothing for content that belongs to none.
+    name: Option<String>,
+    is_hidden: bool,
+}
+
 struct Painter<'a> {
     objects: &'a Objects,
-    out: Collector,
-    /// Names of the layers that are open, innermost last; content that belongs to none is marked,
-    /// too.
-    layers: Vec<Option<String>>,
+    budget: &'a Budget,
+    /// Numbers of the layers that are switched off.
+    hidden: &'a [u32],
+    out: Collector<'a>,
+    /// The layers that are open, innermost last.
+    layers: Vec<Layer>,
     /// Whether lines go on beyond what a clipping path shows: the page is a window on something
     /// larger.
     is_window: bool,
 }
 
-pub(super) fn page(objects: &Objects, dict: &Dict) -> Result<Artwork, ArtError> {
-    let corners = match objects.entry(dict, "MediaBox") {
+pub(super) fn page(
+    objects: &Objects,
+    node: &PageNode<'_>,
+    hidden: &[u32],
+    budget: &Budget,
+) -> Result<Artwork, ArtError> {
+    let (upright, size) = upright(objects, node)?;
+    let state = State { transform: upright, stroke: [0; 3], fill: [0; 3], clip: None };
+    let mut painter = Painter {
+        objects,
+        budget,
+        hidden,
+        out: Collector::new(budget),
+        layers: Vec::new(),
+        is_window: false,
+    };
+    let content = contents(objects, node, budget)?;
+    let empty = Dict::new();
+    let resources = node.entry(objects, "Resources").and_then(Object::dict).unwrap_or(&empty);
+    painter.paint(&content, resources, state, 0)?;
+    let size = Some(size).filter(|_| !painter.is_window);
+    painter.out.finish(size, UnitState::Known)
+}
+
+/// From points of the page to millimetres, turned as it is looked at; and its size there.
+fn upright(objects: &Objects, node: &PageNode<'_>) -> Result<(DAffine2, DVec2), ArtError> {
+    let corners = match node.entry(objects, "MediaBox") {
         Some(Object::Array(items)) => {
             items.iter().filter_map(|o| objects.get(o).number()).collect()
         }
@@ -44,16 +84,11 @@ pub(super) fn page(objects: &Objects, dict: &Dict) -> Result<Artwork, ArtError> 
     let &[x, y, right, top] = corners.as_slice() else {
         return Err(ArtError::Pdf("a page has no size"));
     };
-    let unit = objects
-        .entry(dict, "UserUnit")
-        .and_then(Object::number)
-        .filter(|u| *u > 0.0)
-        .unwrap_or(1.0);
-    let scale = POINT * unit;
+    let number = |name: &str| node.entry(objects, name).and_then(Object::number);
+    let scale = POINT * number("UserUnit").filter(|u| *u > 0.0).unwrap_or(1.0);
     let low = DVec2::new(x.min(right), y.min(top));
     let mut size = DVec2::new((right - x).abs(), (top - y).abs()) * scale;
-    let quarter = objects.entry(dict, "Rotate").and_then(Object::number).unwrap_or(0.0) / 90.0;
-    let quarter = (quarter.round() as i64).rem_euclid(4);
+    let quarter = ((number("Rotate").unwrap_or(0.0) / 90.0).round() as i64).rem_euclid(4);
     let upright = DAffine2::from_scale(DVec2::splat(scale)) * DAffine2::from_translation(-low);
     // Pages are turned clockwise.
     let turned = match quarter {
@@ -65,19 +100,15 @@ pub(super) fn page(objects: &Objects, dict: &Dict) -> Result<Artwork, ArtError> 
     if quarter % 2 == 1 {
         size = DVec2::new(size.y, size.x);
     }
-    let state = State { transform: turned * upright, stroke: [0; 3], fill: [0; 3], clip: None };
-    let mut painter =
-        Painter { objects, out: Collector::default(), layers: Vec::new(), is_window: false };
-    let content = contents(objects, dict)?;
-    let empty = Dict::new();
-    let resources = objects.entry(dict, "Resources").and_then(Object::dict).unwrap_or(&empty);
-    painter.paint(&content, resources, state, 0)?;
-    let size = Some(size).filter(|_| !painter.is_window);
-    Ok(painter.out.finish(size, UnitState::Known))
+    Ok((turned * upright, size))
 }
 
-fn contents(objects: &Objects, dict: &Dict) -> Result<Vec<u8>, ArtError> {
-    let streams: Vec<&Object> = match objects.entry(dict, "Contents") {
+fn contents(
+    objects: &Objects,
+    node: &PageNode<'_>,
+    budget: &Budget,
+) -> Result<Vec<u8>, ArtError> {
+    let streams: Vec<&Object> = match node.entry(objects, "Contents") {
         Some(Object::Array(items)) => items.iter().map(|o| objects.get(o)).collect(),
         Some(one) => vec![one],
         None => Vec::new(),
@@ -85,7 +116,7 @@ fn contents(objects: &Objects, dict: &Dict) -> Result<Vec<u8>, ArtError> {
     let mut bytes = Vec::new();
     for object in streams {
         if let Object::Stream(dict, raw) = object {
-            bytes.extend(unpack(dict, raw).map_err(ArtError::Pdf)?);
+            bytes.extend(unpack(dict, raw, budget)?);
             bytes.push(b'\n');
         }
     }
@@ -100,6 +131,11 @@ struct Building {
 }
 
 impl Building {
+    /// How many points it has so far.
+    fn count(&self) -> usize {
+        self.points.len() + self.done.iter().map(|(points, _)| points.len()).sum::<usize>()
+    }
+
     fn finish(&mut self, closed: bool) {
         if !self.points.is_empty() {
             self.done.push((std::mem::take(&mut self.points), closed));
@@ -123,9 +159,9 @@ impl Painter<'_> {
         let mut stack: Vec<Object> = Vec::new();
         let mut path = Building::default();
         let mut text = TextState::default();
-        let mut lexer = Lexer { bytes: content, at: 0 };
+        let mut lexer = Lexer::new(content, 0, self.budget);
         loop {
-            let Some(object) = lexer.object() else {
+            let Some(object) = lexer.object()? else {
                 // A bracket too many is skipped.
                 lexer.skip();
                 if lexer.at >= content.len() {
@@ -136,10 +172,14 @@ impl Painter<'_> {
             };
             let Object::Word(operator) = object else {
                 stack.push(object);
+                if stack.len() > MOST_OPEN {
+                    return Err(ArtError::TooDeep);
+                }
                 continue;
             };
             let numbers: Vec<f64> = stack.iter().filter_map(Object::number).collect();
             match operator.as_str() {
+                "q" if saved.len() >= MOST_OPEN => return Err(ArtError::TooDeep),
                 "q" => saved.push(state.clone()),
                 "Q" => state = saved.pop().unwrap_or(state),
                 "cm" => state.transform *= matrix(&numbers),
@@ -149,15 +189,20 @@ impl Painter<'_> {
                     skip_image(&mut lexer);
                 }
                 "sh" => self.out.unread("shading"),
+                "BDC" | "BMC" if self.layers.len() >= MOST_OPEN => return Err(ArtError::TooDeep),
                 "BDC" | "BMC" => {
                     let layer = self.layer(&stack, resources);
                     self.layers.push(layer);
                 }
                 "EMC" => drop(self.layers.pop()),
                 _ if colour(&operator, &numbers, &mut state) => {}
-                _ if text.operate(&operator, &numbers, &stack, &state, &mut self.out) => {}
-                "W" | "W*" => state.clip = clipped(&path, &state),
-                _ => self.draw(&operator, &numbers, &mut path, &state),
+                "Tj" | "'" | "\"" | "TJ" => self.show(&stack, &text, &state)?,
+                _ if text.operate(&operator, &numbers) => {}
+                "W" | "W*" => {
+                    self.budget.spend(Cost::Steps, path.count())?;
+                    state.clip = clipped(&path, &state);
+                }
+                _ => self.draw(&operator, &numbers, &mut path, &state)?,
             }
             stack.clear();
         }
@@ -165,21 +210,28 @@ impl Painter<'_> {
     }
 
     /// Building and painting of paths.
-    fn draw(&mut self, operator: &str, n: &[f64], path: &mut Building, state: &State) {
+    fn draw(
+        &mut self,
+        operator: &str,
+        n: &[f64],
+        path: &mut Building,
+        state: &State,
+    ) -> Result<(), ArtError> {
         let at = |i: usize| {
             DVec2::new(n.get(i).copied().unwrap_or(0.0), n.get(i + 1).copied().unwrap_or(0.0))
         };
         let current = path.points.last().copied().unwrap_or_default();
-        let flattener = Flattener::of(&state.transform);
+        self.budget.spend(Cost::Points, 1)?;
+        let flattener = Flattener::of(&state.transform, self.budget);
         match operator {
             "m" => {
                 path.finish(false);
                 path.points.push(at(0));
             }
             "l" => path.points.push(at(0)),
-            "c" => flattener.cubic([current, at(0), at(2), at(4)], &mut path.points),
-            "v" => flattener.cubic([current, current, at(0), at(2)], &mut path.points),
-            "y" => flattener.cubic([current, at(0), at(2), at(2)], &mut path.points),
+            "c" => flattener.cubic([current, at(0), at(2), at(4)], &mut path.points)?,
+            "v" => flattener.cubic([current, current, at(0), at(2)], &mut path.points)?,
+            "y" => flattener.cubic([current, at(0), at(2), at(2)], &mut path.points)?,
             "h" => close(path),
             "re" => {
                 path.finish(false);
@@ -188,29 +240,46 @@ impl Painter<'_> {
                     [low, low + DVec2::new(size.x, 0.0), low + size, low + DVec2::new(0.0, size.y)];
                 path.done.push((corners.to_vec(), true));
             }
-            "S" | "B" | "B*" => self.stroke(path, state, false),
+            "S" | "B" | "B*" => self.stroke(path, state, false)?,
             "s" | "b" | "b*" => {
                 close(path);
-                self.stroke(path, state, false);
+                self.stroke(path, state, false)?;
             }
             "f" | "F" | "f*" => {
                 // Filling closes.
                 close(path);
-                self.stroke(path, state, true);
+                self.stroke(path, state, true)?;
             }
             "n" => *path = Building::default(),
             _ => {}
         }
+        Ok(())
     }
 
-    fn stroke(&mut self, path: &mut Building, state: &State, is_filled: bool) {
+    /// The name of the innermost layer, and whether what is drawn now is hidden.
+    fn innermost(&self) -> (String, bool) {
+        let name = self.layers.iter().rev().find_map(|layer| layer.name.clone());
+        (name.unwrap_or_default(), self.layers.iter().any(|layer| layer.is_hidden))
+    }
+
+    fn stroke(
+        &mut self,
+        path: &mut Building,
+        state: &State,
+        is_filled: bool,
+    ) -> Result<(), ArtError> {
         path.finish(false);
-        let told = self.layers.iter().rev().flatten().next().cloned().unwrap_or_default();
-        let operation = Operation::of_name(&told);
+        self.budget.spend(Cost::Steps, self.layers.len())?;
+        let (layer, is_hidden) = self.innermost();
+        let operation = Operation::of_name(&layer);
         let colour = if is_filled { state.fill } else { state.stroke };
         for (points, closed) in std::mem::take(&mut path.done) {
             // A moved pen that draws nothing is nothing in a PDF.
             if points.len() < 2 {
+                continue;
+            }
+            if is_hidden {
+                self.out.unread("line on a layer that is off");
                 continue;
             }
             let points: Vec<DVec2> =
@@ -220,8 +289,37 @@ impl Painter<'_> {
             {
                 self.is_window |= from.cmplt(low).any() || to.cmpgt(high).any();
             }
-            self.out.path((points, closed), &Place { layer: &told, name: None, operation, colour });
+            let place = Place { layer: &layer, name: None, operation, colour };
+            self.out.path((points, closed), &place)?;
         }
+        Ok(())
+    }
+
+    /// Live text.
+    fn show(
+        &mut self,
+        stack: &[Object],
+        text: &TextState,
+        state: &State,
+    ) -> Result<(), ArtError> {
+        let pieces = stack.iter().flat_map(|object| match object {
+            Object::Array(items) => items.as_slice(),
+            other => std::slice::from_ref(other),
+        });
+        let mut shown = String::new();
+        for piece in pieces {
+            if let Object::Text(bytes) = piece {
+                shown += &String::from_utf8_lossy(bytes);
+            }
+        }
+        let (layer, is_hidden) = self.innermost();
+        if shown.trim().is_empty() || is_hidden {
+            return Ok(());
+        }
+        let at = state.transform.transform_point2(text.line.translation);
+        let operation = Operation::of_name(&layer);
+        let place = Place { layer: &layer, name: None, operation, colour: state.fill };
+        self.out.text(&shown, at, &place)
     }
 
     /// A form is content in content; an image is not judged.
@@ -249,9 +347,10 @@ impl Painter<'_> {
             }
             _ => Vec::new(),
         };
+        self.budget.spend(Cost::Instances, 1)?;
         let mut inner = state.clone();
         inner.transform *= matrix(&numbers);
-        let content = unpack(dict, raw).map_err(ArtError::Pdf)?;
+        let content = unpack(dict, raw, self.budget)?;
         let own = objects.entry(dict, "Resources").and_then(Object::dict).unwrap_or(resources);
         let open = self.layers.len();
         self.paint(&content, own, inner, depth + 1)?;
@@ -259,18 +358,27 @@ impl Painter<'_> {
         Ok(())
     }
 
-    /// The name of the optional content group that marked content belongs to.
-    fn layer(&self, stack: &[Object], resources: &Dict) -> Option<String> {
-        let [tag, property] = stack else { return None };
+    /// The optional content group that marked content belongs to.
+    fn layer(&self, stack: &[Object], resources: &Dict) -> Layer {
+        let [tag, property] = stack else { return Layer::default() };
         if tag.name() != Some("OC") {
-            return None;
+            return Layer::default();
         }
-        let properties = self.objects.entry(resources, "Properties").and_then(Object::dict)?;
-        let group = self.objects.entry(properties, property.name()?).and_then(Object::dict)?;
-        match self.objects.entry(group, "Name") {
-            Some(Object::Text(name)) => Some(String::from_utf8_lossy(name).into_owned()),
+        let properties = self.objects.entry(resources, "Properties").and_then(Object::dict);
+        let group = properties.zip(property.name()).and_then(|(p, name)| p.get(name));
+        let is_hidden = match group {
+            Some(Object::Reference(id)) => self.hidden.binary_search(id).is_ok(),
+            _ => false,
+        };
+        let dict = group.and_then(|group| self.objects.get(group).dict());
+        let name = match dict.and_then(|group| self.objects.entry(group, "Name")) {
+            Some(Object::Text(name)) => {
+                // Nobody looks for longer ones.
+                Some(String::from_utf8_lossy(&name[..name.len().min(200)]).into_owned())
+            }
             _ => None,
-        }
+        };
+        Layer { name, is_hidden }
     }
 }
 
@@ -318,37 +426,14 @@ struct TextState {
 }
 
 impl TextState {
-    fn operate(
-        &mut self,
-        operator: &str,
-        n: &[f64],
-        stack: &[Object],
-        state: &State,
-        out: &mut Collector,
-    ) -> bool {
+    /// Whether the operator is one of text; those that move it are carried out.
+    fn operate(&mut self, operator: &str, n: &[f64]) -> bool {
         match operator {
             "BT" => self.line = DAffine2::IDENTITY,
             "Tm" => self.line = matrix(n),
             "Td" | "TD" => {
                 if let &[x, y] = n {
                     self.line *= DAffine2::from_translation(DVec2::new(x, y));
-                }
-            }
-            "Tj" | "'" | "\"" | "TJ" => {
-                let mut shown = String::new();
-                let mut show = |o: &Object| {
-                    if let Object::Text(bytes) = o {
-                        shown += &String::from_utf8_lossy(bytes);
-                    }
-                };
-                for object in stack {
-                    match object {
-                        Object::Array(items) => items.iter().for_each(&mut show),
-                        other => show(other),
-                    }
-                }
-                if !shown.trim().is_empty() {
-                    out.text(shown, state.transform.transform_point2(self.line.translation));
                 }
             }
             "ET" | "Tf" | "Tc" | "Tw" | "Tz" | "TL" | "Tr" | "Ts" | "T*" => {}

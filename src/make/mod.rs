@@ -29,7 +29,9 @@ pub use materials::{MaterialError, material, with_material};
 pub use nest::{NestError, NestStep, nest_files};
 pub use operate::operate;
 pub use outputs::{Output, fabrication_outputs, sheet_picture};
-pub use panels::{PanelFiles, PanelOptionError, Panelled, SolidFile, panel_model, panel_outputs};
+pub use panels::{
+    PanelFiles, PanelJob, PanelOptionError, Panelled, SolidFile, panel_model, panel_outputs,
+};
 pub use planes::{PlanesStep, solid_of_planes};
 pub use report_pictures::report_pictures;
 pub use seam_choice::SeamChoice;

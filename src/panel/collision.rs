@@ -6,10 +6,9 @@
 
 use glam::DVec2;
 
-use super::cut::Cutter;
+use super::cut::{Cutter, rounding};
 use super::error::Collision;
 use super::outline::FlatFace;
-use crate::geom::RoundingBound;
 use crate::geom::polygon::{segments_cross, signed_area};
 use crate::mesh::HalfEdgeId;
 
@@ -22,10 +21,7 @@ pub(super) fn collisions(face: &FlatFace, cutter: &Cutter<'_>) -> Vec<Collision>
     let mut found = Vec::new();
     let full = lengths(face, cutter, 1.0);
     // A side within rounding of nothing is nothing: no other program would take such a plate.
-    let corners = cutter.mesh.face_positions(face.face);
-    let (low, high) =
-        corners.iter().fold((corners[0], corners[0]), |(low, high), &p| (low.min(p), high.max(p)));
-    let least = RoundingBound::of_box(low, high).length();
+    let least = rounding(&cutter.mesh.face_positions(face.face));
     if full.iter().any(|&[front, back]| front <= least || back <= least) {
         let thin = lengths(face, cutter, 0.0);
         for (i, (full, thin)) in full.iter().zip(&thin).enumerate() {
@@ -68,7 +64,7 @@ fn outlines(face: &FlatFace, cutter: &Cutter<'_>, scale: f64) -> [Vec<DVec2>; 2]
     let insets: Vec<_> = face.half_edges.iter().map(inset).collect();
     let [front, back]: [Vec<f64>; 2] =
         [insets.iter().map(|i| i.front).collect(), insets.iter().map(|i| i.back).collect()];
-    [face.moved(&front).0, face.moved(&back).0]
+    [face.moved(&front), face.moved(&back)]
 }
 
 fn is_simple_at(face: &FlatFace, cutter: &Cutter<'_>, scale: f64) -> bool {

@@ -7,8 +7,9 @@ use super::{OperatorStep, Recipe, Step, StepError};
 use crate::check::{CheckParams, Report, check};
 use crate::io::{ReadMesh, read_mesh};
 use crate::make::{
-    DformParams, FabricateParams, Fabrication, MakeError, PanelFiles, Panelled, ShowParams,
-    carve_dform, fabricate, nest_files, operate, panel_model, solid_of_planes, with_material,
+    DformParams, FabricateParams, Fabrication, MakeError, PanelFiles, PanelJob, Panelled,
+    ShowParams, carve_dform, fabricate, nest_files, operate, panel_model, solid_of_planes,
+    with_material,
 };
 use crate::mesh::{Mesh, SplitVertex};
 use crate::op::{HullParams, HullStep, OpContext, OpError, hull};
@@ -201,7 +202,12 @@ impl Job {
         progress: &dyn Progress,
     ) -> Result<(), MakeError> {
         let source = MeshSource { scale: 1.0, split_vertices: &[] };
-        let panelled = panel_model(self.mesh()?, (params, files, sheet), &source, progress)?;
+        let panelled = panel_model(
+            self.mesh()?,
+            PanelJob { panels: params, files, sheet },
+            &source,
+            progress,
+        )?;
         self.notes.extend(panelled.notes());
         (self.panelled, self.fabrication) = (Some((panelled, sheet.clone())), None);
         Ok(())

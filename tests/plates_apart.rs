@@ -72,6 +72,7 @@ fn all_kinds(mesh: &Mesh, share: f64, title: &str) -> usize {
             let cutting = if kind == EdgeKind::Finger { CutStyle::Square } else { CutStyle::Bevel };
             let gap = Length::from_mm(gap * thickness);
             let hardware = Hardware {
+                finger_width: Some(Length::from_mm(15.0)),
                 hole_spacing: matches!(kind, EdgeKind::Stitch | EdgeKind::Hinge)
                     .then(|| Length::from_mm(20.0)),
                 ..Hardware::default()

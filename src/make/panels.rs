@@ -314,8 +314,10 @@ impl Panelled {
         let cuts = &plates.node_cuts;
         notes.extend(cuts.iter().take(LISTED).map(cut_text));
         if cuts.len() > LISTED {
-            let more = cuts.len() - LISTED;
-            notes.push(format!("and {more} more pairs of plates; panels.json lists them all"));
+            notes.push(format!(
+                "{} pairs of plates were kept apart so; panels.json lists all",
+                cuts.len()
+            ));
         }
         notes.extend(self.fabrication.notes());
         notes

@@ -29,22 +29,15 @@ pub(super) struct Shared {
     pub about: DVec3,
 }
 
-/// All pairs of plates that overlap, in order; of those pairs only of which one plate is `fresh`.
-/// `None` when the user asked to stop.
-pub(super) fn overlaps(
-    plates: &[&Plate],
-    is_fresh: &[bool],
-    progress: &dyn Progress,
-) -> Option<Vec<Shared>> {
+/// All pairs of plates that overlap, in order; `None` when the user asked to stop.
+pub(super) fn overlaps(plates: &[&Plate], progress: &dyn Progress) -> Option<Vec<Shared>> {
     let about = middle(plates);
     let bodies: Vec<Body<'_>> = plates.iter().map(|plate| Body::new(plate, about)).collect();
     let mut found = Vec::new();
-    for (count, [i, j]) in near_pairs(&bodies).into_iter().enumerate() {
-        if count.is_multiple_of(1024) && progress.is_cancelled() {
+    for pair in near_pairs(&bodies) {
+        found.extend(shared(&bodies, pair, about, progress));
+        if progress.is_cancelled() {
             return None;
-        }
-        if is_fresh[i] || is_fresh[j] {
-            found.extend(shared(&bodies, [i, j], about));
         }
     }
     Some(found)
@@ -79,8 +72,13 @@ fn near_pairs(bodies: &[Body<'_>]) -> Vec<[usize; 2]> {
     pairs
 }
 
-/// What two bodies share, when it is more than rounding.
-fn shared(bodies: &[Body<'_>], plates: [usize; 2], about: DVec3) -> Option<Shared> {
+/// What two bodies share, when it is more than rounding and the user did not ask to stop.
+fn shared(
+    bodies: &[Body<'_>],
+    plates: [usize; 2],
+    about: DVec3,
+    progress: &dyn Progress,
+) -> Option<Shared> {
     let [a, b] = plates.map(|i| &bodies[i]);
     let (low, high) = (a.low.max(b.low), a.high.min(b.high));
     let extent = (high - low).length_squared();
@@ -97,6 +95,9 @@ fn shared(bodies: &[Body<'_>], plates: [usize; 2], about: DVec3) -> Option<Share
     let planes: Vec<_> = theirs.iter().map(|part| part.cell.half_spaces()).collect();
     let (mut volume, mut cells) = (0.0, Vec::new());
     for part in &ours {
+        if progress.is_cancelled() {
+            return None;
+        }
         for (other, planes) in theirs.iter().zip(&planes) {
             if !meet((part.low, part.high), (other.low, other.high)) {
                 continue;

@@ -41,7 +41,6 @@ pub(super) fn settle(
     progress: &dyn Progress,
 ) -> Result<Settled, PanelError> {
     let mut cuts = NodeCuts::new();
-    let mut before: Vec<Plate> = Vec::new();
     let mut rounds = 0;
     loop {
         let shaped = match try_shapes(faces, flat, cutter, progress)? {
@@ -53,10 +52,8 @@ pub(super) fn settle(
             }
         };
         let plates: Vec<&Plate> = shaped.iter().map(|s| &s.plate).collect();
-        let is_fresh: Vec<bool> =
-            plates.iter().enumerate().map(|(i, plate)| before.get(i) != Some(*plate)).collect();
         progress.report("overlaps", 0, 0);
-        let found = overlaps(&plates, &is_fresh, progress).ok_or(PanelError::Cancelled)?;
+        let found = overlaps(&plates, progress).ok_or(PanelError::Cancelled)?;
         if found.is_empty() {
             return Ok(Settled { shaped, cuts: cuts.into_values().collect() });
         }
@@ -71,7 +68,6 @@ pub(super) fn settle(
             cuts.clear();
             parted.fallen.into_iter().for_each(|e| cutter.fall_back(e, EdgeFallback::Overlap));
         }
-        before = shaped.into_iter().map(|s| s.plate).collect();
     }
 }
 

@@ -13,7 +13,8 @@ pub fn solids() -> impl Iterator<Item = (&'static str, Mesh)> {
         let params = SolidParams {
             name: name.parse().expect("a name"),
             edge: None,
-            size: Some(Length::from_mm(200.0)),
+            // Boxes have their size in their name.
+            size: (!name.starts_with("box")).then(|| Length::from_mm(200.0)),
         };
         (name, solid(&params).expect("a solid"))
     })

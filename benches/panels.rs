@@ -10,9 +10,9 @@ mod clock;
 
 use clock::{peak_megabytes, process_seconds};
 use kerfold::io::sheet::svg::write_svg;
-use kerfold::make::{PanelFiles, PanelSettings, SolidFile, panel_model, panel_outputs};
+use kerfold::make::{PanelFiles, PanelJob, SolidFile, panel_model, panel_outputs};
 use kerfold::mesh::Mesh;
-use kerfold::panel::{Hardware, PanelParams, ReferenceSide, panel_net, plates, schedule};
+use kerfold::panel::{PanelParams, ReferenceSide, panel_net, plates, schedule};
 use kerfold::progress::Silent;
 use kerfold::shape::{hexagonal_facade, random_tangent_polytope};
 use kerfold::sheet::{
@@ -51,9 +51,9 @@ fn facade() {
         ..SheetParams::default()
     };
     let mut clock = Clock::start();
-    let made = plates(&mesh, thickness, (&params, &Hardware::default()), &Silent).expect("plates");
+    let made = plates(&mesh, thickness, &params, &Silent).expect("plates");
     clock.lap("plates");
-    let listed = schedule(&mesh, &made, &params);
+    let listed = schedule(&mesh, &made, &params, &Silent).expect("nobody stops it");
     clock.lap("schedule");
     let net = panel_net(&mesh, &made, 1.0, &[]);
     let bare = SheetParams {
@@ -88,8 +88,8 @@ fn facade() {
         vec![SolidFile::Step, SolidFile::Obj, SolidFile::Glb, SolidFile::Stl],
     ] {
         let files = PanelFiles { solids };
-        let settings = PanelSettings { panels: &params, files: &files, sheet: &sheet };
-        let panelled = panel_model(&mesh, &settings, &source, &Silent).expect("panels");
+        let job = PanelJob { panels: &params, files: &files, sheet: &sheet };
+        let panelled = panel_model(&mesh, job, &source, &Silent).expect("panels");
         let outputs = panel_outputs(&panelled, &sheet, "bench").expect("files");
         let bytes: usize = outputs.iter().map(|(_, bytes)| bytes.len()).sum();
         clock.lap(&format!("all {} files, {} MB", outputs.len(), bytes / 1_000_000));
@@ -99,13 +99,8 @@ fn facade() {
 /// The promises about random 3-valent solids, on a size that tests do not take.
 fn exactness(mesh: &Mesh) {
     let mut clock = Clock::start();
-    let made = plates(
-        mesh,
-        Length::from_mm(0.05),
-        (&PanelParams::default(), &Hardware::default()),
-        &Silent,
-    )
-    .expect("plates");
+    let made =
+        plates(mesh, Length::from_mm(0.05), &PanelParams::default(), &Silent).expect("plates");
     clock.lap("1000 random faces");
     let worst =
         made.plates

@@ -5,7 +5,7 @@
 
 use std::error::Error;
 
-use kerfold::panel::{Hardware, PanelParams, plates, schedule};
+use kerfold::panel::{PanelParams, plates, schedule};
 use kerfold::progress::Silent;
 use kerfold::shape::{SolidParams, solid};
 use kerfold::units::Length;
@@ -17,8 +17,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         size: Some(Length::from_mm(4000.0)),
     })?;
     let params = PanelParams { gap: Length::from_mm(8.0), ..PanelParams::default() };
-    let made = plates(&model, Length::from_mm(10.0), (&params, &Hardware::default()), &Silent)?;
-    let list = schedule(&model, &made, &params);
+    let made = plates(&model, Length::from_mm(10.0), &params, &Silent)?;
+    let list = schedule(&model, &made, &params, &Silent)?;
     for group in &list.groups {
         println!("{} plates like {}", group.panels.len(), group.first);
     }

@@ -13,9 +13,9 @@ use super::{Console, Outcome};
 use crate::code::Coded;
 use crate::io::panels_json::finding;
 use crate::make::{
-    MakeError, PanelFiles, PanelSettings, Panelled, panel_model, panel_outputs, with_material,
+    MakeError, PanelFiles, PanelJob, Panelled, panel_model, panel_outputs, with_material,
 };
-use crate::panel::{PanelFinding, PanelParams, PanelRequirement};
+use crate::panel::{PanelCheck, PanelElement, PanelFinding, PanelParams};
 use crate::sheet::SheetParams;
 use crate::unfold::MeshSource;
 use crate::units::counted;
@@ -49,8 +49,8 @@ pub(super) fn run(args: &PanelsArgs, console: &Console) -> Result<Outcome, CliEr
     let sheet = with_material(&args.sheet, Path::new("")).map_err(MakeError::from)?;
     let progress = Terminal::new(console.quiet);
     let source = MeshSource { scale: read.scale, split_vertices: &read.splits };
-    let settings = PanelSettings { panels: &args.panels, files: &args.files, sheet: &sheet };
-    let panelled = panel_model(&read.mesh, &settings, &source, &progress)?;
+    let job = PanelJob { panels: &args.panels, files: &args.files, sheet: &sheet };
+    let panelled = panel_model(&read.mesh, job, &source, &progress)?;
     let command = command_line();
     let outputs = panel_outputs(&panelled, &sheet, &command)?;
     let written = console.write_folder(&args.output, outputs, args.clean)?;
@@ -131,20 +131,23 @@ pub(super) fn panels_text(panelled: &Panelled) -> String {
 }
 
 fn finding_text(finding: &PanelFinding) -> String {
-    let code = finding.requirement.code();
-    match finding.requirement {
-        PanelRequirement::Valence3 => {
-            format!(
-                "finding {code}: vertex {} has {} edges instead of 3\n",
-                finding.vertex, finding.measured
-            )
+    let code = finding.check.code();
+    let (measured, limit) = (short(finding.measured), short(finding.limit));
+    let place = match finding.element {
+        PanelElement::Node(vertex) => format!("vertex {vertex}"),
+        PanelElement::Face(face) => format!("face {face}"),
+    };
+    match finding.check {
+        PanelCheck::Valence3 => {
+            format!("finding {code}: {place} has {} edges instead of 3\n", finding.measured)
         }
-        PanelRequirement::Conical => format!(
-            "finding {code}: the plates of vertex {} miss each other by {} mm per mm of offset (at \
-            most {})\n",
-            finding.vertex,
-            short(finding.measured),
-            short(finding.limit)
+        PanelCheck::Conical => format!(
+            "finding {code}: the plates of {place} miss each other by {measured} mm per mm of \
+            offset (at most {limit})\n"
+        ),
+        PanelCheck::Planar => format!(
+            "finding {code}: {place} is not planar: a corner lies {measured} mm off its plane (at \
+            most {limit} mm), its plate is cut back by as much\n"
         ),
     }
 }

@@ -12,7 +12,8 @@ use super::panels_csv::{edge_name, group_name, node_name, sheet_of};
 use crate::code::Coded;
 use crate::net::PieceId;
 use crate::panel::{
-    EdgeRow, GroupRow, NodeRow, PanelFinding, PanelRequirement, PanelRow, Plate, Plates, Schedule,
+    EdgeRow, GroupRow, NodeCut, NodeRow, PanelCheck, PanelElement, PanelFinding, PanelRow, Plate,
+    Plates, Schedule,
 };
 use crate::sheet::Layout;
 
@@ -63,6 +64,7 @@ pub fn panels_json(
         ("units", compact("mm")),
         ("totals", compact(&sums)),
         ("findings", lines(findings.iter().map(|f| compact(&finding(f))))),
+        ("node_cuts", lines(plates.node_cuts.iter().map(|cut| compact(&node_cut(cut))))),
         ("groups", lines(schedule.groups.iter().map(|g| compact(&group(g))))),
         ("panels", lines(panels)),
         ("edges", lines(schedule.edges.iter().map(|e| compact(&edge(e))))),
@@ -124,15 +126,27 @@ fn group(row: &GroupRow) -> Value {
     })
 }
 
+fn node_cut(cut: &NodeCut) -> Value {
+    json!({
+        "node": node_name(cut.vertex.index()), "panels": cut.panels.map(|p| p.to_string()),
+        "overlap_mm3": cut.overlap_mm3, "cut_back_mm": cut.cut_mm,
+    })
+}
+
 /// A finding as `panels.json` and `--json` show it.
 pub fn finding(finding: &PanelFinding) -> Value {
-    let (check, unit) = match finding.requirement {
-        PanelRequirement::Valence3 => ("valence3", "edges"),
-        PanelRequirement::Conical => ("conical", "mm/mm"),
+    let (check, unit) = match finding.check {
+        PanelCheck::Valence3 => ("valence3", "edges"),
+        PanelCheck::Conical => ("conical", "mm/mm"),
+        PanelCheck::Planar => ("planar-faces", "mm"),
+    };
+    let (element, id) = match finding.element {
+        PanelElement::Node(vertex) => ("node", vertex.index()),
+        PanelElement::Face(face) => ("face", face.index()),
     };
     json!({
-        "check": check, "code": finding.requirement.code().to_string(), "element": "node", "id": finding.vertex.index(), "measured": finding.measured, "limit": finding.limit,
-        "unit": unit,
+        "check": check, "code": finding.check.code().to_string(), "element": element, "id": id,
+        "measured": finding.measured, "limit": finding.limit, "unit": unit,
     })
 }
 

@@ -30,7 +30,7 @@ pub use nest::{NestError, NestStep, nest_files};
 pub use operate::operate;
 pub use outputs::{Output, fabrication_outputs, sheet_picture};
 pub use panels::{
-    PanelFiles, PanelOptionError, PanelSettings, Panelled, SolidFile, panel_model, panel_outputs,
+    PanelFiles, PanelJob, PanelOptionError, Panelled, SolidFile, panel_model, panel_outputs,
 };
 pub use planes::{PlanesStep, solid_of_planes};
 pub use report_pictures::report_pictures;

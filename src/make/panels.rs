@@ -5,16 +5,18 @@ use serde::Deserialize;
 
 use super::outputs::Output;
 use super::{Fabrication, MakeError, fabrication_outputs};
+use crate::check::short;
 use crate::code::codes;
 use crate::io::map_files::{map_pdf, map_svg};
 use crate::io::panels_csv::{cutting_list_csv, edges_csv, nodes_csv, panels_csv};
 use crate::io::panels_json::panels_json;
 use crate::io::plates::{NamedPlate, plates_glb, plates_obj, plates_stl};
-use crate::io::step::{StepPart, step_bytes};
+use crate::io::step::step_bytes;
 use crate::mesh::Mesh;
 use crate::panel::{
-    EdgeKind, Hardware, PanelFinding, PanelParams, Plates, Schedule, assembly_map, panel_findings,
-    panel_net, plates, schedule,
+    EdgeFallback, EdgeKind, Hardware, NodeCut, PanelError, PanelFinding, PanelParams, PanelRow,
+    Plates, Schedule, Shallow, Solid, assembly_map, panel_findings, panel_net, plates, schedule,
+    solid,
 };
 use crate::progress::Progress;
 use crate::sheet::{
@@ -64,6 +66,18 @@ impl Default for PanelFiles {
     }
 }
 
+/// What is asked of a panelled model.
+#[derive(Debug, Clone, Copy)]
+pub struct PanelJob<'a> {
+    /// How faces become plates. Sizes of fingers and holes that the sheet's parameters give count
+    /// before its hardware.
+    pub panels: &'a PanelParams,
+    /// Which files are written.
+    pub files: &'a PanelFiles,
+    /// Where the panels go; their thickness.
+    pub sheet: &'a SheetParams,
+}
+
 /// A panelled model, ready to be written.
 #[derive(Debug, Clone)]
 pub struct Panelled {
@@ -107,20 +121,8 @@ codes!(error PanelOptionError {
     Unused = 743,
 });
 
-/// What a job of panels is asked for.
-#[derive(Debug, Clone, Copy)]
-pub struct PanelSettings<'a> {
-    /// How the plates are made.
-    pub panels: &'a PanelParams,
-    /// Which 3D files are written.
-    pub files: &'a PanelFiles,
-    /// How the plates lie on sheets, and what is drawn on them.
-    pub sheet: &'a SheetParams,
-}
-
-/// Makes the plates of a mesh in millimetres, lists them and lays them out on sheets. The
-/// thickness, the width of fingers and the sizes of holes are those of the sheet's parameters;
-/// without a thickness that of the material is taken.
+/// Makes the plates of a mesh in millimetres, lists them and lays them out on sheets. Without a
+/// thickness in the sheet's parameters that of the material is taken.
 ///
 /// # Errors
 /// [`MakeError::PanelOption`] for options that do not fit together, [`MakeError::Panel`] for a
@@ -128,55 +130,58 @@ pub struct PanelSettings<'a> {
 /// hold.
 pub fn panel_model(
     mesh: &Mesh,
-    settings: &PanelSettings<'_>,
+    job: PanelJob<'_>,
     source: &MeshSource<'_>,
     progress: &dyn Progress,
 ) -> Result<Panelled, MakeError> {
-    let PanelSettings { panels: params, files, sheet } = *settings;
-    let (thickness, hardware) = hardware(params, sheet)?;
-    let density = params.density.or_else(|| sheet.stock.made_of.as_ref()?.density);
-    let params = &PanelParams { density, ..params.clone() };
-    let plates = plates(mesh, thickness, (params, &hardware), progress)?;
-    let schedule = schedule(mesh, &plates, params);
-    let findings = panel_findings(&plates, params);
+    let thickness = thickness(job.sheet)?;
+    let params = &panel_params(job)?;
+    let plates = plates(mesh, thickness, params, progress)?;
+    let schedule = schedule(mesh, &plates, params, progress)?;
+    let findings = panel_findings(mesh, &plates, params);
     let net = panel_net(mesh, &plates, source.scale, source.split_vertices);
     progress.report("sheets", 0, 0);
-    let sheets = lay_out_watched(&net, &bare(sheet), progress)?;
+    let sheets = lay_out_watched(&net, &bare(job.sheet), progress)?;
     let fabrication = Fabrication { net, sheets, seams: "", divided: 0, sources: Vec::new() };
-    Ok(Panelled { plates, schedule, findings, fabrication, files: files.clone() })
+    Ok(Panelled { plates, schedule, findings, fabrication, files: job.files.clone() })
 }
 
-/// The options of the sheet that plates take over.
-fn hardware(
-    params: &PanelParams,
-    sheet: &SheetParams,
-) -> Result<(Length, Hardware), PanelOptionError> {
+fn thickness(sheet: &SheetParams) -> Result<Length, PanelOptionError> {
     if sheet.joint.kind != Joint::None {
         return Err(PanelOptionError::Joint);
     }
-    let has = |kinds: &[EdgeKind]| kinds.iter().any(|&k| params.edges.has(k));
-    let has_holes = has(&[EdgeKind::Stitch, EdgeKind::Hinge])
-        || params.shallow == crate::panel::Shallow::Stitch;
-    let unused = |option: &'static str, is_given: bool, is_used: bool, by: &'static str| {
-        if is_given && !is_used { Err(PanelOptionError::Unused { option, by }) } else { Ok(()) }
-    };
-    unused("finger-width", sheet.joint.finger_width.is_some(), has(&[EdgeKind::Finger]), "finger")?;
-    for (option, value) in [
-        ("hole-spacing", sheet.joint.hole_spacing),
-        ("hole-diameter", sheet.joint.hole_diameter),
-        ("hole-inset", sheet.joint.hole_inset),
-    ] {
-        unused(option, value.is_some(), has_holes, "stitch or hinge")?;
-    }
     let of_material = sheet.stock.made_of.as_ref().map(|material| material.thickness);
-    let thickness = sheet.joint.thickness.or(of_material).ok_or(PanelOptionError::NoThickness)?;
+    sheet.joint.thickness.or(of_material).ok_or(PanelOptionError::NoThickness)
+}
+
+/// The parameters of the plates with what the sheet's parameters give of them: hardware and
+/// density.
+fn panel_params(job: PanelJob<'_>) -> Result<PanelParams, PanelOptionError> {
+    let (own, sheet) = (job.panels.hardware, job.sheet);
     let hardware = Hardware {
-        finger_width: sheet.joint.finger_width,
-        hole_spacing: sheet.joint.hole_spacing,
-        hole_diameter: sheet.joint.hole_diameter,
-        hole_inset: sheet.joint.hole_inset,
+        finger_width: sheet.joint.finger_width.or(own.finger_width),
+        hole_spacing: sheet.joint.hole_spacing.or(own.hole_spacing),
+        hole_diameter: sheet.joint.hole_diameter.or(own.hole_diameter),
+        hole_inset: sheet.joint.hole_inset.or(own.hole_inset),
     };
-    Ok((thickness, hardware))
+    check_use(job.panels, &hardware)?;
+    let density = job.panels.density.or_else(|| sheet.stock.made_of.as_ref()?.density);
+    Ok(PanelParams { density, hardware, ..job.panels.clone() })
+}
+
+/// Refuses sizes of hardware that no edge has.
+fn check_use(params: &PanelParams, hardware: &Hardware) -> Result<(), PanelOptionError> {
+    let has = |kinds: &[EdgeKind]| kinds.iter().any(|&k| params.edges.has(k));
+    let has_fingers = has(&[EdgeKind::Finger]);
+    let has_holes = has(&[EdgeKind::Stitch, EdgeKind::Hinge]) || params.shallow == Shallow::Stitch;
+    let given = [
+        ("finger-width", hardware.finger_width, has_fingers, "finger"),
+        ("hole-spacing", hardware.hole_spacing, has_holes, "stitch or hinge"),
+        ("hole-diameter", hardware.hole_diameter, has_holes, "stitch or hinge"),
+        ("hole-inset", hardware.hole_inset, has_holes, "stitch or hinge"),
+    ];
+    let unused = given.into_iter().find(|(_, size, is_used, _)| size.is_some() && !is_used);
+    unused.map_or(Ok(()), |(option, _, _, by)| Err(PanelOptionError::Unused { option, by }))
 }
 
 /// The sheet's parameters without what the plates have taken; seams carry the numbers of the edges,
@@ -208,7 +213,7 @@ pub fn panel_outputs(
     sheet: &SheetParams,
     command: &str,
 ) -> Result<Vec<Output>, MakeError> {
-    let Panelled { plates, schedule, findings, fabrication, files } = panelled;
+    let Panelled { plates, schedule, findings, fabrication, .. } = panelled;
     let layout = &fabrication.sheets.layout;
     let map = assembly_map(plates);
     let mut outputs: Vec<Output> = vec![
@@ -223,27 +228,54 @@ pub fn panel_outputs(
         ("assembly-map.svg".to_owned(), map_svg(&map, command).into_bytes()),
         ("assembly-map.pdf".to_owned(), map_pdf(&map, command)),
     ];
-    let name = |i: usize| schedule.panels[i].id.to_string();
-    let named: Vec<NamedPlate<'_>> = plates
-        .plates
-        .iter()
-        .enumerate()
-        .map(|(i, plate)| NamedPlate { name: name(i), group: schedule.panels[i].group, plate })
-        .collect();
-    for file in &files.solids {
-        match file {
-            SolidFile::None => {}
-            SolidFile::Step => {
-                let parts = named.iter().map(|n| StepPart { name: &n.name, plate: n.plate });
-                outputs.push(("plates.step".to_owned(), step_bytes(parts, command)));
-            }
-            SolidFile::Obj => outputs.push(("plates.obj".to_owned(), plates_obj(&named, command))),
-            SolidFile::Glb => outputs.push(("plates.glb".to_owned(), plates_glb(&named, command)?)),
-            SolidFile::Stl => outputs.push(("plates.stl".to_owned(), plates_stl(&named, command)?)),
-        }
-    }
+    outputs.extend(solid_files(panelled, command)?);
     outputs.extend(fabrication_outputs(fabrication, &bare(sheet), command)?);
     Ok(outputs)
+}
+
+/// The 3D files of the plates. No body is written that is not closed.
+fn solid_files(panelled: &Panelled, command: &str) -> Result<Vec<Output>, MakeError> {
+    let (plates, rows) = (&panelled.plates.plates, &panelled.schedule.panels);
+    if panelled.files.solids.iter().all(|&file| file == SolidFile::None) {
+        return Ok(Vec::new());
+    }
+    let bodies = plates.iter().map(solid).collect::<Result<Vec<Solid>, PanelError>>()?;
+    let named = |((plate, body), row): ((_, _), &PanelRow)| NamedPlate {
+        name: row.id.to_string(),
+        group: row.group,
+        plate,
+        body,
+    };
+    let named: Vec<NamedPlate<'_>> = plates.iter().zip(&bodies).zip(rows).map(named).collect();
+    let mut outputs = Vec::new();
+    for file in &panelled.files.solids {
+        let (name, bytes) = match file {
+            SolidFile::None => continue,
+            SolidFile::Step => ("plates.step", step_bytes(&named, command)),
+            SolidFile::Obj => ("plates.obj", plates_obj(&named, command)),
+            SolidFile::Glb => ("plates.glb", plates_glb(&named, command)?),
+            SolidFile::Stl => ("plates.stl", plates_stl(&named, command)?),
+        };
+        outputs.push((name.to_owned(), bytes));
+    }
+    Ok(outputs)
+}
+
+/// How many cuts at nodes are listed before they are only counted.
+const LISTED: usize = 10;
+
+/// What was cut off at a node, in words.
+fn cut_text(cut: &NodeCut) -> String {
+    let [a, b] = cut.panels;
+    let cuts = cut.panels.iter().zip(cut.cut_mm).filter(|&(_, mm)| mm > 0.0);
+    let cuts: Vec<String> =
+        cuts.map(|(panel, mm)| format!("{panel} by {} mm", short(mm))).collect();
+    format!(
+        "at vertex {} the plates {a} and {b} took {} mm³ of each other; cut back: {}",
+        cut.vertex,
+        short(cut.overlap_mm3),
+        cuts.join(", ")
+    )
 }
 
 impl Panelled {
@@ -269,7 +301,7 @@ impl Panelled {
         );
         note(
             plates.straight_corners.len(),
-            "straight corners lie between edges with different cuts, which were averaged there",
+            "straight corners lie between edges with different cuts; both sides have the deeper",
         );
         note(plates.unrelieved_corners, "corners are too near to their neighbours to be relieved");
         let fallen = plates.edges.iter().filter(|e| e.fallback.is_some()).count();
@@ -278,8 +310,22 @@ impl Panelled {
             "edges could not have the joint of their rule and are mitred or stitched instead; \
             edges.csv says why",
         );
+        let butting =
+            plates.edges.iter().filter(|e| matches!(e.fallback, Some((_, EdgeFallback::Overlap))));
+        note(
+            butting.count(),
+            "of them since plates would run into each other at their nodes otherwise",
+        );
         note(plates.hole_pairs, "pairs of holes");
         note(plates.lost_hole_pairs, "pairs of holes had no room and were left out");
+        let cuts = &plates.node_cuts;
+        notes.extend(cuts.iter().take(LISTED).map(cut_text));
+        if cuts.len() > LISTED {
+            notes.push(format!(
+                "{} pairs of plates were kept apart so; panels.json lists all",
+                cuts.len()
+            ));
+        }
         notes.extend(self.fabrication.notes());
         notes
     }

@@ -6,10 +6,9 @@
 
 use glam::DVec2;
 
-use super::cut::Cutter;
+use super::cut::{Cutter, rounding};
 use super::error::Collision;
 use super::outline::FlatFace;
-use crate::geom::RoundingBound;
 use crate::geom::polygon::{segments_cross, signed_area};
 use crate::mesh::HalfEdgeId;
 
@@ -22,10 +21,7 @@ pub(super) fn collisions(face: &FlatFace, cutter: &Cutter<'_>) -> Vec<Collision>
     let mut found = Vec::new();
     let full = lengths(face, cutter, 1.0);
     // A side within rounding of nothing is nothing: no other program would take such a plate.
-    let corners = cutter.mesh.face_positions(face.face);
-    let (low, high) =
-        corners.iter().fold((corners[0], corners[0]), |(low, high), &p| (low.min(p), high.max(p)));
-    let least = RoundingBound::of_box(low, high).length();
+    let least = rounding(&cutter.mesh.face_positions(face.face));
     if full.iter().any(|&[front, back]| front <= least || back <= least) {
         let thin = lengths(face, cutter, 0.0);
         for (i, (full, thin)) in full.iter().zip(&thin).enumerate() {
@@ -68,7 +64,7 @@ fn outlines(face: &FlatFace, cutter: &Cutter<'_>, scale: f64) -> [Vec<DVec2>; 2]
     let insets: Vec<_> = face.half_edges.iter().map(inset).collect();
     let [front, back]: [Vec<f64>; 2] =
         [insets.iter().map(|i| i.front).collect(), insets.iter().map(|i| i.back).collect()];
-    [face.moved(&front).0, face.moved(&back).0]
+    [face.moved(&front), face.moved(&back)]
 }
 
 fn is_simple_at(face: &FlatFace, cutter: &Cutter<'_>, scale: f64) -> bool {
@@ -80,20 +76,26 @@ pub(super) fn is_simple(polygon: &[DVec2]) -> bool {
     crossing(polygon).is_none() && signed_area(polygon) > 0.0
 }
 
-/// Two sides that cross.
+/// Two sides that cross: of all that do those with the lowest numbers. A sweep along x, so that
+/// outlines with many fingers take little more time than their length.
 pub(super) fn crossing(polygon: &[DVec2]) -> Option<(usize, usize)> {
     let n = polygon.len();
     let side = |i: usize| (polygon[i], polygon[(i + 1) % n]);
     let boxes: Vec<(DVec2, DVec2)> =
         (0..n).map(|i| (side(i).0.min(side(i).1), side(i).0.max(side(i).1))).collect();
-    for i in 0..n {
-        for j in 0..i {
-            let apart = boxes[i].0.cmpgt(boxes[j].1).any() || boxes[j].0.cmpgt(boxes[i].1).any();
+    let mut order: Vec<usize> = (0..n).collect();
+    order.sort_by(|&i, &j| boxes[i].0.x.total_cmp(&boxes[j].0.x));
+    let mut lowest = None;
+    for (at, &i) in order.iter().enumerate() {
+        let reached = order[at + 1..].iter().take_while(|&&j| boxes[j].0.x <= boxes[i].1.x);
+        for &j in reached {
+            let apart = boxes[i].0.y > boxes[j].1.y || boxes[j].0.y > boxes[i].1.y;
             let ((a, b), (c, d)) = (side(i), side(j));
             if !apart && segments_cross(a, b, c, d) {
-                return Some((j, i));
+                let found = (i.max(j), i.min(j));
+                lowest = Some(lowest.map_or(found, |known: (usize, usize)| known.min(found)));
             }
         }
     }
-    None
+    lowest.map(|(later, earlier)| (earlier, later))
 }

@@ -1,19 +1,16 @@
-//! What happens at the edges: how far the sides of a plate move in from the edge, at its front and
-//! at its back.
-//!
-//! Looked at along the edge, a plate is a strip between its back and front offsets, and its
-//! neighbour the same strip turned by the fold angle φ. With n its normal and u the direction out
-//! of it, square to the edge, a point is o·n + s·u; the neighbour's normal is n·cos φ + u·sin φ.
-//! All joints are lines s(o) in that picture; the *inset* is −s.
+//! What happens at the edges: which joint they have, and how far the sides of every plate move in
+//! for it ([`super::across`]), behind their cuts where faces are not planar.
 
 use glam::DVec3;
 
+use super::across::{Across, Inset, squared};
 use super::error::PanelError;
+use super::outline::FlatFace;
 use super::params::{CutStyle, PanelParams, RimCut, Shallow};
 use super::rule::EdgeKind;
-use crate::geom::Plane;
+use crate::geom::{Plane, RoundingBound};
 use crate::measure::fold_angle;
-use crate::mesh::{EdgeId, EdgeMap, FaceId, FaceMap, HalfEdgeId, Mesh};
+use crate::mesh::{EdgeId, EdgeMap, FaceId, FaceMap, HalfEdgeId, HalfEdgeMap, Mesh};
 
 /// Mitres steeper than this are knife edges: the dihedral angle is below 1°.
 const KNIFE: f64 = 89.5;
@@ -21,9 +18,9 @@ const KNIFE: f64 = 89.5;
 /// Cuts of rims are no steeper than this, in degrees off square; the rim is cut square instead.
 const STEEPEST_RIM: f64 = 60.0;
 
-/// Mitres between plates of different thickness are no steeper than this, in degrees off square;
-/// where the edge is so flat that they would be, the mitre bisects the angle and the surfaces step.
-const STEEPEST: f64 = 80.0;
+/// Of an edge whose ends lie off a plane by one length on different sides, how far it and what lies
+/// one length beside it is turned at most, in these lengths; with a half as margin.
+const TURNED: f64 = 3.0;
 
 /// Dihedral angles of convex edges that fingers and butt joints can have, in degrees; concave ones
 /// mirrored.
@@ -41,6 +38,8 @@ pub enum EdgeFallback {
     Short,
     /// The fingers would run into another side of a plate.
     Narrow,
+    /// The plates of a node would run into each other there.
+    Overlap,
 }
 
 impl EdgeFallback {
@@ -51,36 +50,8 @@ impl EdgeFallback {
             Self::Sharp => "sharp",
             Self::Short => "short",
             Self::Narrow => "narrow",
+            Self::Overlap => "overlap",
         }
-    }
-}
-
-/// How far a side of a plate lies inside of the edge, in mm; negative outside.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Inset {
-    /// In the front plane.
-    pub front: f64,
-    /// In the back plane.
-    pub back: f64,
-    /// Of the ends of fingers, where there are any; front and back are then their roots.
-    pub tip: Option<f64>,
-}
-
-impl Inset {
-    /// How far inside the side is at the innermost of front and back.
-    pub fn inner(&self) -> f64 {
-        self.front.max(self.back)
-    }
-
-    /// The same at the outermost: the long point, where glass is measured.
-    pub fn outer(&self) -> f64 {
-        self.front.min(self.back)
-    }
-
-    /// The angle of the cut off square in radians: positive where the front is longer, negative
-    /// where the back is.
-    pub fn bevel(&self, thickness: f64) -> f64 {
-        ((self.back - self.front) / thickness).atan()
     }
 }
 
@@ -113,13 +84,13 @@ pub(super) struct Cutter<'a> {
     folds: EdgeMap<Option<f64>>,
     kinds: EdgeMap<(EdgeKind, Option<(EdgeKind, EdgeFallback)>)>,
     rims: FaceMap<Option<DVec3>>,
-}
-
-/// The picture across an edge, seen from one of its plates.
-struct Across {
-    fold: f64,
-    own: [f64; 2],
-    other: [f64; 2],
+    /// Whether the corner of a plate at the origin of a half-edge is straight.
+    straight: HalfEdgeMap<bool>,
+    /// How far each side of a plate stays behind its cut, since its face is not planar, in mm.
+    slack: HalfEdgeMap<f64>,
+    /// How deep the corner at the origin of a half-edge is cut off: along its bisector in the frame
+    /// of its face.
+    levels: HalfEdgeMap<Option<f64>>,
 }
 
 impl<'a> Cutter<'a> {
@@ -143,16 +114,67 @@ impl<'a> Cutter<'a> {
         for hole in mesh.holes() {
             rims[hole] = Plane::newell(&mesh.face_positions(hole)).map(|p| p.normal());
         }
-        Ok(Self { mesh, params, thickness, folds, kinds, rims })
+        let straight = HalfEdgeMap::filled(mesh.half_edge_slots(), false);
+        let levels = HalfEdgeMap::filled(mesh.half_edge_slots(), None);
+        let slack = HalfEdgeMap::filled(mesh.half_edge_slots(), 0.0);
+        Ok(Self { mesh, params, thickness, folds, kinds, rims, straight, slack, levels })
     }
 
-    /// Takes fingers away.
+    /// Says that two sides of a plate run on in a line: its corner at the origin of `h` is
+    /// straight.
+    pub fn set_straight(&mut self, h: HalfEdgeId) {
+        self.straight[h] = true;
+    }
+
+    /// Keeps the sides of a plate back where corners of its face lie off its plane, by more than
+    /// rounding: the plates of an edge then see it in different places, as far apart as it lies off
+    /// their planes, and turned a little.
+    pub fn set_slack(&mut self, face: &FlatFace) {
+        let corners = self.mesh.face_positions(face.face);
+        let least = rounding(&corners);
+        let off = |i: usize| {
+            let corner = corners[i % corners.len()] - face.frame.origin;
+            corner.dot(face.frame.normal).abs()
+        };
+        for (i, &h) in face.half_edges.iter().enumerate() {
+            let off = off(i).max(off(i + 1));
+            if off > least {
+                let turned = self.thickness[face.face] * TURNED / face.length(i);
+                self.slack[h] = off * (1.0 + turned);
+            }
+        }
+    }
+
+    /// Whether the face of a half-edge is not planar there.
+    pub fn is_bent(&self, h: HalfEdgeId) -> bool {
+        self.slack[h] > 0.0 || self.slack[self.mesh.prev(h)] > 0.0
+    }
+
+    /// Takes fingers or a butt joint away. Corners are whole again, since they were cut off for the
+    /// plates as they were.
     pub fn fall_back(&mut self, e: EdgeId, why: EdgeFallback) {
         self.kinds[e] = (fallen(self.params.shallow), Some((self.kinds[e].0, why)));
+        self.levels = HalfEdgeMap::filled(self.mesh.half_edge_slots(), None);
+    }
+
+    /// Cuts the corner at the origin of `h` off, if it is not cut deeper already.
+    pub fn cut_corner(&mut self, h: HalfEdgeId, level: f64) {
+        let deepest = self.levels[h].map_or(level, |known| known.max(level));
+        self.levels[h] = Some(deepest);
+    }
+
+    /// How deep the corner at the origin of `h` is cut off, if it is.
+    pub fn level(&self, h: HalfEdgeId) -> Option<f64> {
+        self.levels[h]
     }
 
     pub fn kind(&self, e: EdgeId) -> EdgeKind {
         self.kinds[e].0
+    }
+
+    /// Whether an edge could be mitred instead: it has fingers or a butt joint.
+    pub fn is_special(&self, e: EdgeId) -> bool {
+        matches!(self.kind(e), EdgeKind::Butt | EdgeKind::Finger)
     }
 
     /// The offsets of front and back of a face's plate, all thicknesses taken `scale` times.
@@ -165,7 +187,45 @@ impl<'a> Cutter<'a> {
         self.inset_with_gap(h, scale, self.params.gap.mm())
     }
 
+    /// Sides in a line are moved alike, as far as the innermost of them: else one of them would
+    /// have to run slanted, into its neighbour.
     pub fn inset_with_gap(&self, h: HalfEdgeId, scale: f64, gap: f64) -> Inset {
+        let mut inset = self.own_inset(h, scale, gap);
+        let mut deepen = |other: Inset| {
+            inset.front = inset.front.max(other.front);
+            inset.back = inset.back.max(other.back);
+        };
+        let mut at = h;
+        while self.straight[at] && self.mesh.prev(at) != h {
+            at = self.mesh.prev(at);
+            deepen(self.own_inset(at, scale, gap));
+        }
+        at = self.mesh.next(h);
+        while self.straight[at] && at != h {
+            deepen(self.own_inset(at, scale, gap));
+            at = self.mesh.next(at);
+        }
+        inset
+    }
+
+    /// The inset that the edge of a side asks for.
+    pub fn own_inset(&self, h: HalfEdgeId, scale: f64, gap: f64) -> Inset {
+        let inset = self.joint_inset(h, scale, gap);
+        let slack = self.slack[h];
+        if slack == 0.0 {
+            return inset;
+        }
+        // Square to the cut, in a plane that is slanted as the cut is.
+        let slope = (inset.back - inset.front) / (self.thickness[self.mesh.face(h)] * scale);
+        let back_off = slack * if slope.is_finite() { slope.hypot(1.0) } else { 1.0 };
+        Inset {
+            front: inset.front + back_off,
+            back: inset.back + back_off,
+            tip: inset.tip.map(|tip| tip + back_off),
+        }
+    }
+
+    fn joint_inset(&self, h: HalfEdgeId, scale: f64, gap: f64) -> Inset {
         let own = self.offsets(self.mesh.face(h), scale);
         let Some(fold) = self.folds[h.edge()] else {
             return self.styled(self.rim(h, own));
@@ -239,6 +299,14 @@ impl<'a> Cutter<'a> {
     }
 }
 
+/// The rounding that points may carry, in mm.
+pub(super) fn rounding(points: &[DVec3]) -> f64 {
+    let (low, high) = points
+        .iter()
+        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), &p| (l.min(p), h.max(p)));
+    RoundingBound::of_box(low, high).length()
+}
+
 fn fallen(shallow: Shallow) -> EdgeKind {
     match shallow {
         Shallow::Mitre => EdgeKind::Mitre,
@@ -263,166 +331,9 @@ fn kind_of(dihedral: f64, params: &PanelParams) -> (EdgeKind, Option<(EdgeKind, 
     }
 }
 
-/// Cut square where it is innermost.
-fn squared(inset: Inset) -> Inset {
-    let inner = inset.inner();
-    Inset { front: inner, back: inner, tip: inset.tip }
-}
-
-impl Across {
-    /// The slope ds/do of the plane in which the plates meet: through the lines where their fronts
-    /// and their backs meet.
-    fn slope(&self) -> f64 {
-        let [t, u] = [self.own, self.other].map(|[front, back]| front - back);
-        // Equal plates bisect the angle, whatever it is; so they do while all thicknesses shrink to
-        // nothing.
-        let exact = if t == u {
-            (self.fold / 2.0).tan()
-        } else {
-            (u - t * self.fold.cos()) / (t * self.fold.sin())
-        };
-        if t != u && exact.abs() > STEEPEST.to_radians().tan() || !exact.is_finite() {
-            (self.fold / 2.0).tan()
-        } else {
-            exact
-        }
-    }
-
-    fn is_stepped(&self) -> bool {
-        let [t, u] = [self.own, self.other].map(|[front, back]| front - back);
-        let exact = (u - t * self.fold.cos()) / (t * self.fold.sin());
-        // At a flat edge this is 0/0, or a number over 0.
-        t != u && (exact.is_nan() || exact.abs() > STEEPEST.to_radians().tan())
-    }
-
-    fn mitre(&self, gap: f64) -> Inset {
-        let slope = self.slope();
-        let back_off = gap / 2.0 * slope.hypot(1.0);
-        let [front, back] = self.own.map(|o| back_off - o * slope);
-        Inset { front, back, tip: None }
-    }
-
-    /// The same edge with concave turned into convex: seen from behind.
-    fn convex_view(&self) -> Across {
-        if self.fold >= 0.0 {
-            return Across { fold: self.fold, own: self.own, other: self.other };
-        }
-        let mirrored = |[front, back]: [f64; 2]| [-back, -front];
-        Across { fold: -self.fold, own: mirrored(self.own), other: mirrored(self.other) }
-    }
-
-    /// The inset at an offset of its own, of the neighbour's plane at its offset `p`.
-    fn at_plane(&self, own: f64, p: f64) -> f64 {
-        (own * self.fold.cos() - p) / self.fold.sin()
-    }
-
-    /// Puts values for the outer and inner offset of the convex view back to front and back.
-    fn seen(&self, outer: f64, inner: f64) -> Inset {
-        let (front, back) = if self.fold >= 0.0 { (outer, inner) } else { (inner, outer) };
-        Inset { front, back, tip: None }
-    }
-
-    /// Of a butt joint, the plate that runs through to the outer side of the other.
-    fn through(&self) -> Inset {
-        let view = self.convex_view();
-        let [outer, inner] = view.own.map(|o| view.at_plane(o, view.other[0]));
-        self.seen(outer, inner)
-    }
-
-    /// Of a butt joint, the plate that stops at the inner side of the other.
-    fn stopped(&self, gap: f64) -> Inset {
-        let view = self.convex_view();
-        let [outer, inner] = view.own.map(|o| view.at_plane(o, view.other[1] - gap));
-        self.seen(outer, inner)
-    }
-
-    /// Fingers: the roots leave room for the slab of the neighbour, the tips are flush with its
-    /// outer side.
-    fn finger(&self) -> Inset {
-        let view = self.convex_view();
-        let inmost = |p: f64| {
-            view.own.map(|o| view.at_plane(o, p)).into_iter().fold(f64::NEG_INFINITY, f64::max)
-        };
-        let [tip, root] = view.other.map(inmost);
-        Inset { front: root, back: root, tip: Some(tip) }
-    }
-
-    /// The distances between the two plates at front and back.
-    fn opening(&self, own: Inset, other: Inset) -> [f64; 2] {
-        let (sin, cos) = self.fold.sin_cos();
-        let distance = |(o, inset): (f64, f64), (p, across): (f64, f64)| {
-            // The neighbour's point p·n' − inset'·u', with u' = −u·cos φ + n·sin φ.
-            let (up, out) = (p * cos - across * sin - o, p * sin + across * cos + inset);
-            up.hypot(out)
-        };
-        [
-            distance((self.own[0], own.front), (self.other[0], other.front)),
-            distance((self.own[1], own.back), (self.other[1], other.back)),
-        ]
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn across(fold: f64, own: [f64; 2], other: [f64; 2]) -> Across {
-        Across { fold: fold.to_radians(), own, other }
-    }
-
-    #[test]
-    fn equal_plates_bisect_and_open_square_cuts_by_twice_the_sine() {
-        for fold in [-120.0_f64, -30.0, 0.0, 10.0, 90.0, 150.0] {
-            let plates = across(fold, [0.0, -4.0], [0.0, -4.0]);
-            let mitre = plates.mitre(0.0);
-            assert!((mitre.bevel(4.0).to_degrees() - fold / 2.0).abs() < 1e-12, "{fold}");
-            assert!(plates.opening(mitre, mitre).iter().all(|&d| d < 1e-12), "{fold}");
-            let square = squared(mitre);
-            let opening = plates.opening(square, square);
-            let widest = opening[0].max(opening[1]);
-            assert!(
-                (widest - 8.0 * (fold.abs().to_radians() / 2.0).sin()).abs() < 1e-12,
-                "{fold}: {opening:?}"
-            );
-            assert!(opening[0].min(opening[1]) < 1e-12);
-        }
-    }
-
-    #[test]
-    fn the_gap_is_measured_square_to_the_cut() {
-        let plates = across(60.0, [3.0, 0.0], [3.0, 0.0]);
-        let opening = plates.opening(plates.mitre(8.0), plates.mitre(8.0));
-        assert!(opening.iter().all(|d| (d - 8.0).abs() < 1e-12), "{opening:?}");
-    }
-
-    #[test]
-    fn unequal_plates_meet_on_the_lines_of_their_fronts_and_backs() {
-        let (own, other) = ([2.0, -2.0], [5.0, -5.0]);
-        let (here, there) = (across(100.0, own, other), across(100.0, other, own));
-        let opening = here.opening(here.mitre(0.0), there.mitre(0.0));
-        assert!(opening.iter().all(|&d| d < 1e-12), "{opening:?}");
-        assert!(
-            !here.is_stepped()
-                && across(2.0, own, other).is_stepped()
-                && across(0.0, own, other).is_stepped()
-        );
-    }
-
-    #[test]
-    fn a_right_angled_butt_and_finger_joint_take_the_thickness() {
-        let (thick, thin) = ([0.0, -6.0], [0.0, -4.0]);
-        let through = across(90.0, thick, thin).through();
-        assert!(through.front.abs() < 1e-12 && through.back.abs() < 1e-12);
-        let stopped = across(90.0, thin, thick).stopped(1.0);
-        assert!((stopped.front - 7.0).abs() < 1e-12 && (stopped.back - 7.0).abs() < 1e-12);
-        let finger = across(90.0, thin, thick).finger();
-        assert!((finger.front - 6.0).abs() < 1e-12 && finger.tip.is_some_and(|t| t.abs() < 1e-12));
-        // Seen from behind a concave edge is the same joint.
-        let concave = across(-90.0, [4.0, 0.0], [6.0, 0.0]).finger();
-        assert!(
-            (concave.front - 6.0).abs() < 1e-12 && concave.tip.is_some_and(|t| t.abs() < 1e-12)
-        );
-    }
 
     #[test]
     fn shallow_and_sharp_edges_fall_back() {

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::check::short;
 use crate::code::codes;
 use crate::mesh::{EdgeId, FaceId, VertexId};
 
@@ -65,6 +66,30 @@ pub enum PanelError {
         /// All of them, those with the least thickness first.
         found: Vec<Collision>,
     },
+    /// Plates that take the same place.
+    #[error("{}", overlaps(found))]
+    Overlap {
+        /// All of them.
+        found: Vec<Overlap>,
+    },
+    /// Faces that are far from planar.
+    #[error("{}", not_planar(found))]
+    NotPlanar {
+        /// All of them.
+        found: Vec<NotPlanar>,
+    },
+    /// A body that is not closed.
+    #[error(
+        "the body of the plate of face {face} is not closed ({edges} of its edges have no \
+        partner), so no file was written; this is a fault of kerfold, please report it with the \
+        model"
+    )]
+    OpenBody {
+        /// The face.
+        face: FaceId,
+        /// How many.
+        edges: usize,
+    },
     /// The user asked to stop.
     #[error("stopped before all plates were made; nothing was written")]
     Cancelled,
@@ -78,6 +103,9 @@ codes!(error PanelError {
     Spike = 605,
     Collision = 606,
     Cancelled = 607,
+    Overlap = 608,
+    NotPlanar = 609,
+    OpenBody = 610,
 });
 
 /// A place where the sides of one plate run past each other.
@@ -94,18 +122,33 @@ pub struct Collision {
     pub largest: f64,
 }
 
+/// Two plates that take the same place, and cannot be parted by cutting off corners.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Overlap {
+    /// Their faces.
+    pub faces: [FaceId; 2],
+    /// The vertex near which they do; `None` when they have none in common.
+    pub vertex: Option<VertexId>,
+    /// How much they share, in mm³.
+    pub mm3: f64,
+}
+
+/// A face that is not planar.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NotPlanar {
+    /// The face.
+    pub face: FaceId,
+    /// Largest distance of a corner from the face's best plane, in mm.
+    pub mm: f64,
+    /// What is allowed, in mm.
+    pub limit: f64,
+}
+
 /// How many collisions a message lists before it only counts.
 const LISTED: usize = 10;
 
 fn collisions(found: &[Collision]) -> String {
-    let mut text = String::new();
-    for (i, c) in found.iter().take(LISTED).enumerate() {
-        text += if i == 0 { "" } else { "; " };
-        text += &c.to_string();
-    }
-    if found.len() > LISTED {
-        text += &format!("; and {} more", found.len() - LISTED);
-    }
+    let text = listed(found);
     let share = found.iter().map(|c| c.largest / c.thickness).fold(f64::INFINITY, f64::min);
     let thickness =
         found.iter().find(|c| c.largest / c.thickness == share).map_or(0.0, |c| c.largest);
@@ -119,6 +162,50 @@ fn collisions(found: &[Collision]) -> String {
         )
     };
     format!("plates run into themselves: {text}; {advice}")
+}
+
+/// A few of many things, the rest counted.
+fn listed<T: fmt::Display>(things: &[T]) -> String {
+    let mut text: Vec<String> = things.iter().take(LISTED).map(T::to_string).collect();
+    if things.len() > LISTED {
+        text.push(format!("and {} more", things.len() - LISTED));
+    }
+    text.join("; ")
+}
+
+fn overlaps(found: &[Overlap]) -> String {
+    format!(
+        "plates run into each other and no corner can be cut off far enough: {}; make them \
+        thinner, lay them on the other side of the model, or move its parts apart",
+        listed(found)
+    )
+}
+
+fn not_planar(found: &[NotPlanar]) -> String {
+    format!(
+        "faces are too far from planar for flat plates: {}; planarize the mesh or divide these \
+        faces",
+        listed(found)
+    )
+}
+
+impl fmt::Display for Overlap {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [a, b] = self.faces;
+        write!(f, "those of faces {a} and {b} share {} mm³", short(self.mm3))?;
+        self.vertex.map_or(Ok(()), |v| write!(f, " at vertex {v}"))
+    }
+}
+
+impl fmt::Display for NotPlanar {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (mm, limit) = (short(self.mm), short(self.limit));
+        write!(
+            f,
+            "a corner of face {} lies {mm} mm off its plane, {limit} mm are allowed",
+            self.face
+        )
+    }
 }
 
 impl fmt::Display for Collision {

@@ -7,9 +7,9 @@
 
 use glam::DVec2;
 
-use super::cut::{Cutter, Inset};
+use super::across::Inset;
+use super::cut::Cutter;
 use super::outline::FlatFace;
-use super::params::Hardware;
 use super::rule::EdgeKind;
 use crate::mesh::{EdgeId, EdgeMap, FaceMap, HalfEdgeId};
 
@@ -30,7 +30,6 @@ pub(super) fn combs(
     faces: &[FlatFace],
     flat: &FaceMap<usize>,
     cutter: &Cutter<'_>,
-    hardware: &Hardware,
 ) -> Result<EdgeMap<Option<Comb>>, Vec<EdgeId>> {
     let mesh = cutter.mesh;
     let mut combs = EdgeMap::filled(mesh.edge_slots(), None);
@@ -43,7 +42,8 @@ pub(super) fn combs(
             (sides[0].low.max(length - sides[1].high), sides[0].high.min(length - sides[1].low));
         let thickness =
             e.half_edges().map(|h| cutter.thickness[mesh.face(h)]).into_iter().fold(0.0, f64::max);
-        let width = hardware.finger_width.map_or(3.0 * thickness, |w| w.mm().max(thickness));
+        let width =
+            cutter.params.hardware.finger_width.map_or(3.0 * thickness, |w| w.mm().max(thickness));
         let room = high - low;
         // Fingers narrower than the plate is thick break off.
         let zones = ((room / width).round().max(2.0)).min((room / thickness).floor());
@@ -70,16 +70,18 @@ fn free(face: &FlatFace, h: HalfEdgeId, cutter: &Cutter<'_>) -> Free {
     let levels = [own.front, own.back, own.tip.unwrap_or(own.front)];
     let along = |p: DVec2| (p - face.corners[i]).dot(face.along[i]);
     let mut free = Free { low: f64::NEG_INFINITY, high: f64::INFINITY, length: face.length(i) };
+    let next = (i + 1) % face.len();
     for level in levels {
         for other in [before.front, before.back] {
-            free.low =
-                face.corner(i, other, level).map_or(free.low, |(p, _)| free.low.max(along(p)));
+            free.low = face.corner(i, other, level).map_or(free.low, |p| free.low.max(along(p)));
         }
         for other in [after.front, after.back] {
-            let next = (i + 1) % face.len();
             free.high =
-                face.corner(next, level, other).map_or(free.high, |(p, _)| free.high.min(along(p)));
+                face.corner(next, level, other).map_or(free.high, |p| free.high.min(along(p)));
         }
+        free.low = cut_reach(face, i, i, level, cutter).map_or(free.low, |at| free.low.max(at));
+        free.high =
+            cut_reach(face, i, next, level, cutter).map_or(free.high, |at| free.high.min(at));
     }
     // The relief takes as much of the side as it is deep where the corner is right-angled; twice
     // that covers the sharper ones. And no finger begins in a corner, where its root would have no
@@ -87,6 +89,19 @@ fn free(face: &FlatFace, h: HalfEdgeId, cutter: &Cutter<'_>) -> Free {
     let clear = 2.0 * cutter.params.corner_relief.mm() + CLEAR * cutter.thickness[face.face];
     (free.low, free.high) = (free.low + clear, free.high - clear);
     free
+}
+
+/// Where along side `i` the cut through one of its corners meets the line at an inset.
+fn cut_reach(
+    face: &FlatFace,
+    i: usize,
+    corner: usize,
+    inset: f64,
+    cutter: &Cutter<'_>,
+) -> Option<f64> {
+    let level = cutter.level(face.half_edges[corner])?;
+    let inwards = face.bisector(corner);
+    Some((level - face.at(i, 0.0, inset).dot(inwards)) / face.along[i].dot(inwards))
 }
 
 /// The points that fingers add to side `i` of a plate, in its direction.

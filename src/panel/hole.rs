@@ -3,22 +3,29 @@
 use glam::DVec2;
 
 use super::cut::Cutter;
+use super::error::PanelError;
 use super::outline::FlatFace;
-use super::params::Hardware;
 use super::plate::{Hole, Plate, Plates};
 use super::rule::EdgeKind;
 use crate::geom::polygon::{Location, locate};
 use crate::mesh::{FaceMap, HalfEdgeId};
+use crate::progress::Progress;
+
+/// Holes that are tried between two looks at whether to stop.
+const STRIDE: usize = 256;
 
 /// Drills the holes of all stitched and hinged edges; a pair of which one has no room is left out.
+///
+/// # Errors
+/// [`PanelError::Cancelled`].
 pub(super) fn drill(
     made: &mut Plates,
     faces: &[FlatFace],
     flat: &FaceMap<usize>,
     cutter: &Cutter<'_>,
-    hardware: &Hardware,
-) {
-    let mesh = cutter.mesh;
+    progress: &dyn Progress,
+) -> Result<(), PanelError> {
+    let (mesh, hardware) = (cutter.mesh, &cutter.params.hardware);
     let (spacing, radius) = (hardware.spacing(), hardware.diameter() / 2.0);
     for e in mesh.edges().filter(|&e| matches!(cutter.kind(e), EdgeKind::Stitch | EdgeKind::Hinge))
     {
@@ -28,6 +35,9 @@ pub(super) fn drill(
             side_of(&faces[plates[0]], sides[0]).map_or(0.0, |i| faces[plates[0]].length(i));
         let count = (length / spacing).floor();
         for k in 0..count as usize {
+            if k.is_multiple_of(STRIDE) && progress.is_cancelled() {
+                return Err(PanelError::Cancelled);
+            }
             // Centred on the middle of the edge.
             let at = length / 2.0 + (k as f64 - (count - 1.0) / 2.0) * spacing;
             let hole = |s: usize| {
@@ -51,6 +61,7 @@ pub(super) fn drill(
             }
         }
     }
+    Ok(())
 }
 
 fn side_of(face: &FlatFace, h: HalfEdgeId) -> Option<usize> {

@@ -70,27 +70,56 @@ const FACING: f64 = 0.05;
 
 /// Draws the map of a panelled model: all sides that are nearest to the direction of some panel.
 pub fn assembly_map(plates: &Plates) -> AssemblyMap {
+    let raw: Vec<RawView> = used_sides(plates).into_iter().map(|i| view(plates, i)).collect();
+    let grid = Grid::new(raw.len());
+    let largest =
+        raw.iter().map(|v| v.high - v.low).fold(DVec2::splat(f64::MIN_POSITIVE), DVec2::max);
+    let shrink = (grid.room() / largest).min_element();
+    let views = raw.into_iter().enumerate().map(|(k, raw)| grid.placed(k, raw, shrink)).collect();
+    AssemblyMap { width: PAGE.x, height: PAGE.y, scale: 1.0 / shrink, views }
+}
+
+/// The sides that are nearest to the direction of some panel.
+fn used_sides(plates: &Plates) -> Vec<usize> {
     let nearest = |plate: &Plate| {
         let cosine = |i: usize| plate.frame.normal.dot(SIDES[i].1);
         (1..SIDES.len()).fold(0, |best, i| if cosine(i) > cosine(best) + 1e-9 { i } else { best })
     };
     let mut is_used = [false; SIDES.len()];
     plates.plates.iter().for_each(|plate| is_used[nearest(plate)] = true);
-    let raw: Vec<RawView> =
-        (0..SIDES.len()).filter(|&i| is_used[i]).map(|i| view(plates, i)).collect();
-    let columns = (raw.len() as f64).sqrt().ceil().max(1.0) as usize;
-    let rows = raw.len().div_ceil(columns).max(1);
-    let cell = (PAGE - DVec2::splat(MARGIN)) / DVec2::new(columns as f64, rows as f64)
-        - DVec2::splat(MARGIN);
-    let room = cell - DVec2::new(0.0, TITLE);
-    let largest =
-        raw.iter().map(|v| v.high - v.low).fold(DVec2::splat(f64::MIN_POSITIVE), DVec2::max);
-    let shrink = (room / largest).min_element();
-    let place = |(k, raw): (usize, RawView)| {
-        let (column, row) = (k % columns, k / columns);
-        let from_top = PAGE.y - (row + 1) as f64 * (cell.y + MARGIN);
-        let corner = DVec2::new(MARGIN + column as f64 * (cell.x + MARGIN), from_top);
-        let middle = corner + DVec2::new(0.0, TITLE) + room / 2.0;
+    (0..SIDES.len()).filter(|&i| is_used[i]).collect()
+}
+
+/// The page in rows of equal cells, one for each view, with a margin around each.
+struct Grid {
+    columns: usize,
+    cell: DVec2,
+}
+
+impl Grid {
+    fn new(views: usize) -> Self {
+        let columns = (views as f64).sqrt().ceil().max(1.0) as usize;
+        let rows = views.div_ceil(columns).max(1);
+        let pitch = (PAGE - DVec2::splat(MARGIN)) / DVec2::new(columns as f64, rows as f64);
+        Self { columns, cell: pitch - DVec2::splat(MARGIN) }
+    }
+
+    /// What a cell has for its view, above the title.
+    fn room(&self) -> DVec2 {
+        self.cell - DVec2::new(0.0, TITLE)
+    }
+
+    /// The lower left corner of a cell.
+    fn corner(&self, k: usize) -> DVec2 {
+        let (column, row) = (k % self.columns, k / self.columns);
+        let from_top = PAGE.y - (row + 1) as f64 * (self.cell.y + MARGIN);
+        DVec2::new(MARGIN + column as f64 * (self.cell.x + MARGIN), from_top)
+    }
+
+    /// A view in the middle of its cell.
+    fn placed(&self, k: usize, raw: RawView, shrink: f64) -> MapView {
+        let title_at = self.corner(k);
+        let middle = title_at + DVec2::new(0.0, TITLE) + self.room() / 2.0;
         let on_page = |p: DVec2| middle + (p - raw.low.midpoint(raw.high)) * shrink;
         let panels = raw.panels.into_iter().map(|p| MapPanel {
             panel: p.panel,
@@ -98,10 +127,8 @@ pub fn assembly_map(plates: &Plates) -> AssemblyMap {
             label_at: on_page(p.label_at),
             room: p.room * shrink,
         });
-        MapView { title: raw.title, title_at: corner, panels: panels.collect() }
-    };
-    let views = raw.into_iter().enumerate().map(place).collect();
-    AssemblyMap { width: PAGE.x, height: PAGE.y, scale: 1.0 / shrink, views }
+        MapView { title: raw.title, title_at, panels: panels.collect() }
+    }
 }
 
 /// A view in the model's millimetres, with its box.

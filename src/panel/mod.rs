@@ -18,7 +18,10 @@
 //! thicknesses; above that they do so only where the vertex is conical, and every [`Node`] says by
 //! how much they miss each other.
 
+mod across;
+mod body;
 mod build;
+mod cell;
 mod collision;
 mod cut;
 mod error;
@@ -29,24 +32,31 @@ mod hole;
 mod map;
 mod node;
 mod outline;
+mod overlap;
 mod params;
+mod part;
 mod pieces;
+mod planar;
 mod plate;
 mod rule;
 mod schedule;
+mod settle;
+mod shape;
 mod solid;
 mod twins;
 
 #[cfg(test)]
 mod tests;
 
+pub use across::Inset;
 pub use build::plates;
-pub use cut::{EdgeCut, EdgeFallback, Inset};
-pub use error::{Collision, PanelError};
-pub use finding::{CONICAL, PanelFinding, panel_findings};
+pub use cut::{EdgeCut, EdgeFallback};
+pub use error::{Collision, NotPlanar, Overlap, PanelError};
+pub use finding::{CONICAL, PanelCheck, PanelElement, PanelFinding, panel_findings};
 pub(crate) use map::label_room;
 pub use map::{AssemblyMap, MapPanel, MapView, assembly_map};
-pub use node::Node;
+pub use node::{Node, NodeCut};
+pub use overlap::SHARED;
 pub use params::{
     CutStyle, GroupThickness, Hardware, PanelParams, PanelRequirement, ReferenceSide, RimCut,
     Shallow,

@@ -7,6 +7,7 @@ use super::outline::FlatFace;
 use crate::geom::{Plane, meet_planes_near, meet_three};
 use crate::measure::conical_residual;
 use crate::mesh::{FaceId, FaceMap, Mesh, VertexId};
+use crate::net::PieceId;
 
 /// A vertex as the node of its plates, without joint gaps.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,6 +30,20 @@ pub struct Node {
     /// The largest distance of a plate's corner from the front or back point, in mm. 0 up to
     /// rounding at valence 3.
     pub miss_mm: f64,
+}
+
+/// What was cut off at a node to keep two plates apart.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NodeCut {
+    /// The vertex.
+    pub vertex: VertexId,
+    /// The two plates.
+    pub panels: [PieceId; 2],
+    /// What they took of each other before, in mm³.
+    pub overlap_mm3: f64,
+    /// How far the corner of each plate is cut back along its bisector, from its outermost point,
+    /// in mm; 0 where it is whole.
+    pub cut_mm: [f64; 2],
 }
 
 /// All nodes, in the order of the vertices. `flat[f]` is the index of a face in `faces`.
@@ -62,11 +77,12 @@ fn node(
     let (is_rim, valence) = (mesh.is_rim_vertex(v), mesh.valence(v));
     let axis = (front - back).try_normalize().unwrap_or(normals.normalize_or(DVec3::Z));
     let miss = |&f: &FaceId| corner_miss(mesh, cutter, v, &faces[flat[f]], [front, back]);
-    // Three planes meet: nothing to measure. With two at a rim the corner depends on how the rim is
-    // cut.
-    let is_exact = around.len() <= 3;
+    // Three planes meet: nothing to measure, unless the faces do not lie in them. With two at a rim
+    // the corner depends on how the rim is cut.
+    let is_bent = mesh.outgoing(v).any(|h| !mesh.is_hole(mesh.face(h)) && cutter.is_bent(h));
+    let is_exact = around.len() < 3 || (around.len() == 3 && !is_bent);
     let miss_mm = if is_exact { 0.0 } else { around.iter().map(miss).fold(0.0, f64::max) };
-    let residual = if is_exact { 0.0 } else { conical_residual(mesh, v).unwrap_or(0.0) };
+    let residual = if around.len() <= 3 { 0.0 } else { conical_residual(mesh, v).unwrap_or(0.0) };
     Node { vertex: v, valence, is_rim, front, back, axis, residual, miss_mm }
 }
 
@@ -94,7 +110,7 @@ fn corner_miss(
         let miss = |b: f64, a: f64, side: usize| {
             let corner = face
                 .corner(i, b, a)
-                .map(|(p, _)| face.frame.lift(p) + face.frame.normal * offsets[side]);
+                .map(|p| face.frame.lift(p) + face.frame.normal * offsets[side]);
             corner.map_or(0.0, |p| p.distance(points[side]))
         };
         miss(before.front, after.front, 0).max(miss(before.back, after.back, 1))

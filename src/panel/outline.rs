@@ -58,11 +58,11 @@ impl FlatFace {
     }
 
     /// Where corner `i` goes when the side before it is moved inwards by `before` and the side
-    /// after it by `after`; and whether the corner is straight, so that the two insets could only
-    /// be averaged.
-    pub fn corner(&self, i: usize, before: f64, after: f64) -> Option<(DVec2, bool)> {
+    /// after it by `after`; at a straight corner by their mean. `None` where the corner turns back
+    /// on itself.
+    pub fn corner(&self, i: usize, before: f64, after: f64) -> Option<DVec2> {
         let (u, v) = (self.along[self.before(i)], self.along[i]);
-        let (sin, open) = (u.perp_dot(v), 1.0 + u.dot(v));
+        let open = 1.0 + u.dot(v);
         if open <= f64::EPSILON {
             return None;
         }
@@ -70,29 +70,36 @@ impl FlatFace {
         // large at flat corners.
         let (alike, differently) = (before.midpoint(after), (before - after) / 2.0);
         let common = (u.perp() + v.perp()) * (alike / open);
-        let is_straight = sin.abs() < STRAIGHT;
-        if is_straight {
-            let is_rounding =
-                differently.abs() <= 1e3 * f64::EPSILON * (before.abs() + after.abs());
-            return Some((self.corners[i] + common, !is_rounding));
-        }
-        Some((self.corners[i] + common + (u + v) * (differently / sin), false))
+        let apart =
+            if self.is_straight(i) { DVec2::ZERO } else { (u + v) * (differently / self.turn(i)) };
+        Some(self.corners[i] + common + apart)
     }
 
-    /// The polygon whose side `i` is moved inwards by `insets[i]`; with its straight corners. The
-    /// face's own corners when a corner turns back on itself, which was refused before.
-    pub fn moved(&self, insets: &[f64]) -> (Vec<DVec2>, Vec<usize>) {
-        let mut straight = Vec::new();
-        let corner = |i: usize| {
-            let moved = self.corner(i, insets[self.before(i)], insets[i]);
-            let (p, is_straight) = moved.unwrap_or((self.corners[i], false));
-            if is_straight {
-                straight.push(i);
-            }
-            p
-        };
-        let polygon = (0..self.len()).map(corner).collect();
-        (polygon, straight)
+    /// The sine of the turn at a corner, positive where it is convex.
+    fn turn(&self, i: usize) -> f64 {
+        self.along[self.before(i)].perp_dot(self.along[i])
+    }
+
+    /// Whether the two sides of a corner lie in a line.
+    pub fn is_straight(&self, i: usize) -> bool {
+        self.turn(i).abs() < STRAIGHT
+    }
+
+    /// Whether a corner is convex.
+    pub fn is_convex(&self, i: usize) -> bool {
+        self.turn(i) > 0.0
+    }
+
+    /// The inward unit bisector of a corner.
+    pub fn bisector(&self, i: usize) -> DVec2 {
+        (self.along[self.before(i)].perp() + self.along[i].perp()).normalize_or_zero()
+    }
+
+    /// The polygon whose side `i` is moved inwards by `insets[i]`. A corner that turns back on
+    /// itself, which was refused before, stays where it is.
+    pub fn moved(&self, insets: &[f64]) -> Vec<DVec2> {
+        let corner = |i: usize| self.corner(i, insets[self.before(i)], insets[i]);
+        (0..self.len()).map(|i| corner(i).unwrap_or(self.corners[i])).collect()
     }
 
     /// The point at a distance along side `i` from its first vertex, moved inwards.

@@ -8,7 +8,6 @@ use serde::{Deserialize, Deserializer};
 
 use super::error::PanelError;
 use super::rule::EdgeRules;
-use crate::code::codes;
 use crate::units::{Length, UnitError};
 
 /// How the faces of a model become plates. The thickness itself comes beside it, since sheets need
@@ -73,6 +72,11 @@ pub struct PanelParams {
     )]
     #[serde(default)]
     pub require: Vec<PanelRequirement>,
+    /// Sizes of fingers and holes. On the command line and in recipes these are the options of the
+    /// sheet with the same names.
+    #[arg(skip)]
+    #[serde(skip)]
+    pub hardware: Hardware,
 }
 
 /// Density of float glass in kg/m³ (EN 572-1 gives 2500).
@@ -96,6 +100,7 @@ impl Default for PanelParams {
             density: None,
             tolerance: default_tolerance(),
             require: Vec::new(),
+            hardware: Hardware::default(),
         }
     }
 }
@@ -174,11 +179,6 @@ pub enum PanelRequirement {
     Conical,
 }
 
-codes!(finding PanelRequirement {
-    Valence3 = 301,
-    Conical = 302,
-});
-
 /// A group of the file with a thickness of its own.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GroupThickness {
@@ -247,7 +247,7 @@ impl PanelParams {
                 });
             }
         }
-        Ok(())
+        self.hardware.check()
     }
 
     /// Whether a property is required.
@@ -256,8 +256,7 @@ impl PanelParams {
     }
 }
 
-/// Sizes of fingers and holes; on the command line they are those of the sheet options of the same
-/// names.
+/// Sizes of fingers and holes.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Hardware {
     /// Width of a finger, about; three times the thickness unless given, never less than it.
@@ -283,7 +282,7 @@ impl Hardware {
         self.hole_inset.map_or(2.0 * self.diameter(), Length::mm)
     }
 
-    pub(crate) fn check(&self) -> Result<(), PanelError> {
+    fn check(&self) -> Result<(), PanelError> {
         let given = [
             ("finger-width", self.finger_width),
             ("hole-spacing", self.hole_spacing),

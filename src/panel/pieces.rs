@@ -10,7 +10,7 @@ use super::plate::{Plate, Plates};
 use crate::measure::edge_length;
 use crate::mesh::{EdgeId, FaceMap, HalfEdgeId, Mesh, SplitVertex, VertexMap};
 use crate::net::{
-    EdgeLabel, FlatFace, MeshCounts, Net, NetRim, Piece, PieceId, Proof, Seam, SeamSide, Segment,
+    EdgeLabel, FlatFace, MeshCounts, Net, NetRim, Piece, PieceId, Proof, Seam, SeamSide,
 };
 
 /// Sides of the polygon of a round hole on a sheet; they stay within 1 % of the radius.
@@ -19,84 +19,94 @@ const ROUND: usize = 24;
 /// The net of a panelled mesh: piece i is plate i. `scale` is the factor from the mesh file's unit
 /// to millimetres, `splits` are the vertices that were split when it was read.
 pub fn panel_net(mesh: &Mesh, plates: &Plates, scale: f64, splits: &[SplitVertex]) -> Net {
-    let mut name = VertexMap::filled(mesh.vertex_slots(), 0);
-    mesh.vertices().for_each(|v| name[v] = v.index());
-    splits.iter().for_each(|split| name[split.added] = split.given.index());
-    let mut index = FaceMap::filled(mesh.face_slots(), usize::MAX);
-    plates.plates.iter().enumerate().for_each(|(i, plate)| index[plate.face] = i);
-    let side =
-        |h: HalfEdgeId| Side::of(&plates.plates[index[mesh.face(h)]], index[mesh.face(h)], h);
-    let ends = |e: EdgeId| mesh.edge_vertices(e).map(|v| name[v]);
-    let (mut seams, mut rims) = (Vec::new(), Vec::new());
+    let names = Names::new(mesh, plates, splits);
+    let mut net = Net {
+        scale,
+        counts: MeshCounts {
+            vertices: mesh.vertex_count() - splits.len(),
+            edges: mesh.edge_count(),
+            faces: mesh.face_count(),
+        },
+        pieces: plates.plates.iter().enumerate().map(|(i, plate)| names.piece(i, plate)).collect(),
+        folds: Vec::new(),
+        seams: Vec::new(),
+        rims: Vec::new(),
+        proof: proof(mesh, plates),
+    };
     for cut in &plates.edges {
-        let [h, g] = cut.edge.half_edges();
-        if let Some(fold) = cut.fold {
-            let sides = [side(h), side(g).turned()].map(|s| SeamSide {
-                piece: s.piece,
-                face: s.face,
-                segment: s.segment,
-            });
-            let length = edge_length(mesh, cut.edge);
-            let id = EdgeLabel(cut.edge.index());
-            seams.push(Seam {
-                id,
-                edge: ends(cut.edge),
-                length,
-                fold_angle: fold.to_degrees(),
-                sides,
-            });
-        } else if let Some(first) = [h, g].into_iter().find(|&h| !mesh.is_hole(mesh.face(h))) {
-            let s = if first == h { side(h) } else { side(g).turned() };
-            rims.push(NetRim {
-                edge: ends(cut.edge),
-                piece: s.piece,
-                face: s.face,
-                segment: s.segment,
-            });
+        match cut.fold {
+            Some(fold) => net.seams.push(names.seam(cut.edge, fold)),
+            None => net.rims.extend(names.rim(cut.edge)),
         }
     }
-    let piece = |(i, plate): (usize, &Plate)| Piece {
-        id: PieceId(i),
-        outline: plate.blank.clone(),
-        holes: plate.holes.iter().map(|h| circle(h.centre, h.radius)).collect(),
-        faces: vec![FlatFace {
+    net
+}
+
+/// What vertices and plates are called in the net.
+struct Names<'a> {
+    mesh: &'a Mesh,
+    plates: &'a Plates,
+    /// The numbers of the vertices in the file.
+    vertices: VertexMap<usize>,
+    /// The indices of the plates.
+    pieces: FaceMap<usize>,
+}
+
+impl<'a> Names<'a> {
+    fn new(mesh: &'a Mesh, plates: &'a Plates, splits: &[SplitVertex]) -> Self {
+        let mut vertices = VertexMap::filled(mesh.vertex_slots(), 0);
+        mesh.vertices().for_each(|v| vertices[v] = v.index());
+        splits.iter().for_each(|split| vertices[split.added] = split.given.index());
+        let mut pieces = FaceMap::filled(mesh.face_slots(), usize::MAX);
+        plates.plates.iter().enumerate().for_each(|(i, plate)| pieces[plate.face] = i);
+        Self { mesh, plates, vertices, pieces }
+    }
+
+    fn piece(&self, i: usize, plate: &Plate) -> Piece {
+        let face = FlatFace {
             face: plate.face.index(),
-            vertices: mesh.face_vertices(plate.face).map(|v| name[v]).collect(),
+            vertices: self.mesh.face_vertices(plate.face).map(|v| self.vertices[v]).collect(),
             polygon: plate.inner.clone(),
-        }],
-    };
-    let counts = MeshCounts {
-        vertices: mesh.vertex_count() - splits.len(),
-        edges: mesh.edge_count(),
-        faces: mesh.face_count(),
-    };
-    Net {
-        scale,
-        counts,
-        pieces: plates.plates.iter().enumerate().map(piece).collect(),
-        folds: Vec::new(),
-        seams,
-        rims,
-        proof: proof(mesh, plates),
+        };
+        Piece {
+            id: PieceId(i),
+            outline: plate.blank.clone(),
+            holes: plate.holes.iter().map(|h| circle(h.centre, h.radius)).collect(),
+            faces: vec![face],
+        }
     }
-}
 
-struct Side {
-    piece: PieceId,
-    face: usize,
-    segment: Segment,
-}
+    fn ends(&self, e: EdgeId) -> [usize; 2] {
+        self.mesh.edge_vertices(e).map(|v| self.vertices[v])
+    }
 
-impl Side {
-    fn of(plate: &Plate, index: usize, h: HalfEdgeId) -> Self {
+    /// The side of a plate along a half-edge, running with the edge.
+    fn side(&self, h: HalfEdgeId) -> SeamSide {
+        let piece = self.pieces[self.mesh.face(h)];
+        let plate = &self.plates.plates[piece];
         let i = plate.half_edges.iter().position(|&g| g == h).unwrap_or(0);
-        let segment = [plate.inner[i], plate.inner[(i + 1) % plate.inner.len()]];
-        Self { piece: PieceId(index), face: plate.face.index(), segment }
+        let mut segment = [plate.inner[i], plate.inner[(i + 1) % plate.inner.len()]];
+        if h != h.edge().half_edge() {
+            segment.reverse();
+        }
+        SeamSide { piece: PieceId(piece), face: plate.face.index(), segment }
     }
 
-    fn turned(mut self) -> Self {
-        self.segment.reverse();
-        self
+    fn seam(&self, e: EdgeId, fold: f64) -> Seam {
+        Seam {
+            id: EdgeLabel(e.index()),
+            edge: self.ends(e),
+            length: edge_length(self.mesh, e),
+            fold_angle: fold.to_degrees(),
+            sides: e.half_edges().map(|h| self.side(h)),
+        }
+    }
+
+    /// `None` where an edge has no plate at all.
+    fn rim(&self, e: EdgeId) -> Option<NetRim> {
+        let h = e.half_edges().into_iter().find(|&h| !self.mesh.is_hole(self.mesh.face(h)))?;
+        let SeamSide { piece, face, segment } = self.side(h);
+        Some(NetRim { edge: self.ends(e), piece, face, segment })
     }
 }
 

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::cut::EdgeCut;
-use super::node::Node;
+use super::node::{Node, NodeCut};
 use crate::geom::Frame;
 use crate::geom::polygon::signed_area;
 use crate::mesh::{EdgeId, FaceId, HalfEdgeId};
@@ -63,9 +63,11 @@ pub struct Plates {
     pub edges: Vec<EdgeCut>,
     /// One node for each vertex with edges, in their order.
     pub nodes: Vec<Node>,
-    /// Corners in a straight line between edges with different insets, as (face, corner): the
-    /// insets were averaged there.
+    /// Corners in a straight line between edges that ask for different insets, as (face, corner):
+    /// both sides have the larger one.
     pub straight_corners: Vec<(FaceId, usize)>,
+    /// What was cut off at nodes to keep plates apart.
+    pub node_cuts: Vec<NodeCut>,
     /// Corners too near to their neighbours to be relieved.
     pub unrelieved_corners: usize,
     /// Pairs of holes made.

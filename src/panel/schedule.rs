@@ -6,17 +6,19 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::cut::{EdgeCut, EdgeFallback};
+use super::error::PanelError;
 use super::extent::smallest_box;
 use super::node::Node;
 use super::params::PanelParams;
 use super::plate::{Plate, Plates};
 use super::rule::EdgeKind;
-use super::twins::twins;
+use super::twins::{Twin, twins};
 use crate::geom::Frame;
 use crate::geom::polygon::signed_area;
 use crate::measure::{edge_length, planarity};
 use crate::mesh::{EdgeId, FaceMap, HalfEdgeId, Mesh, VertexId};
 use crate::net::PieceId;
+use crate::progress::Progress;
 
 /// Cuts nearer to square than this, in degrees, are square: no saw is set finer.
 const SQUARE: f64 = 0.01;
@@ -190,12 +192,21 @@ pub struct Totals {
 }
 
 /// Lists everything.
-pub fn schedule(mesh: &Mesh, plates: &Plates, params: &PanelParams) -> Schedule {
+///
+/// # Errors
+/// [`PanelError::Cancelled`].
+pub fn schedule(
+    mesh: &Mesh,
+    plates: &Plates,
+    params: &PanelParams,
+    progress: &dyn Progress,
+) -> Result<Schedule, PanelError> {
     let mut index = FaceMap::filled(mesh.face_slots(), usize::MAX);
     plates.plates.iter().enumerate().for_each(|(i, plate)| index[plate.face] = i);
     let mut panels: Vec<PanelRow> =
         plates.plates.iter().enumerate().map(|(i, plate)| panel(mesh, i, plate, params)).collect();
-    let groups = groups(plates, params, &mut panels);
+    let twins = twins(&plates.plates, params.tolerance.mm(), progress)?;
+    let groups = groups(plates, params, twins, &mut panels);
     let edges = plates.edges.iter().map(|cut| edge(mesh, plates, cut, &index)).collect();
     let nodes: Vec<NodeRow> = plates.nodes.iter().map(|n| node(mesh, n)).collect();
     let sum = |of: fn(&PanelRow) -> f64| panels.iter().map(of).sum();
@@ -209,7 +220,7 @@ pub fn schedule(mesh: &Mesh, plates: &Plates, params: &PanelParams) -> Schedule 
         miss_mm: most(|n| n.node.miss_mm),
         nodes_above_three: nodes.iter().filter(|n| n.node.valence > 3).count(),
     };
-    Schedule { panels, edges, nodes, groups, totals }
+    Ok(Schedule { panels, edges, nodes, groups, totals })
 }
 
 fn panel(mesh: &Mesh, i: usize, plate: &Plate, params: &PanelParams) -> PanelRow {
@@ -259,10 +270,15 @@ fn bevel(plate: &Plate, i: usize) -> f64 {
     (inset / plate.thickness).atan().to_degrees()
 }
 
-fn groups(plates: &Plates, params: &PanelParams, panels: &mut [PanelRow]) -> Vec<GroupRow> {
+fn groups(
+    plates: &Plates,
+    params: &PanelParams,
+    twins: Vec<Twin>,
+    panels: &mut [PanelRow],
+) -> Vec<GroupRow> {
     let mut rows: Vec<GroupRow> = Vec::new();
     let mut numbers: BTreeMap<usize, usize> = BTreeMap::new();
-    for (i, twin) in twins(&plates.plates, params.tolerance.mm()).into_iter().enumerate() {
+    for (i, twin) in twins.into_iter().enumerate() {
         let number = *numbers.entry(twin.first).or_insert(rows.len());
         if number == rows.len() {
             let plate = &plates.plates[i];

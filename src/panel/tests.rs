@@ -18,17 +18,29 @@ fn named(name: &str) -> Mesh {
 }
 
 fn made(mesh: &Mesh, mm: f64, params: &PanelParams) -> Result<Plates, PanelError> {
-    plates(mesh, Length::from_mm(mm), (params, &Hardware::default()), &Silent)
+    plates(mesh, Length::from_mm(mm), params, &Silent)
+}
+
+fn listed(mesh: &Mesh, made: &Plates) -> Schedule {
+    schedule(mesh, made, &PanelParams::default(), &Silent).expect("nobody stops it")
 }
 
 fn all_solids() -> impl Iterator<Item = Mesh> {
     solid_names().filter(|n| !n.contains('N') && !n.contains('A')).map(named)
 }
 
-/// The corner of a plate at the origin of a side, at front and back, in space.
+/// Where a side of a plate begins, at front and back, in space.
 fn corners(plate: &Plate, h: HalfEdgeId) -> [DVec3; 2] {
     let i = plate.half_edges.iter().position(|&g| g == h).expect("a side of the plate");
-    [plate.on_front(plate.front[i]), plate.on_back(plate.back[i])]
+    let at = plate.begins[i];
+    [plate.on_front(plate.front[at]), plate.on_back(plate.back[at])]
+}
+
+/// The same where it ends.
+fn far_corners(plate: &Plate, h: HalfEdgeId) -> [DVec3; 2] {
+    let i = plate.half_edges.iter().position(|&g| g == h).expect("a side of the plate");
+    let at = plate.ends[i];
+    [plate.on_front(plate.front[at]), plate.on_back(plate.back[at])]
 }
 
 /// Thickness exact, neighbours meet in the same corners where three faces meet, and each side's
@@ -65,8 +77,8 @@ fn assert_exact(mesh: &Mesh, made: &Plates, gap: f64) {
         let [a, b] = mesh.edge_positions(e);
         let [n, m] = [p, q].map(|plate| plate.frame.normal);
         let mitre = (b - a).cross(n + m).normalize();
-        for (plate, sides) in [(p, [h, mesh.next(h)]), (q, [g, mesh.next(g)])] {
-            for corner in sides.into_iter().flat_map(|s| corners(plate, s)) {
+        for (plate, side) in [(p, h), (q, g)] {
+            for corner in [corners(plate, side), far_corners(plate, side)].concat() {
                 let distance = ((corner - a).dot(mitre).abs() - gap / 2.0).abs();
                 assert!(distance <= bound, "edge {e:?} is {distance} off its mitre");
             }
@@ -352,9 +364,9 @@ fn what_fingers_cannot_hold_falls_back_and_says_so() {
 #[test]
 fn holes_stand_opposite_each_other_and_keep_clear() {
     let mesh = named("cube");
-    let params = PanelParams { edges: EdgeKind::Stitch.into(), ..PanelParams::default() };
     let hardware = Hardware { hole_spacing: Some(Length::from_mm(20.0)), ..Hardware::default() };
-    let made = plates(&mesh, Length::from_mm(3.0), (&params, &hardware), &Silent).expect("fits");
+    let params = PanelParams { edges: EdgeKind::Stitch.into(), hardware, ..PanelParams::default() };
+    let made = made(&mesh, 3.0, &params).expect("fits");
     // Of the three edges at a corner one gets the hole there, since those of two would touch on
     // their common plate.
     assert_eq!((made.hole_pairs, made.lost_hole_pairs), (12 * 5 - 16, 16));
@@ -404,7 +416,7 @@ fn facades_are_exact_and_saddles_have_concave_panels() {
             );
         }
         assert!(made.nodes.iter().all(|n| n.valence <= 3 && n.residual == 0.0));
-        let listed = schedule(&mesh, &made, &params);
+        let listed = schedule(&mesh, &made, &params, &Silent).expect("nobody stops it");
         // The surface has two mirror planes or its panels come at least in pairs turned by half a
         // turn.
         assert!(listed.groups.len() <= 60, "{} groups", listed.groups.len());
@@ -415,7 +427,7 @@ fn facades_are_exact_and_saddles_have_concave_panels() {
 #[test]
 fn mirror_images_are_told_from_copies() {
     let snub = made(&named("snub-cube"), 2.0, &PanelParams::default()).expect("fits");
-    let rows = schedule(&named("snub-cube"), &snub, &PanelParams::default()).groups;
+    let rows = listed(&named("snub-cube"), &snub).groups;
     // Squares, triangles among triangles, and triangles beside squares, which have one bevel of
     // another kind.
     let mut sizes: Vec<usize> = rows.iter().map(|r| r.panels.len()).collect();
@@ -429,10 +441,18 @@ fn mirror_images_are_told_from_copies() {
         points.iter().rev().map(|p| DVec2::new(5.0 - p.x, p.y + 3.0)).collect::<Vec<_>>()
     };
     (mirrored.front, mirrored.back) = (flipped(&plate.front), flipped(&plate.back));
-    let found = twins(&[plate.clone(), mirrored, plate.clone()], 1e-6);
+    let found =
+        twins(&[plate.clone(), mirrored, plate.clone()], 1e-6, &Silent).expect("nobody stops it");
     assert_eq!(found[1], Twin { first: 0, is_mirrored: true });
     assert_eq!(found[2], Twin { first: 0, is_mirrored: false });
-    assert_eq!(twins(&plates, 1e-6).iter().filter(|t| t.is_mirrored).count(), 0);
+    assert_eq!(
+        twins(&plates, 1e-6, &Silent)
+            .expect("nobody stops it")
+            .iter()
+            .filter(|t| t.is_mirrored)
+            .count(),
+        0
+    );
 }
 
 #[test]

@@ -9,7 +9,12 @@ use std::collections::BTreeMap;
 
 use glam::DVec2;
 
+use super::error::PanelError;
 use super::plate::Plate;
+use crate::progress::Progress;
+
+/// Panels that are compared between two looks at whether to stop.
+const STRIDE: usize = 64;
 
 /// To which group a panel belongs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -76,7 +81,14 @@ impl Shape {
 }
 
 /// Groups congruent panels; for each panel, in order, the first of its group. `tolerance` is in mm.
-pub fn twins(plates: &[Plate], tolerance: f64) -> Vec<Twin> {
+///
+/// # Errors
+/// [`PanelError::Cancelled`].
+pub fn twins(
+    plates: &[Plate],
+    tolerance: f64,
+    progress: &dyn Progress,
+) -> Result<Vec<Twin>, PanelError> {
     let shapes: Vec<Shape> = plates.iter().map(Shape::of).collect();
     let longest = shapes.iter().map(|s| s.perimeter).fold(0.0, f64::max);
     // Equal numbers computed in another order differ in their last digits.
@@ -84,6 +96,9 @@ pub fn twins(plates: &[Plate], tolerance: f64) -> Vec<Twin> {
     let mut firsts: BTreeMap<(usize, u64, i64), Vec<usize>> = BTreeMap::new();
     let mut found = Vec::with_capacity(plates.len());
     for (i, (plate, shape)) in plates.iter().zip(&shapes).enumerate() {
+        if i.is_multiple_of(STRIDE) && progress.is_cancelled() {
+            return Err(PanelError::Cancelled);
+        }
         let corners = shape.corners.len();
         // Corners that differ by the tolerance let the perimeter differ by twice that for each.
         let width = 2.0 * corners as f64 * tolerance;
@@ -106,5 +121,5 @@ pub fn twins(plates: &[Plate], tolerance: f64) -> Vec<Twin> {
         }
         found.push(twin.unwrap_or(Twin { first: i, is_mirrored: false }));
     }
-    found
+    Ok(found)
 }

@@ -7,8 +7,8 @@ use super::{OperatorStep, Recipe, Step, StepError};
 use crate::check::{CheckParams, Report, check};
 use crate::io::{ReadMesh, read_mesh};
 use crate::make::{
-    DformParams, FabricateParams, FabricateSettings, Fabrication, MakeError, PanelFiles,
-    PanelSettings, Panelled, ShowParams, carve_dform, fabricate, nest_files, operate, panel_model,
+    DformParams, FabricateParams, FabricateSettings, Fabrication, MakeError, PanelFiles, PanelJob,
+    Panelled, ShowParams, carve_dform, fabricate, nest_files, operate, panel_model,
     solid_of_planes, with_material,
 };
 use crate::mesh::{Mesh, SplitVertex};
@@ -223,7 +223,7 @@ impl Job {
         let source = MeshSource { scale: 1.0, split_vertices: &[] };
         let panelled = panel_model(
             self.mesh()?,
-            &PanelSettings { panels: params, files, sheet },
+            PanelJob { panels: params, files, sheet },
             &source,
             progress,
         )?;

@@ -7,12 +7,11 @@ use glam::{DQuat, DVec2, DVec3};
 
 use super::glb::{GlbNode, GlbScene, GlbSurface, glb_bytes};
 use super::one_line;
-use crate::geom::{Frame, Plane, triangulate_contours};
 use crate::io::error::IoError;
-use crate::panel::{Plate, Solid, SolidFace, label_room, solid};
+use crate::panel::{Plate, Solid, label_room};
 use crate::sheet::lettering;
 
-/// A plate with its name and the number of its group of congruent panels.
+/// A plate with its name, its body and the number of its group of congruent panels.
 #[derive(Debug, Clone)]
 pub struct NamedPlate<'a> {
     /// Its name, as `P01`.
@@ -21,6 +20,8 @@ pub struct NamedPlate<'a> {
     pub group: usize,
     /// The plate.
     pub plate: &'a Plate,
+    /// Its body, which is closed.
+    pub body: &'a Solid,
 }
 
 /// An OBJ with a group for each plate. Faces stay polygons where they are convex and without holes,
@@ -52,23 +53,16 @@ fn write_obj(text: &mut Vec<u8>, plates: &[NamedPlate<'_>], command: &str) -> st
     writeln!(text, "# {}", one_line(command))?;
     let mut before = 1;
     for named in plates {
-        let body = solid(named.plate);
+        let body = named.body;
         writeln!(text, "g {}", named.name)?;
         for p in &body.points {
             writeln!(text, "v {} {} {}", p.x, p.y, p.z)?;
         }
         for face in &body.faces {
-            let polygons = if is_simple_polygon(&body, face) {
-                vec![face.outline.clone()]
+            if face.is_convex {
+                write_polygon(text, &face.outline, before)?;
             } else {
-                as_polygons(&triangles(&body, face))
-            };
-            for polygon in polygons {
-                text.push(b'f');
-                for corner in polygon {
-                    write!(text, " {}", corner + before)?;
-                }
-                text.push(b'\n');
+                face.triangles.iter().try_for_each(|t| write_polygon(text, t, before))?;
             }
         }
         before += body.points.len() as u32;
@@ -76,8 +70,12 @@ fn write_obj(text: &mut Vec<u8>, plates: &[NamedPlate<'_>], command: &str) -> st
     Ok(())
 }
 
-fn as_polygons(triangles: &[[u32; 3]]) -> Vec<Vec<u32>> {
-    triangles.iter().map(|t| t.to_vec()).collect()
+/// A face of corners that are numbered from `first`.
+fn write_polygon(text: &mut Vec<u8>, corners: &[u32], first: u32) -> std::io::Result<()> {
+    text.push(b'f');
+    corners.iter().try_for_each(|corner| write!(text, " {}", corner + first))?;
+    text.push(b'\n');
+    Ok(())
 }
 
 const STL_HEADER: usize = 80;
@@ -112,12 +110,12 @@ pub fn plates_stl(plates: &[NamedPlate<'_>], command: &str) -> Result<Vec<u8>, I
     bytes.resize(STL_HEADER + 4, b' ');
     let mut count: u32 = 0;
     for named in plates {
-        let body = solid(named.plate);
+        let body = named.body;
         if let Some(vertex) = body.points.iter().position(|p| !p.as_vec3().is_finite()) {
             return Err(IoError::TooFarForStl { vertex });
         }
         for face in &body.faces {
-            for triangle in triangles(&body, face) {
+            for triangle in &face.triangles {
                 count += 1;
                 let corners = triangle.map(|i| body.points[i as usize]);
                 for p in std::iter::once(face.normal).chain(corners) {
@@ -177,7 +175,6 @@ pub fn plates_glb(plates: &[NamedPlate<'_>], command: &str) -> Result<Vec<u8>, I
         .collect();
     let ink = scene.add_material("lines", [40, 40, 40], 1.0);
     for named in plates {
-        let body = solid(named.plate);
         // Every node stands where its plate does, so that single precision has its digits for the
         // plate.
         let origin = named.plate.frame.origin;
@@ -185,14 +182,10 @@ pub fn plates_glb(plates: &[NamedPlate<'_>], command: &str) -> Result<Vec<u8>, I
             material: colours.get(named.group % COLOURS.len()).copied(),
             ..GlbSurface::default()
         };
-        surface.points = body.points.iter().map(|&p| p - origin).collect();
-        surface.triangles = body.faces.iter().flat_map(|face| triangles(&body, face)).collect();
-        let loops =
-            body.faces.iter().take(2).flat_map(|f| std::iter::once(&f.outline).chain(&f.holes));
-        surface.lines =
-            loops.flat_map(|l| (0..l.len()).map(|i| [l[i], l[(i + 1) % l.len()]])).collect();
-        let n = named.plate.front.len() as u32;
-        surface.lines.extend((0..n).map(|i| [i, n + i]));
+        surface.points = named.body.points.iter().map(|&p| p - origin).collect();
+        let faces = &named.body.faces;
+        surface.triangles = faces.iter().flat_map(|face| &face.triangles).copied().collect();
+        surface.lines = outlines(named);
         letter(&mut surface, named, origin);
         surface.line_material = Some(ink);
         scene.add_node(GlbNode {
@@ -204,6 +197,15 @@ pub fn plates_glb(plates: &[NamedPlate<'_>], command: &str) -> Result<Vec<u8>, I
         });
     }
     glb_bytes(&scene, command)
+}
+
+/// The edges of a plate: those of front and back with their holes, and between the corners of both.
+fn outlines(named: &NamedPlate<'_>) -> Vec<[u32; 2]> {
+    let caps = named.body.faces.iter().take(2);
+    let loops = caps.flat_map(|face| std::iter::once(&face.outline).chain(&face.holes));
+    let along = loops.flat_map(|l| (0..l.len()).map(|i| [l[i], l[(i + 1) % l.len()]]));
+    let n = named.plate.front.len() as u32;
+    along.chain((0..n).map(|i| [i, n + i])).collect()
 }
 
 /// The share of the free room on the front that the name takes, and how far it floats above the
@@ -242,38 +244,4 @@ fn letter(surface: &mut GlbSurface, named: &NamedPlate<'_>, origin: DVec3) {
         surface.points.extend(stroke.iter().map(lifted));
         surface.lines.extend((first..first + stroke.len() as u32 - 1).map(|i| [i, i + 1]));
     }
-}
-
-fn flat(body: &Solid, face: &SolidFace) -> Vec<Vec<DVec2>> {
-    let first = body.points[face.outline[0] as usize];
-    let Some(plane) = Plane::new(face.normal, first) else { return Vec::new() };
-    let frame = Frame::on_plane(&plane);
-    let flatten =
-        |l: &Vec<u32>| l.iter().map(|&i| frame.flatten(body.points[i as usize])).collect();
-    std::iter::once(&face.outline).chain(&face.holes).map(flatten).collect()
-}
-
-/// Whether a face is a convex polygon without holes.
-fn is_simple_polygon(body: &Solid, face: &SolidFace) -> bool {
-    let contours = flat(body, face);
-    let [outline] = contours.as_slice() else { return false };
-    let n = outline.len();
-    (0..n).all(|i| {
-        (outline[(i + 1) % n] - outline[i]).perp_dot(outline[(i + 2) % n] - outline[(i + 1) % n])
-            >= 0.0
-    })
-}
-
-/// The triangles of a face, counter-clockwise from outside.
-fn triangles(body: &Solid, face: &SolidFace) -> Vec<[u32; 3]> {
-    if let [a, b, c, d] = face.outline[..]
-        && face.holes.is_empty()
-        && is_simple_polygon(body, face)
-    {
-        return vec![[a, b, c], [a, c, d]];
-    }
-    let corners: Vec<u32> =
-        std::iter::once(&face.outline).chain(&face.holes).flatten().copied().collect();
-    let found = triangulate_contours(&flat(body, face));
-    found.into_iter().map(|t| t.map(|i| corners[i])).collect()
 }

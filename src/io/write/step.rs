@@ -10,40 +10,16 @@ use std::fmt::Write as _;
 
 use glam::DVec3;
 
-use crate::panel::{Hole, Plate, SolidSide, solid};
-
-/// A plate with its name.
-#[derive(Debug, Clone, Copy)]
-pub struct StepPart<'a> {
-    /// Its name, as `P01`.
-    pub name: &'a str,
-    /// The plate.
-    pub plate: &'a Plate,
-}
+use super::plates::NamedPlate;
+use crate::panel::{Hole, Plate, Solid, SolidFace, SolidSide};
 
 /// The bytes of the file; `command` is the command line that made it.
-///
-/// # Example
-/// ```
-/// use kerfold::io::step::{StepPart, step_bytes};
-/// use kerfold::panel::{Hardware, PanelParams, plates};
-/// use kerfold::prelude::*;
-///
-/// let cube = kerfold::shape::cube(200.0);
-/// let params = PanelParams::default();
-/// let hardware = Hardware::default();
-/// let made = plates(&cube, Length::from_mm(5.0), (&params, &hardware), &Silent)?;
-/// let parts = made.plates.iter().map(|plate| StepPart { name: "side", plate });
-/// let step = step_bytes(parts, "my program");
-/// assert!(step.starts_with(b"ISO-10303-21"));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub fn step_bytes<'a>(parts: impl Iterator<Item = StepPart<'a>>, command: &str) -> Vec<u8> {
+pub fn step_bytes(parts: &[NamedPlate<'_>], command: &str) -> Vec<u8> {
     let mut step = StepFile { text: header(command), next: 1 };
     let context = step.context();
     let mut products = Vec::new();
     for part in parts {
-        products.push(step.part(&part, &context));
+        products.push(step.part(part, &context));
     }
     if !products.is_empty() {
         step.add(&format!("PRODUCT_RELATED_PRODUCT_CATEGORY('part',$,({}))", list(&products)));
@@ -106,9 +82,9 @@ impl StepFile {
     }
 
     /// A product with its solid; gives the product.
-    fn part(&mut self, part: &StepPart<'_>, context: &Context) -> usize {
-        let name = quoted(part.name);
-        let body = self.solid(part.plate, &name);
+    fn part(&mut self, part: &NamedPlate<'_>, context: &Context) -> usize {
+        let name = quoted(&part.name);
+        let body = self.solid(part.plate, part.body, &name);
         let shape = self.add(&format!(
             "ADVANCED_BREP_SHAPE_REPRESENTATION({name},(#{},#{body}),#{})",
             context.placement, context.geometry
@@ -122,50 +98,17 @@ impl StepFile {
         product
     }
 
-    fn solid(&mut self, plate: &Plate, name: &str) -> usize {
-        let bare = Plate { holes: Vec::new(), ..plate.clone() };
-        let solid = solid(&bare);
-        let points: Vec<usize> = solid.points.iter().map(|&p| self.vertex(p)).collect();
-        let mut edges: BTreeMap<(u32, u32), usize> = BTreeMap::new();
+    /// The body of a plate. Its round holes are cylinders, so of the faces of the body, in which they
+    /// are polygons, only those around the plate are taken.
+    fn solid(&mut self, plate: &Plate, body: &Solid, name: &str) -> usize {
+        let corners = 2 * plate.front.len();
+        let points = &body.points[..corners];
+        let vertices = points.iter().map(|&p| self.vertex(p)).collect();
+        let mut wires = Wires { points, vertices, edges: BTreeMap::new() };
         let bores: Vec<Bore> = plate.holes.iter().map(|hole| self.bore(plate, hole)).collect();
         let mut faces = Vec::new();
-        for face in &solid.faces {
-            let n = face.outline.len();
-            let mut loop_edges = Vec::with_capacity(n);
-            for i in 0..n {
-                let (a, b) = (face.outline[i], face.outline[(i + 1) % n]);
-                let key = (a.min(b), a.max(b));
-                let edge = match edges.get(&key) {
-                    Some(&edge) => edge,
-                    None => {
-                        let [p, q] = [key.0, key.1].map(|i| solid.points[i as usize]);
-                        let edge = self.line(points[key.0 as usize], points[key.1 as usize], p, q);
-                        edges.insert(key, edge);
-                        edge
-                    }
-                };
-                loop_edges.push((edge, a < b));
-            }
-            let mut bounds = vec![self.bound("FACE_OUTER_BOUND", &loop_edges)];
-            match face.side {
-                SolidSide::Front => bounds.extend(
-                    bores
-                        .iter()
-                        .map(|b| self.bound("FACE_BOUND", &[(b.front, false)]))
-                        .collect::<Vec<_>>(),
-                ),
-                SolidSide::Back => bounds.extend(
-                    bores
-                        .iter()
-                        .map(|b| self.bound("FACE_BOUND", &[(b.back, true)]))
-                        .collect::<Vec<_>>(),
-                ),
-                SolidSide::Cut | SolidSide::Bore => {}
-            }
-            let [a, b] = [0, 1].map(|i| solid.points[face.outline[i] as usize]);
-            let placement = self.placement(a, face.normal, b - a);
-            let plane = self.add(&format!("PLANE('',#{placement})"));
-            faces.push(self.add(&format!("ADVANCED_FACE('',({}),#{plane},.T.)", list(&bounds))));
+        for face in body.faces.iter().filter(|face| face.side != SolidSide::Bore) {
+            faces.push(self.flat_face(face, &mut wires, &bores));
         }
         for bore in &bores {
             let round =
@@ -175,6 +118,43 @@ impl StepFile {
         }
         let shell = self.add(&format!("CLOSED_SHELL('',({}))", list(&faces)));
         self.add(&format!("MANIFOLD_SOLID_BREP({name},#{shell})"))
+    }
+
+    /// A face of front, back or a cut, with the circles of the holes where they open.
+    fn flat_face(&mut self, face: &SolidFace, wires: &mut Wires<'_>, bores: &[Bore]) -> usize {
+        let n = face.outline.len();
+        let sides = (0..n).map(|i| [face.outline[i], face.outline[(i + 1) % n]]);
+        let around: Vec<(usize, bool)> = sides.map(|side| self.edge(side, wires)).collect();
+        let mut bounds = vec![self.bound("FACE_OUTER_BOUND", &around)];
+        for bore in bores {
+            let circle = match face.side {
+                SolidSide::Front => (bore.front, false),
+                SolidSide::Back => (bore.back, true),
+                SolidSide::Cut | SolidSide::Bore => continue,
+            };
+            bounds.push(self.bound("FACE_BOUND", &[circle]));
+        }
+        let [a, b] = [0, 1].map(|i| wires.points[face.outline[i] as usize]);
+        let placement = self.placement(a, face.normal, b - a);
+        let plane = self.add(&format!("PLANE('',#{placement})"));
+        self.add(&format!("ADVANCED_FACE('',({}),#{plane},.T.)", list(&bounds)))
+    }
+
+    /// The edge between two corners, made at its first use, and whether it runs from the first to
+    /// the second.
+    fn edge(&mut self, [a, b]: [u32; 2], wires: &mut Wires<'_>) -> (usize, bool) {
+        let key = [a.min(b), a.max(b)];
+        let edge = match wires.edges.get(&key) {
+            Some(&edge) => edge,
+            None => {
+                let [from, to] = key.map(|i| wires.vertices[i as usize]);
+                let [p, q] = key.map(|i| wires.points[i as usize]);
+                let edge = self.line(from, to, p, q);
+                wires.edges.insert(key, edge);
+                edge
+            }
+        };
+        (edge, a < b)
     }
 
     /// The circles, seam and cylinder of a round hole.
@@ -237,6 +217,14 @@ impl StepFile {
     }
 }
 
+/// The corners and edges of a body that are shared by its faces, with their entities.
+struct Wires<'a> {
+    points: &'a [DVec3],
+    vertices: Vec<usize>,
+    edges: BTreeMap<[u32; 2], usize>,
+}
+
+/// The entities of a round hole.
 struct Bore {
     front: usize,
     back: usize,
@@ -285,6 +273,7 @@ mod tests {
     use super::*;
     use crate::geom::Frame;
     use crate::mesh::{EdgeId, FaceId};
+    use crate::panel::solid;
     use glam::DVec2;
 
     #[test]
@@ -317,8 +306,9 @@ mod tests {
             ends: vec![1, 2, 3, 0],
             holes: vec![hole(DVec2::new(5.0, 5.0)), hole(DVec2::new(15.0, 5.0))],
         };
-        let bytes =
-            step_bytes([StepPart { name: "P01", plate: &plate }].into_iter(), "kerfold panels");
+        let body = solid(&plate).expect("closed");
+        let named = NamedPlate { name: "P01".to_owned(), group: 0, plate: &plate, body: &body };
+        let bytes = step_bytes(&[named], "kerfold panels");
         let text = String::from_utf8(bytes).expect("ASCII");
         let ids = |line: &str| -> Vec<usize> {
             let digits = |t: &str| {

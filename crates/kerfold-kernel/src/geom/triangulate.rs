@@ -173,19 +173,73 @@ fn outside_faces(net: &ConstrainedDelaunayTriangulation<Point2<f64>>) -> Vec<boo
     outside
 }
 
-/// The same with the triangles' corners numbered in the contours one after another. Where contours
-/// touch or cross, only the first one is cut, without its holes.
-pub fn triangulate_contours(contours: &[Vec<DVec2>]) -> Vec<[usize; 3]> {
-    let count: usize = contours.iter().map(Vec::len).sum();
-    let references: Vec<&[DVec2]> = contours.iter().map(Vec::as_slice).collect();
+/// The same with the triangles' corners numbered in the contours one after another. All corners
+/// count, those that stand in a line up to rounding, too: every side of a contour is a side of
+/// exactly one triangle.
+///
+/// `None` where contours touch or cross themselves or each other, when a number is not finite, or
+/// when there is no area.
+pub fn triangulate_contours(contours: &[Vec<DVec2>]) -> Option<Vec<[usize; 3]>> {
+    let corners: Vec<DVec2> = contours.iter().flatten().copied().collect();
+    let mut net = ConstrainedDelaunayTriangulation::<Point2<f64>>::new();
+    for (i, p) in scaled(&corners)?.into_iter().enumerate() {
+        // A second corner at the same point gets the handle of the first.
+        let handle = net.insert(Point2::new(p.x, p.y)).ok()?;
+        if handle.index() != i {
+            return None;
+        }
+    }
+    let handles: Vec<_> = net.fixed_vertices().collect();
+    let mut start = 0;
+    for contour in contours {
+        for i in 0..contour.len() {
+            let [from, to] = [i, (i + 1) % contour.len()].map(|i| handles[start + i]);
+            if !net.can_add_constraint(from, to) {
+                return None;
+            }
+            net.add_constraint(from, to);
+        }
+        start += contour.len();
+    }
+    let depth = contours_around(&net);
+    let inside = net.inner_faces().filter(|face| depth[face.fix().index()] % 2 == 1);
+    let mut triangles: Vec<[usize; 3]> =
+        inside.map(|face| lowest_first(face.vertices().map(|v| v.fix().index()))).collect();
+    triangles.sort_unstable();
     // Every hole adds its corners and two triangles more; a corner on another contour's side leaves
     // another number.
-    let is_whole = |triangles: &[[usize; 3]]| triangles.len() + 4 == count + 2 * contours.len();
-    match triangulate_region(&references) {
-        // No corner met another one, so their numbers are those of the contours.
-        Some((corners, triangles)) if corners.len() == count && is_whole(&triangles) => triangles,
-        _ => contours.first().map_or_else(Vec::new, |outline| triangulate(outline)),
+    let is_whole = triangles.len() + 4 == corners.len() + 2 * contours.len();
+    is_whole.then_some(triangles)
+}
+
+/// For each face how many contours lie between it and the outside: counted along ways from face to
+/// face, so no rounded point is ever judged.
+fn contours_around(net: &ConstrainedDelaunayTriangulation<Point2<f64>>) -> Vec<u32> {
+    const UNKNOWN: u32 = u32::MAX;
+    let mut depth = vec![UNKNOWN; net.num_all_faces()];
+    // The outer face may have no edges of its own to walk along, so its neighbours come from the
+    // hull.
+    depth[net.outer_face().fix().index()] = 0;
+    let mut open = std::collections::VecDeque::new();
+    for edge in net.convex_hull() {
+        for face in [edge.face(), edge.rev().face()] {
+            if depth[face.fix().index()] == UNKNOWN {
+                depth[face.fix().index()] = u32::from(edge.is_constraint_edge());
+                open.push_back(face.fix());
+            }
+        }
     }
+    while let Some(face) = open.pop_front() {
+        let Some(inner) = net.face(face).as_inner() else { continue };
+        for edge in inner.adjacent_edges() {
+            let next = edge.rev().face().fix();
+            if depth[next.index()] == UNKNOWN {
+                depth[next.index()] = depth[face.index()] + u32::from(edge.is_constraint_edge());
+                open.push_back(next);
+            }
+        }
+    }
+    depth
 }
 
 fn lowest_first([a, b, c]: [usize; 3]) -> [usize; 3] {
@@ -317,14 +371,15 @@ mod tests {
         turned.reverse();
         let contours = [square(0.0, 10.0), square(1.0, 3.0), turned];
         let corners = contours.concat();
-        let triangles = triangulate_contours(&contours);
+        let triangles = triangulate_contours(&contours).expect("contours apart");
         assert_eq!(triangles.len(), 12 + 2 * 2 - 2);
         let areas =
             triangles.iter().map(|t| orient2d(corners[t[0]], corners[t[1]], corners[t[2]]) / 2.0);
         assert_eq!(areas.inspect(|&a| assert!(a > 0.0)).sum::<f64>(), 95.0);
-        // A hole that reaches out of its outline is left alone.
-        assert_eq!(triangulate_contours(&[square(0.0, 10.0), square(5.0, 15.0)]).len(), 2);
-        assert!(triangulate_contours(&[]).is_empty());
+        // A hole that reaches out of its outline, or touches it, is no region.
+        assert_eq!(triangulate_contours(&[square(0.0, 10.0), square(5.0, 15.0)]), None);
+        assert_eq!(triangulate_contours(&[square(0.0, 10.0), square(0.0, 5.0)]), None);
+        assert_eq!(triangulate_contours(&[]), None);
     }
 
     #[test]

@@ -7,7 +7,8 @@ use serde::Deserialize;
 use super::MakeError;
 use crate::io::planes_csv::read_planes;
 use crate::mesh::Mesh;
-use crate::op::{HullParams, HullReport, OpError, halfspaces};
+use crate::op::{HullParams, HullReport, OpContext, OpError, halfspaces};
+use crate::progress::Progress;
 
 /// A file of half-spaces.
 #[derive(Debug, Clone, clap::Args, Deserialize)]
@@ -26,9 +27,14 @@ pub struct PlanesStep {
 ///
 /// # Errors
 /// [`MakeError::Planes`] with file and line, [`MakeError::Op`].
-pub fn solid_of_planes(file: &Path, params: &HullParams) -> Result<(Mesh, HullReport), MakeError> {
+pub fn solid_of_planes(
+    file: &Path,
+    params: &HullParams,
+    progress: &dyn Progress,
+) -> Result<(Mesh, HullReport), MakeError> {
     let planes = read_planes(file)?;
-    halfspaces(&planes.half_spaces, params).map_err(|error| match error {
+    let context = OpContext { made: None, progress };
+    halfspaces(&planes.half_spaces, params, &context).map_err(|error| match error {
         OpError::HalfSpaces { reason, .. } => planes.no_solid(file, reason).into(),
         other => other.into(),
     })

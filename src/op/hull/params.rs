@@ -17,7 +17,7 @@ pub struct HullParams {
     #[serde(default)]
     pub dual: bool,
     /// Divide vertices where more than three planes meet, so that exactly three edges meet in each;
-    /// some edges then have length zero.
+    /// planes there move inwards by at most 1/32768 of the size.
     #[arg(long)]
     #[serde(default)]
     pub simple: bool,

@@ -1,0 +1,161 @@
+//! Solids that can be written and read: no two vertices at one point, also in the simple form.
+//!
+//! Where more than three planes meet, the simple form has several vertices. To lie apart they need
+//! planes that do not meet in one point, so the planes there are moved inwards, each by an amount
+//! of its own, tiny against the solid: a moved plane keeps its direction, and what lies inside the
+//! moved planes lies inside the given ones.
+
+use super::GoesOn;
+use super::half_space::HalfSpace;
+use super::halfspaces::{Form, HalfSpaceError, Intersect, Numbers, intersect_verified};
+use super::polytope::Polytope;
+
+/// Planes are moved by less than this share of the rough size of the solid.
+const MOVE: f64 = 1.0 / (1_u64 << 15) as f64;
+/// Edges are no shorter than this share of it, so that single precision keeps their ends apart.
+const LEAST_EDGE: f64 = 1.0 / (1_u64 << 21) as f64;
+/// So many sets of amounts are tried.
+const TRIES: u32 = 16;
+/// The fractional parts of the multiples of the golden ratio are spread evenly, whatever their
+/// number.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
+/// A solid with all vertices apart.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Apart {
+    /// The solid.
+    pub polytope: Polytope,
+    /// Its half-spaces, some moved inwards.
+    pub half_spaces: Vec<HalfSpace>,
+    /// The numbers of those that were moved, ascending.
+    pub moved: Vec<u32>,
+}
+
+/// Intersects half-spaces to a solid of which no two vertices of an edge lie nearer together than
+/// rounding can tell apart, compared with all half-spaces.
+///
+/// Vertices nearer than that are one even where the numbers are taken as given. In the simple form,
+/// where more than three planes meet, those of the first `movable` half-spaces among them are moved
+/// inwards by at most 1/32 768 of the diagonal of the solid's box. Everything else is as with
+/// [`intersect_verified`].
+///
+/// # Errors
+/// [`HalfSpaceError`] as [`intersect_verified`], and [`HalfSpaceError::NotSimple`].
+pub fn intersect_apart(
+    half_spaces: &[HalfSpace],
+    options: &Intersect,
+    movable: usize,
+    goes_on: GoesOn<'_>,
+) -> Result<Apart, HalfSpaceError> {
+    let as_given = intersect_verified(half_spaces, options, goes_on)?;
+    if as_given.shortest_edge() > as_given.rounding().max(options.resolution) {
+        let half_spaces = half_spaces.to_vec();
+        return Ok(Apart { polytope: as_given, half_spaces, moved: Vec::new() });
+    }
+    drop(as_given);
+    let joined = Intersect { form: Form::Merged, numbers: Numbers::Constructed, ..*options };
+    let polytope = intersect_verified(half_spaces, &joined, goes_on)?;
+    let crowded = match options.form {
+        Form::Merged => Vec::new(),
+        Form::Simple => crowded_planes(&polytope, movable),
+    };
+    if crowded.is_empty() {
+        return Ok(Apart { polytope, half_spaces: half_spaces.to_vec(), moved: crowded });
+    }
+    let size = extent(&polytope);
+    let least = (size * LEAST_EDGE).min(polytope.shortest_edge() / 2.0);
+    for attempt in 0..TRIES {
+        let mut moved = half_spaces.to_vec();
+        for (&i, k) in crowded.iter().zip(1_u32..) {
+            let share = (f64::from(k) + f64::from(attempt) * 0.37) * GOLDEN;
+            let h = &mut moved[i as usize];
+            h.offset -= h.normal.length() * size * MOVE * (1.0 + share.fract()) / 2.0;
+        }
+        let solid = intersect_verified(&moved, &joined, goes_on)?;
+        let has_all_faces = solid.half_spaces == polytope.half_spaces;
+        if has_all_faces && is_simple(&solid) && solid.shortest_edge() >= least {
+            return Ok(Apart { polytope: solid, half_spaces: moved, moved: crowded });
+        }
+    }
+    Err(HalfSpaceError::NotSimple { least })
+}
+
+/// The half-spaces below `movable` with a face at a vertex where more than three meet, ascending.
+fn crowded_planes(polytope: &Polytope, movable: usize) -> Vec<u32> {
+    let valence = valence(polytope);
+    let is_crowded = |run: &[u32]| run.iter().any(|&v| valence[v as usize] > 3);
+    let faces = polytope.half_spaces.iter().zip(polytope.faces.iter());
+    faces.filter(|(i, run)| (**i as usize) < movable && is_crowded(run)).map(|(&i, _)| i).collect()
+}
+
+fn is_simple(polytope: &Polytope) -> bool {
+    valence(polytope).iter().all(|&n| n == 3)
+}
+
+/// How many faces meet at each vertex.
+fn valence(polytope: &Polytope) -> Vec<u32> {
+    let mut valence = vec![0; polytope.vertices.len()];
+    polytope.faces.corners().iter().for_each(|&v| valence[v as usize] += 1);
+    valence
+}
+
+/// The diagonal of the box.
+fn extent(polytope: &Polytope) -> f64 {
+    let low = polytope.vertices.iter().copied().reduce(glam::DVec3::min).unwrap_or_default();
+    let high = polytope.vertices.iter().copied().reduce(glam::DVec3::max).unwrap_or_default();
+    (high - low).length()
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+
+    fn apart(half_spaces: &[HalfSpace], form: Form) -> Apart {
+        let options = Intersect { form, ..Intersect::default() };
+        intersect_apart(half_spaces, &options, half_spaces.len(), &|| true).expect("a solid")
+    }
+
+    #[test]
+    fn a_pyramid_gets_a_short_ridge() {
+        let side = |x, y| HalfSpace { normal: DVec3::new(x, y, 1.0), offset: 4.0 };
+        let base = HalfSpace { normal: DVec3::NEG_Z, offset: 0.0 };
+        let planes = [side(1.0, 0.0), side(-1.0, 0.0), side(0.0, 1.0), side(0.0, -1.0), base];
+        let merged = apart(&planes, Form::Merged);
+        assert_eq!((merged.polytope.vertices.len(), merged.moved.len()), (5, 0));
+        let simple = apart(&planes, Form::Simple);
+        assert_eq!((simple.polytope.vertices.len(), simple.polytope.faces.len()), (6, 5));
+        assert_eq!(simple.moved, [0, 1, 2, 3]);
+        let shortest = simple.polytope.shortest_edge();
+        assert!(shortest > 1e-6 && shortest < 1e-3, "{shortest:e}");
+        // Inside all given planes.
+        assert_eq!(simple.polytope.beyond(&planes, &[0, 1, 2, 3, 4], 0.0), []);
+    }
+
+    #[test]
+    fn planes_one_ulp_apart_make_no_edge_of_that_length() {
+        let mut planes = Vec::new();
+        for axis in DVec3::AXES {
+            for normal in [axis, -axis] {
+                planes.push(HalfSpace { normal, offset: 1.0 });
+                let tilted = normal + axis.any_orthonormal_vector() * f64::EPSILON;
+                planes.push(HalfSpace { normal: tilted, offset: 1.0 });
+            }
+        }
+        let cube = apart(&planes, Form::Merged).polytope;
+        assert_eq!((cube.vertices.len(), cube.faces.len()), (8, 6));
+        assert!(cube.shortest_edge() > 1.9);
+    }
+
+    #[test]
+    fn who_says_stop_gets_no_solid() {
+        let planes: Vec<HalfSpace> = DVec3::AXES
+            .into_iter()
+            .flat_map(|axis| [axis, -axis])
+            .map(|normal| HalfSpace { normal, offset: 1.0 })
+            .collect();
+        let stopped = intersect_apart(&planes, &Intersect::default(), 6, &|| false);
+        assert_eq!(stopped, Err(HalfSpaceError::Stopped));
+    }
+}

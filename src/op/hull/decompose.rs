@@ -67,8 +67,11 @@ pub(super) fn convex_parts(
     let mut held: HashSet<[u64; 3]> = HashSet::new();
     let mut bundles = Vec::new();
     for piece in &pieces {
-        let points: Vec<PartPoint> =
-            piece.mesh.vertices().map(|v| (piece.mesh.position(v), piece.mesh.is_given(v))).collect();
+        let points: Vec<PartPoint> = piece
+            .mesh
+            .vertices()
+            .map(|v| (piece.mesh.position(v), piece.mesh.is_given(v)))
+            .collect();
         held.extend(points.iter().map(|p| key(p.0)));
         bundles.push(Bundle::of(points));
     }
@@ -118,7 +121,8 @@ fn pieces(
     let mut faces_left = MOST_FACES;
     for cut in 0..most_cuts(most) {
         progress.report("convex parts: cuts", cut, most_cuts(most));
-        let open = (0..pieces.len()).filter(|&i| !pieces[i].is_done && pieces[i].excess() > allowed);
+        let open =
+            (0..pieces.len()).filter(|&i| !pieces[i].is_done && pieces[i].excess() > allowed);
         let worst = open.max_by(|&i, &j| pieces[i].excess().total_cmp(&pieces[j].excess()));
         let Some(worst) = worst.filter(|_| pieces.len() < most + spare_pieces(most)) else { break };
         match best_cut(&pieces[worst], &mut faces_left, progress)? {
@@ -226,10 +230,12 @@ struct Shell {
 
 impl Shell {
     fn of(mesh: &Mesh, component: &Component) -> Self {
-        let (low, high) = component.vertices.iter().fold(
-            (DVec3::INFINITY, DVec3::NEG_INFINITY),
-            |(low, high), &v| (low.min(mesh.position(v)), high.max(mesh.position(v))),
-        );
+        let (low, high) = component
+            .vertices
+            .iter()
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), &v| {
+                (low.min(mesh.position(v)), high.max(mesh.position(v)))
+            });
         let volume = volume(&part_of(mesh, &component.faces));
         Self { faces: component.faces.clone(), volume, low, high }
     }
@@ -305,10 +311,14 @@ mod tests {
 
     #[test]
     fn a_cavity_belongs_to_the_smallest_solid_around_it() {
-        let cube = |low: f64, high: f64, is_cavity| {
-            (DVec3::splat(low), DVec3::splat(high), is_cavity)
-        };
-        let mesh = boxes(&[cube(-9.0, 9.0, false), cube(-8.0, 8.0, true), cube(-2.0, 2.0, false), cube(-1.0, 1.0, true)]);
+        let cube =
+            |low: f64, high: f64, is_cavity| (DVec3::splat(low), DVec3::splat(high), is_cavity);
+        let mesh = boxes(&[
+            cube(-9.0, 9.0, false),
+            cube(-8.0, 8.0, true),
+            cube(-2.0, 2.0, false),
+            cube(-1.0, 1.0, true),
+        ]);
         let volumes: Vec<f64> = solids(&mesh).iter().map(volume).collect();
         assert_eq!(volumes, [18.0_f64.powi(3) - 16.0_f64.powi(3), 64.0 - 8.0]);
         let parts = convex_parts(&mesh, 12, 0.01, &Silent).expect("parts");

@@ -5,9 +5,9 @@ use glam::DVec3;
 use super::build::Assembly;
 use super::parts::Cluster;
 use super::{HullPart, OpError, half_space_error};
-use crate::progress::Progress;
-use crate::geom::{Plane, RoundingBound};
 use crate::geom::hull::{Apart, Form, HalfSpace, Intersect, Numbers, Polygons, intersect_apart};
+use crate::geom::{Plane, RoundingBound};
+use crate::progress::Progress;
 
 /// The half-spaces of a dual hull, counted from a local origin so that far from the origin no
 /// digits are lost.

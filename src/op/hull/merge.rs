@@ -188,9 +188,8 @@ impl Joining {
         let cheapest = self.pairs.iter().min_by(|a, b| a.added.total_cmp(&b.added));
         let chosen = cheapest.map(|pair| (pair.first, pair.second)).or_else(|| self.nearest());
         let Some((first, second)) = chosen else { return Ok(()) };
-        self.pairs.retain(|pair| {
-            [pair.first, pair.second].iter().all(|i| *i != first && *i != second)
-        });
+        self.pairs
+            .retain(|pair| [pair.first, pair.second].iter().all(|i| *i != first && *i != second));
         let pair = (self.bundles[first].take(), self.bundles[second].take());
         if let (Some(a), Some(b)) = pair {
             self.bundles.push(Some(a.joined(&b)));

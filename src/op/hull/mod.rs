@@ -166,12 +166,12 @@ pub fn hull(
 /// The faces of the hull of a cluster.
 fn faces_of(cluster: &Cluster, progress: &dyn Progress) -> Result<Polygons, OpError> {
     let goes_on = || !progress.is_cancelled();
-    convex_hull_while(&cluster.points, Numbers::Constructed, &goes_on).map_err(|reason| {
-        match reason {
+    convex_hull_while(&cluster.points, Numbers::Constructed, &goes_on).map_err(
+        |reason| match reason {
             HullError::Stopped => OpError::Cancelled,
             reason => OpError::NoHull { part: cluster.name.clone(), reason },
-        }
-    })
+        },
+    )
 }
 
 /// The error of a part.
@@ -204,12 +204,8 @@ pub fn halfspaces(
     let Apart { polytope, half_spaces, moved } =
         apart.map_err(|reason| half_space_error(&name, reason))?;
     let mut result = Assembly::default();
-    let part = HullPart {
-        name,
-        planes: half_spaces.len(),
-        moved: moved.len(),
-        ..HullPart::default()
-    };
+    let part =
+        HullPart { name, planes: half_spaces.len(), moved: moved.len(), ..HullPart::default() };
     let part = result.add_polytope(polytope, &half_spaces, glam::DVec3::ZERO, part);
     let mesh = result.mesh()?;
     let not_three_valent = other_than_three(&mesh);

@@ -255,7 +255,8 @@ fn half_spaces_become_a_mesh_with_their_planes() {
         space(0.0, -1.0, 1.0, 4.0),
         space(0.0, 0.0, 1.0, 4.0),
     ];
-    let (mesh, report) = halfspaces(&planes, &HullParams::default(), &OpContext::default()).expect("a pyramid");
+    let (mesh, report) =
+        halfspaces(&planes, &HullParams::default(), &OpContext::default()).expect("a pyramid");
     assert_sound(&mesh);
     assert_eq!(counts(&mesh), [5, 8, 5]);
     assert_eq!(report.parts[0].without_face, [3, 6]);
@@ -269,7 +270,8 @@ fn half_spaces_become_a_mesh_with_their_planes() {
     assert_eq!(report.parts[0].moved, 4);
     assert_sound(&simple);
     assert_eq!((counts(&simple), report.not_three_valent.len()), ([6, 9, 5], 0));
-    let error = halfspaces(&planes[1..3], &HullParams::default(), &OpContext::default()).expect_err("open");
+    let error =
+        halfspaces(&planes[1..3], &HullParams::default(), &OpContext::default()).expect_err("open");
     assert!(error.to_string().contains("open"), "{error}");
 }
 

@@ -10,14 +10,15 @@ use super::half_space::HalfSpace;
 use super::halfspaces::{Form, HalfSpaceError, Intersect, Numbers, intersect_verified};
 use super::polytope::Polytope;
 
-/// Planes are moved by less than this share of the rough size of the solid.
+/// Planes are moved by less than this share of the diagonal of the solid's box.
 const MOVE: f64 = 1.0 / (1_u64 << 15) as f64;
-/// Edges are no shorter than this share of it, so that single precision keeps their ends apart.
-const LEAST_EDGE: f64 = 1.0 / (1_u64 << 21) as f64;
+/// Edges of this share of it are long enough, so that single precision keeps their ends apart.
+const LONG_ENOUGH: f64 = 1.0 / (1_u64 << 21) as f64;
+/// Edges of fewer rounding bounds are too short.
+const LEAST_BOUNDS: f64 = 16.0;
 /// So many sets of amounts are tried.
-const TRIES: u32 = 16;
-/// The fractional parts of the multiples of the golden ratio are spread evenly, whatever their
-/// number.
+const TRIES: u32 = 12;
+/// The fractional parts of its multiples by squares are spread evenly and have no pattern.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// A solid with all vertices apart.
@@ -62,22 +63,60 @@ pub fn intersect_apart(
     if crowded.is_empty() {
         return Ok(Apart { polytope, half_spaces: half_spaces.to_vec(), moved: crowded });
     }
-    let size = extent(&polytope);
-    let least = (size * LEAST_EDGE).min(polytope.shortest_edge() / 2.0);
-    for attempt in 0..TRIES {
-        let mut moved = half_spaces.to_vec();
-        for (&i, k) in crowded.iter().zip(1_u32..) {
-            let share = (f64::from(k) + f64::from(attempt) * 0.37) * GOLDEN;
-            let h = &mut moved[i as usize];
-            h.offset -= h.normal.length() * size * MOVE * (1.0 + share.fract()) / 2.0;
+    let simple = Crowded { half_spaces, options: joined, polytope, crowded };
+    simple.moved_apart(goes_on)
+}
+
+/// A solid with vertices of more than three edges.
+struct Crowded<'a> {
+    half_spaces: &'a [HalfSpace],
+    options: Intersect,
+    polytope: Polytope,
+    /// The planes there, those that may move.
+    crowded: Vec<u32>,
+}
+
+impl Crowded<'_> {
+    /// The best of a few ways to move the planes: that with the longest shortest edge.
+    fn moved_apart(self, goes_on: GoesOn<'_>) -> Result<Apart, HalfSpaceError> {
+        let size = extent(&self.polytope);
+        // A face that is smaller than the way that planes are moved would be lost.
+        let reach = (size * MOVE).min(self.polytope.shortest_edge() / 8.0);
+        let enough = (size * LONG_ENOUGH).min(reach / 64.0);
+        let rounding = self.polytope.rounding().max(self.options.resolution);
+        let least = (LEAST_BOUNDS * rounding).min(enough);
+        // A face that is narrower than the planes move may go; better are ways that keep all.
+        let mut best: Option<(bool, f64, Apart)> = None;
+        for attempt in 0..TRIES {
+            let half_spaces = self.moved(attempt, reach / f64::from(1 << (attempt / 3 * 2)));
+            let polytope = intersect_verified(&half_spaces, &self.options, goes_on)?;
+            let has_all_faces = polytope.half_spaces == self.polytope.half_spaces;
+            let shortest = polytope.shortest_edge();
+            let is_better = best.as_ref().is_none_or(|b| (has_all_faces, shortest) > (b.0, b.1));
+            if is_better && is_simple(&polytope) && shortest >= least {
+                let apart = Apart { polytope, half_spaces, moved: Vec::new() };
+                best = Some((has_all_faces, shortest, apart));
+            }
+            if best.as_ref().is_some_and(|b| b.0 && b.1 >= enough) {
+                break;
+            }
         }
-        let solid = intersect_verified(&moved, &joined, goes_on)?;
-        let has_all_faces = solid.half_spaces == polytope.half_spaces;
-        if has_all_faces && is_simple(&solid) && solid.shortest_edge() >= least {
-            return Ok(Apart { polytope: solid, half_spaces: moved, moved: crowded });
-        }
+        let (_, _, best) = best.ok_or(HalfSpaceError::NotSimple { least })?;
+        Ok(Apart { moved: self.crowded, ..best })
     }
-    Err(HalfSpaceError::NotSimple { least })
+
+    /// The half-spaces with those that are crowded moved inwards, each by an amount of its own
+    /// between half of `reach` and that.
+    fn moved(&self, attempt: u32, reach: f64) -> Vec<HalfSpace> {
+        let mut moved = self.half_spaces.to_vec();
+        for (&i, k) in self.crowded.iter().zip(1_u32..) {
+            let k = f64::from(k);
+            let share = (k * (k + 0.371 * f64::from(attempt)) * GOLDEN).fract();
+            let h = &mut moved[i as usize];
+            h.offset -= h.normal.length() * reach * (1.0 + share) / 2.0;
+        }
+        moved
+    }
 }
 
 /// The half-spaces below `movable` with a face at a vertex where more than three meet, ascending.

@@ -153,11 +153,8 @@ fn joints<'a>(
 ) -> Vec<Joint<'a>> {
     let mut joints: BTreeMap<u32, Joint<'a>> = BTreeMap::new();
     for (v, &head) in (0..).zip(heads).filter(|&(v, &head)| v != head) {
-        let empty = || Joint {
-            head,
-            members: vec![polytope.vertices[head as usize]],
-            planes: Vec::new(),
-        };
+        let empty =
+            || Joint { head, members: vec![polytope.vertices[head as usize]], planes: Vec::new() };
         joints.entry(head).or_insert_with(empty).members.push(polytope.vertices[v as usize]);
     }
     for (&i, run) in polytope.half_spaces.iter().zip(runs) {
@@ -192,8 +189,7 @@ impl Joint<'_> {
     }
 
     fn steepest(&self, interior: DVec3) -> Option<DVec3> {
-        let dual: Vec<DVec3> =
-            self.planes.iter().map(|h| h.normal / h.slack(interior)).collect();
+        let dual: Vec<DVec3> = self.planes.iter().map(|h| h.normal / h.slack(interior)).collect();
         if dual.len() < 3 {
             return None;
         }

@@ -304,7 +304,8 @@ impl Set<'_> {
         });
         // A dual point carries the rounding of the slack, one ulp, and of the division and the product,
         // half an ulp each.
-        let (cloud, scale) = Cloud::stretched(near, 4.0, PlaneSigns::new(half_spaces, &order.points));
+        let (cloud, scale) =
+            Cloud::stretched(near, 4.0, PlaneSigns::new(half_spaces, &order.points));
         let mut room = Room::new(count);
         let mut surface = dual_hull(&cloud, scale, &order, &mut room, goes_on)?;
         let faces = if simple && !surface.has_zeros() {
@@ -313,8 +314,7 @@ impl Set<'_> {
         } else {
             Faces::of(&surface, &cloud)
         };
-        let placing =
-            Placing { half_spaces, order: &order.points, cloud: &cloud, centre, scale };
+        let placing = Placing { half_spaces, order: &order.points, cloud: &cloud, centre, scale };
         let merged = if faces.has_merged() || surface.slots() > surface.len() {
             Some(placing.vertices(&surface, &faces))
         } else {
@@ -334,11 +334,7 @@ impl Set<'_> {
     /// Contracts what is shorter than rounding. Planes that then span no face any more are left out and
     /// the rest is intersected anew, so that a sliver never stays, unless without its plane the solid
     /// would reach beyond that by more than rounding.
-    fn contract_all(
-        &self,
-        first: Polytope,
-        resolution: f64,
-    ) -> Result<Polytope, HalfSpaceError> {
+    fn contract_all(&self, first: Polytope, resolution: f64) -> Result<Polytope, HalfSpaceError> {
         let mut polytope = first;
         let mut needed: BTreeSet<u32> = BTreeSet::new();
         for _ in 0..MOST_ROUNDS {

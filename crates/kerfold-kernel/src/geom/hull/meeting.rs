@@ -97,11 +97,8 @@ mod tests {
         // x = 1 and x + t y = 1 meet at y = 0 however small t is; z = 3 far from both.
         for t in [1.0, 1e-8, f64::EPSILON, 1e-80] {
             let plane = |x, y, z, offset| HalfSpace { normal: DVec3::new(x, y, z), offset };
-            let planes = [
-                plane(1.0, 0.0, 0.0, 1.0),
-                plane(1.0, t, 0.0, 1.0),
-                plane(0.25, 0.0, 1.0, 3.25),
-            ];
+            let planes =
+                [plane(1.0, 0.0, 0.0, 1.0), plane(1.0, t, 0.0, 1.0), plane(0.25, 0.0, 1.0, 3.25)];
             let [a, b, c] = &planes;
             let point = exact_meeting([a, b, c]).expect("they meet");
             assert!(point.distance(DVec3::new(1.0, 0.0, 3.0)) < 1e-15, "{t:e}: {point}");

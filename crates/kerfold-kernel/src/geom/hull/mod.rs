@@ -42,11 +42,9 @@ mod large_tests;
 #[cfg(test)]
 mod tests;
 
-pub use half_space::HalfSpace;
 pub use apart::{Apart, intersect_apart};
-pub use halfspaces::{
-    Form, HalfSpaceError, Intersect, Numbers, intersect, intersect_verified,
-};
+pub use half_space::HalfSpace;
+pub use halfspaces::{Form, HalfSpaceError, Intersect, Numbers, intersect, intersect_verified};
 pub use points::{HullError, convex_hull, convex_hull_while};
 pub use polytope::{Polygons, Polytope};
 pub use verify::Misplaced;

@@ -105,11 +105,7 @@ impl Placing<'_> {
     }
 
     /// The doubtful vertices that may do harm, with the places that their given numbers have.
-    fn solved_anew(
-        &self,
-        vertices: &impl Vertices,
-        doubtful: &[Doubtful],
-    ) -> HashMap<u32, DVec3> {
+    fn solved_anew(&self, vertices: &impl Vertices, doubtful: &[Doubtful]) -> HashMap<u32, DVec3> {
         let mut exact = HashMap::new();
         let mut tried = HashSet::new();
         let mut harmful = pick(doubtful, |d| self.may_harm(vertices, d, &exact));
@@ -124,9 +120,10 @@ impl Placing<'_> {
             }
             around.sort_unstable();
             around.dedup();
-            let still_doubtful = around.into_iter().filter(|v| !tried.contains(v)).filter_map(|v| {
-                doubtful.binary_search_by_key(&v, |d| d.vertex).ok().map(|i| doubtful[i])
-            });
+            let still_doubtful =
+                around.into_iter().filter(|v| !tried.contains(v)).filter_map(|v| {
+                    doubtful.binary_search_by_key(&v, |d| d.vertex).ok().map(|i| doubtful[i])
+                });
             harmful = still_doubtful.filter(|d| self.may_harm(vertices, d, &exact)).collect();
         }
         exact

@@ -2,7 +2,6 @@
 
 use glam::DVec3;
 
-use super::{GoesOn, Numbers};
 use super::cloud::{Cloud, PointSigns};
 use super::grow::grow;
 use super::merge::{Faces, fan_starts};
@@ -10,6 +9,7 @@ use super::order::{MOST_POINTS, insertion_order};
 use super::polytope::Polygons;
 use super::start::{Flat, far_apart};
 use super::surface::{NONE, Room, Surface};
+use super::{GoesOn, Numbers};
 use crate::code::codes;
 use crate::geom::RoundingBound;
 use crate::geom::predicate::orient3d;

@@ -16,7 +16,8 @@ pub struct PlanesStep {
     /// The file, relative to the recipe's folder: nx,ny,nz,d on each line for n·x ≤ d.
     #[arg(value_name = "FILE.csv")]
     pub path: PathBuf,
-    /// Divide vertices where more than three planes meet, so that exactly three edges meet in each.
+    /// Divide vertices where more than three planes meet, so that exactly three edges meet in each;
+    /// planes there move inwards by at most 1/32768 of the size.
     #[arg(long)]
     #[serde(default)]
     pub simple: bool,

@@ -172,29 +172,31 @@ mod tests {
         assert_eq!(simple.polytope.beyond(&planes, &[0, 1, 2, 3, 4], 0.0), []);
     }
 
+    /// The six planes of a cube about the origin.
+    fn cube() -> Vec<HalfSpace> {
+        let sides = DVec3::AXES.into_iter().flat_map(|axis| [axis, -axis]);
+        sides.map(|normal| HalfSpace { normal, offset: 1.0 }).collect()
+    }
+
     #[test]
-    fn planes_one_ulp_apart_make_no_edge_of_that_length() {
-        let mut planes = Vec::new();
-        for axis in DVec3::AXES {
-            for normal in [axis, -axis] {
-                planes.push(HalfSpace { normal, offset: 1.0 });
-                let tilted = normal + axis.any_orthonormal_vector() * f64::EPSILON;
-                planes.push(HalfSpace { normal: tilted, offset: 1.0 });
-            }
+    fn chamfers_below_rounding_make_no_short_edges() {
+        // One along an edge, one across a corner: each takes off less than coordinates show.
+        let mut planes = cube();
+        planes.push(HalfSpace { normal: DVec3::new(1.0, 1.0, 0.0), offset: 2.0 - 1e-13 });
+        planes.push(HalfSpace { normal: DVec3::NEG_ONE, offset: 3.0 - 1e-13 });
+        for form in [Form::Merged, Form::Simple] {
+            let made = apart(&planes, form);
+            assert_eq!((made.polytope.vertices.len(), made.polytope.faces.len()), (8, 6));
+            assert!(made.polytope.shortest_edge() > 1.9 && made.moved.is_empty());
         }
-        let cube = apart(&planes, Form::Merged).polytope;
-        assert_eq!((cube.vertices.len(), cube.faces.len()), (8, 6));
-        assert!(cube.shortest_edge() > 1.9);
+        // A thousand times as much is a face.
+        planes[6].offset = 2.0 - 1e-10;
+        assert_eq!(apart(&planes, Form::Merged).polytope.faces.len(), 7);
     }
 
     #[test]
     fn who_says_stop_gets_no_solid() {
-        let planes: Vec<HalfSpace> = DVec3::AXES
-            .into_iter()
-            .flat_map(|axis| [axis, -axis])
-            .map(|normal| HalfSpace { normal, offset: 1.0 })
-            .collect();
-        let stopped = intersect_apart(&planes, &Intersect::default(), 6, &|| false);
+        let stopped = intersect_apart(&cube(), &Intersect::default(), 6, &|| false);
         assert_eq!(stopped, Err(HalfSpaceError::Stopped));
     }
 }

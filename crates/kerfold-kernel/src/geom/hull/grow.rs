@@ -34,13 +34,13 @@ pub(super) fn grow<S: Signs>(
 ) -> Option<()> {
     let (seeds, count) = (order.seed_cells.len() as u32, cloud.len());
     let insert_all = |surface: &mut Surface<'_>, points: &mut dyn Iterator<Item = u32>| {
-        for (i, p) in (0_u32..).zip(points) {
+        for (i, p) in (1_u32..).zip(points) {
             if i % ASKED_EVERY == 0 && !goes_on() {
                 return None;
             }
             surface.insert(cloud, p);
         }
-        Some(())
+        goes_on().then_some(())
     };
     insert_all(surface, &mut without(0..seeds, inserted))?;
     let parts =

@@ -131,7 +131,6 @@ const DOORS: &[(&str, &[&str])] = &[
     ("strsim", &["crates/kerfold-kernel/src/units/nearest.rs"]),
     ("spade", &["crates/kerfold-kernel/src/geom/triangulate.rs", "src/op/cut/bridge.rs"]),
     ("batsat", &["src/seam/sat.rs"]),
-    ("parry3d_f64", &["src/op/hull/convex_parts.rs"]),
     ("i_overlay", &["crates/kerfold-sheet/src/sheet/kerf.rs"]),
     ("tobj", &["src/io/read/obj.rs"]),
     ("tempfile", &["src/io/output/"]),

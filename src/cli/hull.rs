@@ -59,12 +59,12 @@ pub(super) fn run(args: &HullArgs, console: &Console) -> Result<Outcome, CliErro
 }
 
 fn make(args: &HullArgs, console: &Console) -> Result<(Mesh, HullReport, Vec<String>), CliError> {
+    let progress = Terminal::new(console.quiet);
     if let Some(file) = &args.planes {
-        let (mesh, report) = solid_of_planes(file, &args.hull)?;
+        let (mesh, report) = solid_of_planes(file, &args.hull, &progress)?;
         return Ok((mesh, report, Vec::new()));
     }
     let read = read_model(args.input.as_deref().unwrap_or(Path::new("-")), &args.options)?;
-    let progress = Terminal::new(console.quiet);
     let (mesh, report) =
         hull(&read.mesh, &args.hull, &OpContext { made: None, progress: &progress })?;
     Ok((mesh, report, read.notes.iter().map(ToString::to_string).collect()))

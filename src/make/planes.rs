@@ -7,7 +7,8 @@ use serde::Deserialize;
 use super::MakeError;
 use crate::io::planes_csv::read_planes;
 use crate::mesh::Mesh;
-use crate::op::{HullParams, HullReport, OpError, halfspaces};
+use crate::op::{HullParams, HullReport, OpContext, OpError, halfspaces};
+use crate::progress::Progress;
 
 /// A file of half-spaces.
 #[derive(Debug, Clone, clap::Args, Deserialize)]
@@ -15,7 +16,8 @@ pub struct PlanesStep {
     /// The file, relative to the recipe's folder: nx,ny,nz,d on each line for n·x ≤ d.
     #[arg(value_name = "FILE.csv")]
     pub path: PathBuf,
-    /// Divide vertices where more than three planes meet, so that exactly three edges meet in each.
+    /// Divide vertices where more than three planes meet, so that exactly three edges meet in each;
+    /// planes there move inwards by at most 1/32768 of the size.
     #[arg(long)]
     #[serde(default)]
     pub simple: bool,
@@ -26,9 +28,14 @@ pub struct PlanesStep {
 ///
 /// # Errors
 /// [`MakeError::Planes`] with file and line, [`MakeError::Op`].
-pub fn solid_of_planes(file: &Path, params: &HullParams) -> Result<(Mesh, HullReport), MakeError> {
+pub fn solid_of_planes(
+    file: &Path,
+    params: &HullParams,
+    progress: &dyn Progress,
+) -> Result<(Mesh, HullReport), MakeError> {
     let planes = read_planes(file)?;
-    halfspaces(&planes.half_spaces, params).map_err(|error| match error {
+    let context = OpContext { made: None, progress };
+    halfspaces(&planes.half_spaces, params, &context).map_err(|error| match error {
         OpError::HalfSpaces { reason, .. } => planes.no_solid(file, reason).into(),
         other => other.into(),
     })

@@ -140,7 +140,8 @@ impl Job {
             }
             Step::Planes(planes) => {
                 let params = HullParams { simple: planes.simple, ..HullParams::default() };
-                let (mesh, report) = solid_of_planes(&folder.join(&planes.path), &params)?;
+                let path = folder.join(&planes.path);
+                let (mesh, report) = solid_of_planes(&path, &params, progress)?;
                 self.notes.extend(report.notes());
                 self.start(mesh)?;
             }

@@ -12,8 +12,8 @@ use crate::mesh::{BuildError, FaceId, Mesh, MeshBuilder, VertexId};
 #[derive(Default)]
 pub(super) struct Assembly {
     builder: MeshBuilder,
-    /// Where each vertex lies, and whether as given.
-    positions: Vec<(DVec3, bool)>,
+    /// For each vertex whether it lies as given.
+    is_given: Vec<bool>,
     /// For each face its plane, where it carries one.
     planes: Vec<Option<Plane>>,
     /// Names of the parts, with the number of faces up to their ends.
@@ -52,7 +52,7 @@ impl Assembly {
         origin: DVec3,
         mut part: HullPart,
     ) -> HullPart {
-        let first = self.positions.len();
+        let first = self.is_given.len();
         for &position in &polytope.vertices {
             self.vertex(origin + position, false);
         }
@@ -67,12 +67,8 @@ impl Assembly {
     }
 
     fn vertex(&mut self, position: DVec3, is_given: bool) -> usize {
-        self.positions.push((position, is_given));
-        // The simple form may have edges of length zero, which the builder refuses because in a
-        // file they are a fault. It sees stand-ins on a parabola instead, of which no two are equal
-        // and no three on a line.
-        let i = (self.positions.len() - 1) as f64;
-        self.builder.vertex(DVec3::new(i, i * i, 0.0))
+        self.is_given.push(is_given);
+        self.builder.vertex(position)
     }
 
     fn end_part(&mut self, mut part: HullPart) -> HullPart {
@@ -83,10 +79,14 @@ impl Assembly {
     }
 
     /// The mesh of all parts.
+    ///
+    /// # Errors
+    /// What a reader would refuse in a file of this mesh.
     pub(super) fn mesh(self) -> Result<Mesh, BuildError> {
         let (mut mesh, _) = self.builder.build()?;
-        for (i, (position, is_given)) in self.positions.into_iter().enumerate() {
-            mesh.set_position(VertexId::new(i), position, is_given);
+        for (i, is_given) in self.is_given.into_iter().enumerate() {
+            let v = VertexId::new(i);
+            mesh.set_position(v, mesh.position(v), is_given);
         }
         for (i, plane) in self.planes.into_iter().enumerate() {
             if let Some(plane) = plane {

@@ -4,9 +4,10 @@ use glam::DVec3;
 
 use super::build::Assembly;
 use super::parts::Cluster;
-use super::{HullPart, OpError};
-use crate::geom::Plane;
-use crate::geom::hull::{Form, HalfSpace, Intersect, Numbers, Polygons, intersect};
+use super::{HullPart, OpError, half_space_error};
+use crate::geom::hull::{Apart, Form, HalfSpace, Intersect, Numbers, Polygons, intersect_apart};
+use crate::geom::{Plane, RoundingBound};
+use crate::progress::Progress;
 
 /// The half-spaces of a dual hull, counted from a local origin so that far from the origin no
 /// digits are lost.
@@ -16,6 +17,8 @@ pub(super) struct Dual {
     /// The planes through the corners of the hull, in the order of the points, then the box.
     half_spaces: Vec<HalfSpace>,
     box_sides: usize,
+    /// How near vertices may be before coordinates cannot tell them apart where the points lie.
+    resolution: f64,
 }
 
 /// How many of the half-spaces are sides of the box.
@@ -53,7 +56,8 @@ impl Dual {
                 half_spaces.push(HalfSpace { normal: side, offset: high[axis] - origin[axis] });
             }
         }
-        Self { origin, interior, half_spaces, box_sides: box_sides(no_box) }
+        let resolution = RoundingBound::of_box(low, high).length();
+        Self { origin, interior, half_spaces, box_sides: box_sides(no_box), resolution }
     }
 
     /// Intersects the first `planes` half-spaces with the box and adds the solid to a mesh.
@@ -61,21 +65,29 @@ impl Dual {
         &self,
         mesh: &mut Assembly,
         cluster: &Cluster,
-        form: Form,
-        planes: usize,
+        (form, planes): (Form, usize),
+        progress: &dyn Progress,
     ) -> Result<HullPart, OpError> {
         let (corners, sides) = self.half_spaces.split_at(self.half_spaces.len() - self.box_sides);
         let chosen: Vec<HalfSpace> = corners.iter().take(planes).chain(sides).copied().collect();
-        let options =
-            Intersect { form, numbers: Numbers::Constructed, interior: Some(self.interior) };
-        let polytope = intersect(&chosen, &options)
-            .map_err(|reason| OpError::HalfSpaces { part: cluster.name.clone(), reason })?;
+        let options = Intersect {
+            form,
+            numbers: Numbers::Constructed,
+            interior: Some(self.interior),
+            resolution: self.resolution,
+        };
+        // The sides of the box stay where the points end.
+        let movable = chosen.len() - self.box_sides;
+        let Apart { polytope, half_spaces, moved } =
+            intersect_apart(&chosen, &options, movable, &|| !progress.is_cancelled())
+                .map_err(|reason| half_space_error(&cluster.name, reason))?;
         let part = HullPart {
             name: cluster.name.clone(),
             points: cluster.points.len(),
             planes: chosen.len(),
+            moved: moved.len(),
             ..HullPart::default()
         };
-        Ok(mesh.add_polytope(polytope, &chosen, self.origin, part))
+        Ok(mesh.add_polytope(polytope, &half_spaces, self.origin, part))
     }
 }

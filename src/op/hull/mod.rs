@@ -7,13 +7,15 @@
 //! divided first into clusters, each with its own hull and component.
 //!
 //! Changes: everything; the result is a new mesh. n planes in general position: n faces, 3n − 6
-//! edges, 2n − 4 vertices, all of valence 3. Every result contains the points that it was made of.
+//! edges, 2n − 4 vertices, all of valence 3. Every result contains the points that it was made of, but for planes moved.
 //! Degenerate: where more than three planes meet the vertex has a higher valence, unless the simple
-//! form is asked for; points that span no volume are an error that says so.
+//! form is asked for: then planes there are moved inwards by less than 1/32 768 of the size, so that
+//! the vertices of three edges lie apart. Points that span no volume are an error that says so.
 
 mod build;
-mod convex_parts;
+mod decompose;
 mod dual;
+mod merge;
 mod params;
 mod parts;
 
@@ -23,9 +25,14 @@ mod tests;
 pub use params::{Axis, HullParams, HullStepChoice, HullStepList};
 
 use super::{OpContext, OpError};
-use crate::geom::hull::{Form, HalfSpace, Intersect, Numbers, convex_hull, intersect};
+use crate::geom::hull::{
+    Apart, Form, HalfSpace, HalfSpaceError, HullError, Intersect, Numbers, Polygons,
+    convex_hull_while, intersect_apart,
+};
 use crate::mesh::{Mesh, VertexId};
+use crate::progress::Progress;
 use build::Assembly;
+use parts::Cluster;
 
 /// What a hull was made of.
 #[derive(Debug, Clone, Default)]
@@ -50,6 +57,13 @@ impl HullReport {
                 notes.push(format!(
                     "{}: {idle} of {} half-spaces contribute no face",
                     part.name, part.planes
+                ));
+            }
+            if part.moved > 0 {
+                notes.push(format!(
+                    "{}: {} planes were moved inwards by at most 1/32768 of the size, so that the \
+                    vertices of three edges lie apart",
+                    part.name, part.moved
                 ));
             }
         }
@@ -79,6 +93,9 @@ pub struct HullPart {
     /// touch. Numbered from 0: as given, or the corners of the hull in the order of their vertices,
     /// then the six sides of the box.
     pub without_face: Vec<usize>,
+    /// How many half-spaces were moved inwards a little, so that the vertices of the simple form lie
+    /// apart.
+    pub moved: usize,
     /// Number of faces.
     pub faces: usize,
 }
@@ -101,11 +118,14 @@ impl HullStep {
 
 /// The convex hull or dual convex hull of a mesh's vertices, of all or by clusters.
 ///
+/// Every vertex of a dual hull is compared with all of its planes, and the mesh is one that every
+/// reader takes.
+///
 /// # Errors
 /// [`OpError::NoHull`] when the points of a part span no volume, [`OpError::HalfSpaces`] when a
 /// dual hull without box is unbounded, [`OpError::CountOutOfRange`],
-/// [`OpError::ConcavityOutOfRange`], [`OpError::Exclude`], [`OpError::Requires`],
-/// [`OpError::Cancelled`].
+/// [`OpError::ConcavityOutOfRange`], [`OpError::NotClosed`] for convex parts of an open mesh,
+/// [`OpError::Exclude`], [`OpError::Requires`], [`OpError::Cancelled`].
 ///
 /// # Example
 /// ```
@@ -124,7 +144,7 @@ pub fn hull(
     context: &OpContext<'_>,
 ) -> Result<(Mesh, HullReport), OpError> {
     params.check()?;
-    let clusters = parts::clusters(mesh, params)?;
+    let clusters = parts::clusters(mesh, params, context.progress)?;
     let mut report = HullReport { empty_clusters: clusters.empty, ..HullReport::default() };
     let mut result = Assembly::default();
     let steps = params.steps.as_ref().map_or(&[][..], |steps| &steps.0);
@@ -132,17 +152,14 @@ pub fn hull(
         steps.iter().map(|&step| (step, Assembly::default())).collect();
     for (i, cluster) in clusters.parts.iter().enumerate() {
         context.progress.report("hulls", i, clusters.parts.len());
-        if context.progress.is_cancelled() {
-            return Err(OpError::Cancelled);
-        }
-        let no_hull = |reason| OpError::NoHull { part: cluster.name.clone(), reason };
-        let faces = convex_hull(&cluster.points, Numbers::Constructed).map_err(no_hull)?;
+        let faces = faces_of(cluster, context.progress)?;
         if params.dual {
             let dual = dual::Dual::of(&cluster.points, &faces, params.no_box);
             let form = if params.simple { Form::Simple } else { Form::Merged };
-            report.parts.push(dual.add_to(&mut result, cluster, form, usize::MAX)?);
+            let part = dual.add_to(&mut result, cluster, (form, usize::MAX), context.progress)?;
+            report.parts.push(part);
             for (step, picture) in &mut pictures {
-                dual.add_to(picture, cluster, form, step.planes())?;
+                dual.add_to(picture, cluster, (form, step.planes()), context.progress)?;
             }
         } else {
             report.parts.push(result.add_hull(cluster, &faces));
@@ -150,25 +167,42 @@ pub fn hull(
     }
     let result = result.mesh()?;
     report.not_three_valent = other_than_three(&result);
+    let planes = report.parts.iter().map(|part| part.planes - dual::box_sides(params.no_box));
+    let most = if params.dual { planes.max().unwrap_or(0) } else { 0 };
     for (step, picture) in pictures {
-        let most = report
-            .parts
-            .iter()
-            .map(|part| part.planes - dual::box_sides(params.no_box))
-            .max()
-            .unwrap_or(0);
         report.steps.push(HullStep { planes: step.planes().min(most), mesh: picture.mesh()? });
     }
     Ok((result, report))
 }
 
+/// The faces of the hull of a cluster.
+fn faces_of(cluster: &Cluster, progress: &dyn Progress) -> Result<Polygons, OpError> {
+    let goes_on = || !progress.is_cancelled();
+    convex_hull_while(&cluster.points, Numbers::Constructed, &goes_on).map_err(
+        |reason| match reason {
+            HullError::Stopped => OpError::Cancelled,
+            reason => OpError::NoHull { part: cluster.name.clone(), reason },
+        },
+    )
+}
+
+/// The error of a part.
+fn half_space_error(part: &str, reason: HalfSpaceError) -> OpError {
+    match reason {
+        HalfSpaceError::Stopped => OpError::Cancelled,
+        reason => OpError::HalfSpaces { part: part.to_owned(), reason },
+    }
+}
+
 /// The solid that half-spaces n·x ≤ d bound. Of `params` only [`HullParams::simple`] matters. The
 /// numbers are taken as given: more than three planes meet in a vertex only when they do so
-/// exactly.
+/// exactly, or so nearly that rounded coordinates cannot tell their meeting points apart. Every
+/// vertex is compared with all half-spaces.
 ///
 /// # Errors
 /// [`OpError::HalfSpaces`] when they have nothing in common (with the numbers of those that exclude
-/// each other), no volume, or leave a direction open (with the direction).
+/// each other), no volume, or leave a direction open (with the direction), and
+/// [`OpError::Cancelled`].
 ///
 /// # Example
 /// ```
@@ -179,22 +213,26 @@ pub fn hull(
 /// let normals = [DVec3::ONE, DVec3::new(1., -1., -1.), DVec3::new(-1., 1., -1.), DVec3::new(-1., -1., 1.)];
 /// let half_spaces = normals.map(|normal| HalfSpace { normal, offset: 5.0 });
 /// let params = HullParams::default();
-/// let (tetrahedron, _) = kerfold::op::halfspaces(&half_spaces, &params)?;
+/// let (tetrahedron, _) = kerfold::op::halfspaces(&half_spaces, &params, &OpContext::default())?;
 /// assert_eq!(tetrahedron.face_count(), 4);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn halfspaces(
     half_spaces: &[HalfSpace],
     params: &HullParams,
+    context: &OpContext<'_>,
 ) -> Result<(Mesh, HullReport), OpError> {
     let name = "hull".to_owned();
     let form = if params.simple { Form::Simple } else { Form::Merged };
-    let options = Intersect { form, numbers: Numbers::Given, interior: None };
-    let polytope = intersect(half_spaces, &options)
-        .map_err(|reason| OpError::HalfSpaces { part: name.clone(), reason })?;
+    let options = Intersect { form, numbers: Numbers::Given, ..Intersect::default() };
+    let goes_on = || !context.progress.is_cancelled();
+    let apart = intersect_apart(half_spaces, &options, half_spaces.len(), &goes_on);
+    let Apart { polytope, half_spaces, moved } =
+        apart.map_err(|reason| half_space_error(&name, reason))?;
     let mut result = Assembly::default();
-    let part = HullPart { name, points: 0, planes: half_spaces.len(), ..HullPart::default() };
-    let part = result.add_polytope(polytope, half_spaces, glam::DVec3::ZERO, part);
+    let part =
+        HullPart { name, planes: half_spaces.len(), moved: moved.len(), ..HullPart::default() };
+    let part = result.add_polytope(polytope, &half_spaces, glam::DVec3::ZERO, part);
     let mesh = result.mesh()?;
     let not_three_valent = other_than_three(&mesh);
     Ok((mesh, HullReport { parts: vec![part], not_three_valent, ..HullReport::default() }))

@@ -17,7 +17,7 @@ pub struct HullParams {
     #[serde(default)]
     pub dual: bool,
     /// Divide vertices where more than three planes meet, so that exactly three edges meet in each;
-    /// some edges then have length zero.
+    /// planes there move inwards by at most 1/32768 of the size.
     #[arg(long)]
     #[serde(default)]
     pub simple: bool,
@@ -38,13 +38,13 @@ pub struct HullParams {
     #[arg(long, conflicts_with = "parts")]
     #[serde(default)]
     pub by_group: bool,
-    /// Divide a concave model into at most this many nearly convex parts, each with its own hull; 1
-    /// to 1024.
+    /// Divide a concave closed model into at most this many nearly convex parts, each with its own
+    /// hull; 1 to 1024.
     #[arg(long, value_name = "NUMBER")]
     #[serde(default)]
     pub parts: Option<u32>,
-    /// How concave a part may stay before it is divided, as a share of the model's volume; in (0,
-    /// 1].
+    /// How much the hull of a part may exceed the part before it is divided, as a share of the
+    /// model's volume; in (0, 1].
     #[arg(long, default_value_t = default_concavity(), value_parser = crate::units::parse_number)]
     #[serde(default = "default_concavity")]
     pub concavity: f64,

@@ -4,8 +4,9 @@ use glam::DVec3;
 
 use super::super::OpError;
 use super::HullParams;
-use super::convex_parts::convex_parts;
+use super::decompose::convex_parts;
 use crate::mesh::{FaceId, Mesh, VertexId};
+use crate::progress::Progress;
 
 /// Points that get one hull together.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -31,14 +32,18 @@ impl Cluster {
 }
 
 /// Divides the vertices of a mesh as the parameters say. Every vertex is in a cluster.
-pub(super) fn clusters(mesh: &Mesh, params: &HullParams) -> Result<Clusters, OpError> {
+pub(super) fn clusters(
+    mesh: &Mesh,
+    params: &HullParams,
+    progress: &dyn Progress,
+) -> Result<Clusters, OpError> {
     if let Some(count) = params.clusters {
         return Ok(slabs(mesh, count as usize, params.axis as usize));
     }
     let parts = if params.by_group {
         groups(mesh)
     } else if let Some(most) = params.parts {
-        automatic(mesh, most, params.concavity)
+        automatic(mesh, most as usize, params.concavity, progress)?
     } else {
         vec![Cluster::of(mesh, "hull".to_owned(), mesh.vertices())]
     };
@@ -92,51 +97,21 @@ fn vertices_of(mesh: &Mesh, faces: impl Iterator<Item = FaceId>) -> Vec<VertexId
     vertices
 }
 
-/// Nearly convex parts of a concave model. The points are where the parts meet the surface, and
-/// every vertex besides, so that the hulls together hold all vertices.
-fn automatic(mesh: &Mesh, most: u32, concavity: f64) -> Vec<Cluster> {
-    let vertices: Vec<VertexId> = mesh.vertices().collect();
-    let points: Vec<DVec3> = vertices.iter().map(|&v| mesh.position(v)).collect();
-    let mut number = vec![0_u32; mesh.vertex_slots()];
-    vertices.iter().enumerate().for_each(|(i, v)| number[v.index()] = i as u32);
-    let mut triangles = Vec::new();
-    for f in mesh.faces() {
-        let corners: Vec<u32> = mesh.face_vertices(f).map(|v| number[v.index()]).collect();
-        let fan = (2..corners.len()).map(|i| [corners[0], corners[i - 1], corners[i]]);
-        triangles.extend(fan.filter(|t| t[0] != t[1] && t[1] != t[2] && t[2] != t[0]));
+/// Nearly convex parts of a concave model; together they hold all vertices.
+fn automatic(
+    mesh: &Mesh,
+    most: usize,
+    concavity: f64,
+    progress: &dyn Progress,
+) -> Result<Vec<Cluster>, OpError> {
+    let parts = convex_parts(mesh, most, concavity, progress)?;
+    if parts.len() < 2 {
+        return Ok(vec![Cluster::of(mesh, "part-1".to_owned(), mesh.vertices())]);
     }
-    let pieces = convex_parts(&points, &triangles, most, concavity);
-    if pieces.len() < 2 {
-        return vec![Cluster::of(mesh, "part-1".to_owned(), vertices)];
+    let mut clusters: Vec<Cluster> = Vec::with_capacity(parts.len());
+    for (i, points) in (1..).zip(parts) {
+        let (points, is_given) = points.into_iter().unzip();
+        clusters.push(Cluster { name: format!("part-{i}"), points, is_given });
     }
-    let part = |(i, pieces): (usize, Vec<DVec3>)| {
-        let is_given = vec![false; pieces.len()];
-        Cluster { name: format!("part-{}", i + 1), points: pieces, is_given }
-    };
-    let mut parts: Vec<Cluster> = pieces.into_iter().enumerate().map(part).collect();
-    add_missing(mesh, &vertices, &mut parts);
-    parts
-}
-
-/// Adds each vertex to the part with the nearest point: cut corners come back, and no vertex is
-/// left out.
-fn add_missing(mesh: &Mesh, vertices: &[VertexId], parts: &mut [Cluster]) {
-    let mut nearest = vec![(f64::INFINITY, 0); vertices.len()];
-    for (k, part) in parts.iter().enumerate() {
-        for (best, &v) in nearest.iter_mut().zip(vertices) {
-            let position = mesh.position(v);
-            let distance = part
-                .points
-                .iter()
-                .map(|p| p.distance_squared(position))
-                .fold(f64::INFINITY, f64::min);
-            if distance < best.0 {
-                *best = (distance, k);
-            }
-        }
-    }
-    for ((_, k), &v) in nearest.into_iter().zip(vertices) {
-        parts[k].points.push(mesh.position(v));
-        parts[k].is_given.push(mesh.is_given(v));
-    }
+    Ok(clusters)
 }

@@ -244,6 +244,7 @@ fn an_l_shape_falls_into_convex_parts_that_hold_all_its_points() {
 #[test]
 fn half_spaces_become_a_mesh_with_their_planes() {
     let space = |x: f64, y: f64, z: f64, offset| HalfSpace { normal: DVec3::new(x, y, z), offset };
+    let context = OpContext::default();
     // A square pyramid with a repeated base and a plane that only touches its top.
     let planes = [
         space(0.0, 0.0, -1.0, 0.0),
@@ -254,7 +255,8 @@ fn half_spaces_become_a_mesh_with_their_planes() {
         space(0.0, -1.0, 1.0, 4.0),
         space(0.0, 0.0, 1.0, 4.0),
     ];
-    let (mesh, report) = halfspaces(&planes, &HullParams::default()).expect("a pyramid");
+    let (mesh, report) =
+        halfspaces(&planes, &HullParams::default(), &OpContext::default()).expect("a pyramid");
     assert_sound(&mesh);
     assert_eq!(counts(&mesh), [5, 8, 5]);
     assert_eq!(report.parts[0].without_face, [3, 6]);
@@ -263,11 +265,13 @@ fn half_spaces_become_a_mesh_with_their_planes() {
     let plane = mesh.carried_plane(crate::mesh::FaceId::new(1)).expect("carried");
     assert!((plane.normal() - DVec3::new(1.0, 0.0, 1.0).normalize()).length() < 1e-15);
     let (simple, report) =
-        halfspaces(&planes, &HullParams { simple: true, ..HullParams::default() })
+        halfspaces(&planes, &HullParams { simple: true, ..HullParams::default() }, &context)
             .expect("a pyramid");
+    assert_eq!(report.parts[0].moved, 4);
     assert_sound(&simple);
     assert_eq!((counts(&simple), report.not_three_valent.len()), ([6, 9, 5], 0));
-    let error = halfspaces(&planes[1..3], &HullParams::default()).expect_err("open");
+    let error =
+        halfspaces(&planes[1..3], &HullParams::default(), &OpContext::default()).expect_err("open");
     assert!(error.to_string().contains("open"), "{error}");
 }
 

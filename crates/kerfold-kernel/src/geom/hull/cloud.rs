@@ -181,10 +181,8 @@ impl<'a> PlaneSigns<'a> {
 
     /// The numbers of a plane, scaled by powers of two, which change no sign.
     fn row(&self, place: u32) -> [f64; 4] {
-        let HalfSpace { normal, offset } = self.half_spaces[self.order[place as usize] as usize];
-        let scale = inverse_power_of_two(normal.abs().max_element());
-        let n = normal * scale;
-        [n.x, n.y, n.z, offset * self.offset_scale * scale]
+        let [x, y, z, offset] = self.half_spaces[self.order[place as usize] as usize].row();
+        [x, y, z, offset * self.offset_scale]
     }
 }
 

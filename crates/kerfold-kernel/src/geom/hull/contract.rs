@@ -1,19 +1,24 @@
 //! Constructed planes: what is nearer than rounding meets in one point.
 
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 
 use super::half_space::HalfSpace;
-use super::meeting::{meeting_point, widest_triple};
+use super::meeting::{exact_meeting, widest_triple};
 use super::polytope::{Polygons, Polytope};
-use crate::geom::RoundingBound;
 
-/// Contracts all edges shorter than the rounding bound of the solid. Faces that lose their area go,
+/// Contracts all edges shorter than the rounding bound of the solid, or than `resolution`. Faces that lose their area go,
 /// and vertices that lie on an edge with them.
 ///
 /// Also returns the half-spaces whose face is still there but narrower than the bound: slivers,
 /// which cannot be contracted.
-pub(super) fn contract(polytope: &Polytope, half_spaces: &[HalfSpace]) -> (Polytope, Vec<u32>) {
-    let bound = bound(&polytope.vertices);
+pub(super) fn contract(
+    polytope: &Polytope,
+    half_spaces: &[HalfSpace],
+    resolution: f64,
+) -> (Polytope, Vec<u32>) {
+    let bound = polytope.rounding().max(resolution);
     let heads = short_edges_joined(polytope, bound);
     let is_unchanged = heads.iter().enumerate().all(|(v, &head)| v as u32 == head);
     let mut runs: Vec<Vec<u32>> = polytope.faces.iter().map(|run| mapped(run, &heads)).collect();
@@ -29,20 +34,19 @@ pub(super) fn contract(polytope: &Polytope, half_spaces: &[HalfSpace]) -> (Polyt
     (compacted(polytope, half_spaces, &heads, &runs), slivers)
 }
 
-fn bound(vertices: &[DVec3]) -> f64 {
-    let low = vertices.iter().copied().reduce(DVec3::min).unwrap_or_default();
-    let high = vertices.iter().copied().reduce(DVec3::max).unwrap_or_default();
-    RoundingBound::of_box(low, high).length()
-}
-
-/// For each vertex the lowest one that short edges join it to.
+/// For each vertex the lowest one that short edges join it to, and which lies no farther than two
+/// bounds away: a row of short edges does not carry a vertex off.
 fn short_edges_joined(polytope: &Polytope, bound: f64) -> Vec<u32> {
+    let at = |v: u32| polytope.vertices[v as usize];
     let mut heads: Vec<u32> = (0..polytope.vertices.len() as u32).collect();
     for run in polytope.faces.iter() {
         for (i, &v) in run.iter().enumerate() {
             let u = run[(i + 1) % run.len()];
-            if polytope.vertices[u as usize].distance(polytope.vertices[v as usize]) <= bound {
-                let (a, b) = (head(&mut heads, u), head(&mut heads, v));
+            if at(u).distance(at(v)) > bound {
+                continue;
+            }
+            let (a, b) = (head(&mut heads, u), head(&mut heads, v));
+            if at(a).distance(at(b)) <= 2.0 * bound {
                 heads[a.max(b) as usize] = a.min(b);
             }
         }
@@ -100,46 +104,95 @@ fn width(run: &[u32], vertices: &[DVec3]) -> f64 {
     longest.map_or(0.0, across)
 }
 
-/// The solid of the runs that are left, with the positions of joined vertices solved from planes
-/// that meet there steeply.
+/// The solid of the runs that are left, with joined vertices placed anew.
 fn compacted(
     polytope: &Polytope,
     half_spaces: &[HalfSpace],
     heads: &[u32],
     runs: &[Vec<u32>],
 ) -> Polytope {
-    let mut is_joined = vec![false; heads.len()];
-    for (v, &head) in heads.iter().enumerate() {
-        is_joined[head as usize] |= head as usize != v;
-    }
     let mut number = vec![u32::MAX; heads.len()];
-    let mut vertices = Vec::new();
-    let mut planes: Vec<Vec<DVec3>> = Vec::new();
+    let mut heads_left = Vec::new();
     let mut faces = Polygons::with_capacity(runs.len(), runs.iter().map(Vec::len).sum());
     let mut kept = Vec::new();
     for (&i, run) in polytope.half_spaces.iter().zip(runs).filter(|(_, run)| !run.is_empty()) {
-        let h = &half_spaces[i as usize];
-        let dual = h.normal / (h.offset - h.normal.dot(polytope.interior));
-        for &v in run {
+        for &v in run.iter() {
             if number[v as usize] == u32::MAX {
-                number[v as usize] = vertices.len() as u32;
-                vertices.push(polytope.vertices[v as usize]);
-                planes.push(Vec::new());
-            }
-            if is_joined[v as usize] {
-                planes[number[v as usize] as usize].push(dual);
+                number[v as usize] = heads_left.len() as u32;
+                heads_left.push(v);
             }
         }
         kept.push(i);
         faces.push(run.iter().map(|&v| number[v as usize]));
     }
-    for (position, planes) in
-        vertices.iter_mut().zip(&planes).filter(|(_, planes)| planes.len() > 2)
-    {
-        let solved = polytope.interior + meeting_point(widest_triple(planes));
-        if solved.is_finite() {
-            *position = solved;
+    let mut vertices: Vec<DVec3> =
+        heads_left.iter().map(|&v| polytope.vertices[v as usize]).collect();
+    for joint in joints(polytope, half_spaces, heads, runs) {
+        let place = number[joint.head as usize];
+        if place != u32::MAX {
+            vertices[place as usize] = joint.place(polytope.interior);
         }
     }
     Polytope { vertices, half_spaces: kept, faces, interior: polytope.interior }
+}
+
+/// Vertices that become one.
+struct Joint<'a> {
+    head: u32,
+    /// Where they lay, each right.
+    members: Vec<DVec3>,
+    /// The planes of the faces that are left there.
+    planes: Vec<&'a HalfSpace>,
+}
+
+fn joints<'a>(
+    polytope: &Polytope,
+    half_spaces: &'a [HalfSpace],
+    heads: &[u32],
+    runs: &[Vec<u32>],
+) -> Vec<Joint<'a>> {
+    let mut joints: BTreeMap<u32, Joint<'a>> = BTreeMap::new();
+    for (v, &head) in (0..).zip(heads).filter(|&(v, &head)| v != head) {
+        let empty =
+            || Joint { head, members: vec![polytope.vertices[head as usize]], planes: Vec::new() };
+        joints.entry(head).or_insert_with(empty).members.push(polytope.vertices[v as usize]);
+    }
+    for (&i, run) in polytope.half_spaces.iter().zip(runs) {
+        for v in run {
+            if let Some(joint) = joints.get_mut(v) {
+                joint.planes.push(&half_spaces[i as usize]);
+            }
+        }
+    }
+    joints.into_values().collect()
+}
+
+impl Joint<'_> {
+    /// The meeting point of three planes that meet steeply or, where another plane passes that
+    /// farther off than one of the old vertices, the best of these.
+    fn place(&self, interior: DVec3) -> DVec3 {
+        let off = |x: DVec3| {
+            let distance = |h: &&HalfSpace| (h.slack(x) / h.normal.length()).abs();
+            self.planes.iter().map(distance).fold(0.0, f64::max)
+        };
+        let least = self.members.iter().copied().min_by(|&x, &y| off(x).total_cmp(&off(y)));
+        let best = least.unwrap_or_default();
+        match self.steepest(interior) {
+            Some(x) if off(x) <= off(best) || x.distance(best) <= self.extent() => x,
+            _ => best,
+        }
+    }
+
+    /// How far from the first of the old vertices the others lay.
+    fn extent(&self) -> f64 {
+        self.members.iter().map(|x| x.distance(self.members[0])).fold(0.0, f64::max)
+    }
+
+    fn steepest(&self, interior: DVec3) -> Option<DVec3> {
+        let dual: Vec<DVec3> = self.planes.iter().map(|h| h.normal / h.slack(interior)).collect();
+        if dual.len() < 3 {
+            return None;
+        }
+        exact_meeting(widest_triple(&dual).map(|i| self.planes[i]))
+    }
 }

@@ -23,6 +23,18 @@ pub(super) fn sign_of_determinant(rows: [[f64; 4]; 4]) -> Side {
     Side::of(all.leading())
 }
 
+/// The determinant of three columns of three rows, right to about an ulp barring overflow and
+/// underflow.
+pub(super) fn determinant_of_three(rows: &[[f64; 4]; 3], [i, j, k]: [usize; 3]) -> f64 {
+    let [upper, middle, lower] = rows;
+    let first = minor(*upper, *middle, i, j).scaled(lower[k]);
+    let second = minor(*upper, *middle, j, k).scaled(lower[i]);
+    let third = minor(*upper, *middle, k, i).scaled(lower[j]);
+    let two: Expansion<16> = first.plus(&second);
+    let all: Expansion<24> = two.plus(&third);
+    all.value()
+}
+
 /// n·x − d with the rounding errors of products and sums added up in a second double: right to
 /// about an ulp even where the terms cancel (Ogita, Rump and Oishi 2005, "Accurate Sum and Dot
 /// Product").
@@ -89,6 +101,11 @@ impl<const N: usize> Expansion<N> {
     /// The largest term: it carries the sign of the sum.
     fn leading(&self) -> f64 {
         self.terms().last().copied().unwrap_or(0.0)
+    }
+
+    /// The sum as one double.
+    fn value(&self) -> f64 {
+        self.terms().iter().sum()
     }
 
     /// Fast-Expansion-Sum (Shewchuk 1997, figure 8): both are merged by size and added up. M must

@@ -7,6 +7,7 @@
 
 use std::ops::Range;
 
+use super::GoesOn;
 use super::cloud::{Cloud, Signs};
 use super::order::Order;
 use super::parallel::each;
@@ -19,23 +20,37 @@ const PARTS: [(usize, usize); 2] = [(1 << 21, 4), (1 << 15, 2)];
 /// then the next is sought from elsewhere.
 const TRIES: usize = 16;
 
-/// Inserts all points but those that are corners already, `inserted` (ascending).
+/// After so many points it is asked whether to go on.
+const ASKED_EVERY: u32 = 1 << 12;
+
+/// Inserts all points but those that are corners already, `inserted` (ascending). `None` when
+/// `goes_on` said no.
 pub(super) fn grow<S: Signs>(
     cloud: &Cloud<S>,
     surface: &mut Surface<'_>,
     order: &Order,
     inserted: &[u32],
-) {
+    goes_on: GoesOn<'_>,
+) -> Option<()> {
     let (seeds, count) = (order.seed_cells.len() as u32, cloud.len());
-    without(0..seeds, inserted).for_each(|p| surface.insert(cloud, p));
+    let insert_all = |surface: &mut Surface<'_>, points: &mut dyn Iterator<Item = u32>| {
+        for (i, p) in (1_u32..).zip(points) {
+            if i % ASKED_EVERY == 0 && !goes_on() {
+                return None;
+            }
+            surface.insert(cloud, p);
+        }
+        goes_on().then_some(())
+    };
+    insert_all(surface, &mut without(0..seeds, inserted))?;
     let parts =
         PARTS.iter().find(|&&(least, _)| count as usize >= least).map_or(1, |&(_, parts)| parts);
     // A walk from a corner of the hull may have to try all facets.
     if parts == 1 || surface.has_apex() {
-        without(seeds..count, inserted).for_each(|p| surface.insert(cloud, p));
+        insert_all(surface, &mut without(seeds..count, inserted))
     } else {
-        let left = Borders::of(order, parts).grow(cloud, surface, inserted);
-        left.into_iter().for_each(|p| surface.insert(cloud, p));
+        let left = Borders::of(order, parts).grow(cloud, surface, inserted, goes_on)?;
+        insert_all(surface, &mut left.into_iter())
     }
 }
 
@@ -97,7 +112,8 @@ impl<'a> Borders<'a> {
         cloud: &Cloud<S>,
         surface: &mut Surface<'_>,
         inserted: &[u32],
-    ) -> Vec<u32> {
+        goes_on: GoesOn<'_>,
+    ) -> Option<Vec<u32>> {
         let mut near: Vec<(u32, u32)> =
             surface.live().map(|f| (self.cell_of(surface.facet(f).corners[0]), f)).collect();
         near.sort_unstable();
@@ -114,15 +130,17 @@ impl<'a> Borders<'a> {
             left: Vec::new(),
         };
         let mut parts: Vec<Part<'_>> = surfaces.into_iter().enumerate().map(part).collect();
-        each(&mut parts, cloud.len() as usize, |part| part.grow(cloud, self.order, inserted));
+        each(&mut parts, cloud.len() as usize, |part| {
+            part.grow(cloud, self.order, inserted, goes_on);
+        });
         let mut left = Vec::new();
         let mut growths = Vec::with_capacity(parts.len());
         for part in parts {
             left.extend(part.left);
-            growths.extend(part.growth);
+            growths.push(part.growth?);
         }
         surface.join(growths, &division);
-        left
+        Some(left)
     }
 
     /// For each cell of part `k` a facet of that part in it or before it along the curve. `near`
@@ -142,9 +160,19 @@ impl<'a> Borders<'a> {
 }
 
 impl Part<'_> {
-    fn grow<S: Signs>(&mut self, cloud: &Cloud<S>, order: &Order, inserted: &[u32]) {
+    /// Grows; has no growth when `goes_on` said no.
+    fn grow<S: Signs>(
+        &mut self,
+        cloud: &Cloud<S>,
+        order: &Order,
+        inserted: &[u32],
+        goes_on: GoesOn<'_>,
+    ) {
         let Some(mut surface) = self.surface.take() else { return };
         for (i, &hint) in self.cells.clone().zip(&self.hints) {
+            if !goes_on() {
+                return;
+            }
             let late = without(places(order, i..i + 1), inserted);
             if surface.len() == 0 {
                 self.left.extend(late);

@@ -2,7 +2,12 @@
 
 use glam::DVec3;
 
+use super::cloud::inverse_power_of_two;
 use super::determinant::excess;
+
+/// Entries of a normal below this share of its largest are zero: products of three would leave the
+/// range of doubles, and no coordinate shows the difference.
+const NEGLIGIBLE: f64 = 1e-90;
 
 /// A half-space: all x with normal · x ≤ offset.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,5 +27,14 @@ impl HalfSpace {
         } else {
             -excess(self.normal.to_array(), x.to_array(), self.offset)
         }
+    }
+
+    /// Normal and offset, scaled by a power of two so that the largest entry of the normal is about
+    /// 1, which changes no sign.
+    pub(super) fn row(&self) -> [f64; 4] {
+        let scale = inverse_power_of_two(self.normal.abs().max_element());
+        let entry = |x: f64| if x.abs() < NEGLIGIBLE { 0.0 } else { x };
+        let [x, y, z] = (self.normal * scale).to_array().map(entry);
+        [x, y, z, self.offset * scale]
     }
 }

@@ -1,21 +1,25 @@
 //! The intersection of half-spaces, by the hull of their dual points.
 
+use std::collections::BTreeSet;
+
 use glam::DVec3;
 
+use super::GoesOn;
 use super::cloud::{Cloud, PlaneSigns};
 use super::contract::contract;
 use super::fans::Runs;
 use super::grow::grow;
 use super::half_space::HalfSpace;
 use super::interior::{Centre, deepest_point};
-use super::meeting::{SETTLED, meeting_point, widest_triple};
 use super::merge::Faces;
 use super::order::{MOST_POINTS, Order, insertion_order};
 use super::parallel::fill;
+use super::placing::Placing;
 use super::polytope::Polytope;
 use super::split::split;
 use super::start::{Flat, enclose_centre, far_apart};
 use super::surface::{Room, Surface};
+use super::verify::Misplaced;
 use crate::code::codes;
 
 /// What becomes of points where more than three planes meet.
@@ -49,6 +53,10 @@ pub struct Intersect {
     pub numbers: Numbers,
     /// A point inside, where one is known; else one is found.
     pub interior: Option<DVec3>,
+    /// How near computed vertices may be before they are one, where that is more than the
+    /// [`crate::geom::RoundingBound`] of the solid, in its unit: when it will be moved to where
+    /// coordinates are coarser.
+    pub resolution: f64,
 }
 
 /// Why half-spaces do not bound a solid. Half-spaces are numbered from 0 in the order of the input.
@@ -105,6 +113,28 @@ pub enum HalfSpaceError {
         /// A unit vector along which one can go for ever.
         direction: DVec3,
     },
+    /// A vertex did not come out where its planes meet.
+    #[error(
+        "vertex {} of the solid came out at {}, {:.3e} outside half-space {}: this is a fault of \
+        kerfold and not of the half-spaces; please report it with them",
+        fault.vertex, fault.position, fault.distance, fault.half_space
+    )]
+    Misplaced {
+        /// What is wrong.
+        fault: Misplaced,
+    },
+    /// Vertices of more than three edges that cannot be divided.
+    #[error(
+        "the points where more than three planes meet cannot be divided into vertices of three \
+        edges: the solid is too thin there for edges of {least:.3e}; leave out the simple form"
+    )]
+    NotSimple {
+        /// How long each new edge should be at least, in the unit of the coordinates.
+        least: f64,
+    },
+    /// The caller said so.
+    #[error("stopped before the solid was finished")]
+    Stopped,
 }
 
 codes!(error HalfSpaceError {
@@ -114,6 +144,9 @@ codes!(error HalfSpaceError {
     Infeasible = 224,
     NoVolume = 225,
     Unbounded = 226,
+    Misplaced = 227,
+    NotSimple = 228,
+    Stopped = 229,
 });
 
 impl HalfSpaceError {
@@ -124,7 +157,11 @@ impl HalfSpaceError {
                 std::slice::from_ref(half_space)
             }
             Self::Infeasible { half_spaces, .. } | Self::NoVolume { half_spaces } => half_spaces,
-            Self::TooMany { .. } | Self::Unbounded { .. } => &[],
+            Self::Misplaced { fault } => std::slice::from_ref(&fault.half_space),
+            Self::TooMany { .. }
+            | Self::Unbounded { .. }
+            | Self::NotSimple { .. }
+            | Self::Stopped => &[],
         }
     }
 }
@@ -142,8 +179,10 @@ fn list(half_spaces: &[usize]) -> String {
 /// Intersects half-spaces to a solid.
 ///
 /// Planes that contribute no face (redundant ones, those that touch at a vertex or along an edge,
-/// repeated ones but for the first inserted) are left out. Vertices are solved on residuals about a
-/// point inside, so that they lie on their planes to rounding at any scale and anywhere.
+/// repeated ones but for the first inserted) are left out. Which planes meet is settled by exact
+/// signs; a vertex lies within [`crate::geom::RoundingBound`] of where they do, at any scale and
+/// anywhere, also where planes are the same but for the last digits. With
+/// [`Numbers::Constructed`], where vertices are joined, within four times that.
 ///
 /// # Errors
 /// [`HalfSpaceError`]: nothing in common, no volume, an open direction, or numbers that are none.
@@ -151,14 +190,40 @@ pub fn intersect(
     half_spaces: &[HalfSpace],
     options: &Intersect,
 ) -> Result<Polytope, HalfSpaceError> {
+    intersect_while(half_spaces, options, &|| true)
+}
+
+/// [`intersect`] as long as `goes_on`, which is asked now and then, says yes, and with the result
+/// compared with all half-spaces ([`Polytope::verify`]).
+///
+/// # Errors
+/// [`HalfSpaceError`] as [`intersect`], [`HalfSpaceError::Stopped`], and
+/// [`HalfSpaceError::Misplaced`] when the result is wrong, which is a fault of this library.
+pub fn intersect_verified(
+    half_spaces: &[HalfSpace],
+    options: &Intersect,
+    goes_on: GoesOn<'_>,
+) -> Result<Polytope, HalfSpaceError> {
+    let polytope = intersect_while(half_spaces, options, goes_on)?;
+    let verified = polytope.verify(half_spaces, options.resolution);
+    verified.map_err(|fault| HalfSpaceError::Misplaced { fault })?;
+    Ok(polytope)
+}
+
+fn intersect_while(
+    half_spaces: &[HalfSpace],
+    options: &Intersect,
+    goes_on: GoesOn<'_>,
+) -> Result<Polytope, HalfSpaceError> {
     check(half_spaces)?;
     let centre = inside(half_spaces, options.interior)?;
-    let polytope = exact_intersection(half_spaces, centre, options.form == Form::Simple)?;
+    let set = Set { half_spaces, centre, goes_on };
+    let polytope = set.exact_intersection(options.form == Form::Simple)?;
     match (options.numbers, options.form) {
         (Numbers::Given, Form::Merged) => Ok(polytope),
         (Numbers::Given, Form::Simple) => Ok(split(polytope)),
         (Numbers::Constructed, form) => {
-            let merged = contract_all(half_spaces, centre, polytope)?;
+            let merged = set.contract_all(polytope, options.resolution)?;
             Ok(if form == Form::Simple { split(merged) } else { merged })
         }
     }
@@ -213,54 +278,99 @@ fn inside(half_spaces: &[HalfSpace], named: Option<DVec3>) -> Result<DVec3, Half
     }
 }
 
-/// The intersection by exact signs alone, vertices where more than three planes meet merged. When
-/// only the simple form is wanted, nothing needs to be merged unless exact zeros came up on the
-/// way.
-fn exact_intersection(
-    half_spaces: &[HalfSpace],
+/// Rounds after which slivers stay as they are.
+const MOST_ROUNDS: usize = 32;
+
+/// Half-spaces with a point inside all of them.
+#[derive(Clone, Copy)]
+struct Set<'a> {
+    half_spaces: &'a [HalfSpace],
     centre: DVec3,
-    simple: bool,
-) -> Result<Polytope, HalfSpaceError> {
-    let count = half_spaces.len();
-    let order = insertion_order(count, |i| half_spaces[i].normal);
-    let mut near = vec![DVec3::ZERO; count];
-    fill(&mut near, |place| {
-        let h = &half_spaces[order.points[place] as usize];
-        h.normal * (1.0 / h.slack(centre))
-    });
-    // A dual point carries the rounding of the slack, one ulp, and of the division and the product,
-    // half an ulp each.
-    let (cloud, scale) = Cloud::stretched(near, 4.0, PlaneSigns::new(half_spaces, &order.points));
-    let mut room = Room::new(count);
-    let mut surface = dual_hull(&cloud, scale, &order, &mut room)?;
-    let faces = if simple && !surface.has_zeros() {
-        surface.compact();
-        Faces::unmerged(&surface)
-    } else {
-        Faces::of(&surface, &cloud)
-    };
-    let place = |pole: DVec3| centre + pole * scale;
-    let merged = if faces.has_merged() || surface.slots() > surface.len() {
-        Some(vertices(&surface, &faces, cloud.points(), place))
-    } else {
-        surface.update_poles(|[a, b, c], pole| {
-            let y = DVec3::from_array(pole);
-            let lies_on = |v: u32| (1.0 - cloud.point(v).dot(y)).abs() <= SETTLED;
-            // A pole that is no number lies on nothing.
-            let is_settled = lies_on(a) & lies_on(b) & lies_on(c);
-            place(if is_settled { y } else { meeting_point([a, b, c].map(|v| cloud.point(v))) })
-                .to_array()
+    goes_on: GoesOn<'a>,
+}
+
+impl Set<'_> {
+    /// The intersection by exact signs alone, vertices where more than three planes meet merged. When
+    /// only the simple form is wanted, nothing needs to be merged unless exact zeros came up on the
+    /// way.
+    fn exact_intersection(&self, simple: bool) -> Result<Polytope, HalfSpaceError> {
+        let Self { half_spaces, centre, goes_on } = *self;
+        let count = half_spaces.len();
+        let order = insertion_order(count, |i| half_spaces[i].normal);
+        let mut near = vec![DVec3::ZERO; count];
+        fill(&mut near, |place| {
+            let h = &half_spaces[order.points[place] as usize];
+            h.normal * (1.0 / h.slack(centre))
         });
-        None
-    };
-    drop(cloud);
-    let count = surface.len();
-    let runs = Runs::of(&surface, &faces, &order.points);
-    drop((faces, order));
-    let poles = room.into_poles(count);
-    let vertices = merged.unwrap_or_else(|| poles.into_iter().map(DVec3::from_array).collect());
-    let (half_spaces, faces) = runs.into_polygons();
-    Ok(Polytope { vertices, half_spaces, faces, interior: centre })
+        // A dual point carries the rounding of the slack, one ulp, and of the division and the product,
+        // half an ulp each.
+        let (cloud, scale) =
+            Cloud::stretched(near, 4.0, PlaneSigns::new(half_spaces, &order.points));
+        let mut room = Room::new(count);
+        let mut surface = dual_hull(&cloud, scale, &order, &mut room, goes_on)?;
+        let faces = if simple && !surface.has_zeros() {
+            surface.compact();
+            Faces::unmerged(&surface)
+        } else {
+            Faces::of(&surface, &cloud)
+        };
+        let placing = Placing { half_spaces, order: &order.points, cloud: &cloud, centre, scale };
+        let merged = if faces.has_merged() || surface.slots() > surface.len() {
+            Some(placing.vertices(&surface, &faces))
+        } else {
+            placing.place_poles(&mut surface);
+            None
+        };
+        drop(cloud);
+        let count = surface.len();
+        let runs = Runs::of(&surface, &faces, &order.points);
+        drop((faces, order));
+        let poles = room.into_poles(count);
+        let vertices = merged.unwrap_or_else(|| poles.into_iter().map(DVec3::from_array).collect());
+        let (half_spaces, faces) = runs.into_polygons();
+        Ok(Polytope { vertices, half_spaces, faces, interior: centre })
+    }
+
+    /// Contracts what is shorter than rounding. Planes that then span no face any more are left out and
+    /// the rest is intersected anew, so that a sliver never stays, unless without its plane the solid
+    /// would reach beyond that by more than rounding.
+    fn contract_all(&self, first: Polytope, resolution: f64) -> Result<Polytope, HalfSpaceError> {
+        let mut polytope = first;
+        let mut needed: BTreeSet<u32> = BTreeSet::new();
+        for _ in 0..MOST_ROUNDS {
+            let (merged, mut slivers) = contract(&polytope, self.half_spaces, resolution);
+            slivers.retain(|i| !needed.contains(i));
+            if slivers.is_empty() || polytope.half_spaces.len() < slivers.len() + 4 {
+                return Ok(merged);
+            }
+            // What is open or flat without the slivers needs them.
+            let wider = match self.without(&polytope.half_spaces, &slivers) {
+                Ok(wider) => wider,
+                Err(HalfSpaceError::Stopped) => return Err(HalfSpaceError::Stopped),
+                Err(_) => {
+                    needed.extend(slivers);
+                    continue;
+                }
+            };
+            let cut_off = wider.beyond(self.half_spaces, &slivers, resolution);
+            if cut_off.is_empty() {
+                polytope = wider;
+            } else {
+                needed.extend(cut_off);
+            }
+        }
+        Ok(contract(&polytope, self.half_spaces, resolution).0)
+    }
+
+    /// The intersection of some half-spaces without others; both by number, ascending.
+    fn without(&self, all: &[u32], others: &[u32]) -> Result<Polytope, HalfSpaceError> {
+        let kept: Vec<u32> =
+            all.iter().copied().filter(|i| others.binary_search(i).is_err()).collect();
+        let fewer: Vec<HalfSpace> = kept.iter().map(|&i| self.half_spaces[i as usize]).collect();
+        let mut polytope = Set { half_spaces: &fewer, ..*self }.exact_intersection(false)?;
+        polytope.half_spaces.iter_mut().for_each(|i| *i = kept[*i as usize]);
+        Ok(polytope)
+    }
 }
 
 /// The hull of the dual points, with the centre inside.
@@ -269,6 +379,7 @@ fn dual_hull<'a>(
     scale: DVec3,
     order: &Order,
     room: &'a mut Room,
+    goes_on: GoesOn<'_>,
 ) -> Result<Surface<'a>, HalfSpaceError> {
     let open =
         |flat| HalfSpaceError::Unbounded { direction: open_direction(flat, cloud.points(), scale) };
@@ -280,7 +391,7 @@ fn dual_hull<'a>(
     let mut inserted = enclose_centre(cloud, &mut surface).map_err(open)?;
     inserted.extend(start);
     inserted.sort_unstable();
-    grow(cloud, &mut surface, order, &inserted);
+    grow(cloud, &mut surface, order, &inserted, goes_on).ok_or(HalfSpaceError::Stopped)?;
     Ok(surface)
 }
 
@@ -312,57 +423,4 @@ fn open_direction(flat: Flat, dual_points: &[DVec3], scale: DVec3) -> DVec3 {
     let unstretched =
         direction.try_normalize().unwrap_or_else(fallback) * (scale / scale.max_element());
     unstretched.normalize_or(DVec3::X) + DVec3::ZERO
-}
-
-/// The meeting point of the planes of each face of the dual hull.
-fn vertices(
-    surface: &Surface<'_>,
-    faces: &Faces,
-    dual: &[DVec3],
-    place: impl Fn(DVec3) -> DVec3 + Sync,
-) -> Vec<DVec3> {
-    let mut vertices = vec![DVec3::ZERO; faces.len()];
-    fill(&mut vertices, |face| {
-        let facet = surface.facet(faces.first(face as u32));
-        let is_alone =
-            !faces.has_merged() || facet.across.iter().all(|&g| faces.of_facet(g) != face as u32);
-        let triple = if is_alone {
-            facet.corners.map(|v| dual[v as usize])
-        } else {
-            widest(surface, faces, face, dual)
-        };
-        place(meeting_point(triple))
-    });
-    vertices
-}
-
-/// Of the dual points of a face three that span much of it.
-fn widest(surface: &Surface<'_>, faces: &Faces, face: usize, dual: &[DVec3]) -> [DVec3; 3] {
-    let mut rim = Vec::new();
-    faces.rim(surface, face as u32, &mut rim);
-    let points: Vec<DVec3> = rim.iter().map(|&v| dual[v as usize]).collect();
-    widest_triple(&points)
-}
-
-/// Contracts what is shorter than rounding. Planes that then span no face any more are left out and
-/// the rest is intersected anew, so that a sliver never stays.
-fn contract_all(
-    half_spaces: &[HalfSpace],
-    centre: DVec3,
-    first: Polytope,
-) -> Result<Polytope, HalfSpaceError> {
-    let mut polytope = first;
-    loop {
-        let (merged, slivers) = contract(&polytope, half_spaces);
-        if slivers.is_empty() || polytope.half_spaces.len() < slivers.len() + 4 {
-            return Ok(merged);
-        }
-        let kept: Vec<u32> =
-            polytope.half_spaces.iter().copied().filter(|i| !slivers.contains(i)).collect();
-        let fewer: Vec<HalfSpace> = kept.iter().map(|&i| half_spaces[i as usize]).collect();
-        polytope = exact_intersection(&fewer, centre, false)?;
-        for i in &mut polytope.half_spaces {
-            *i = kept[*i as usize];
-        }
-    }
 }

@@ -13,6 +13,7 @@
 //! Sources: Clarkson and Shor 1989; Amenta, Choi and Rote 2003; Devillers, Pion and Teillaud 2002;
 //! Shewchuk 1997.
 
+mod apart;
 mod cloud;
 mod contract;
 mod determinant;
@@ -25,18 +26,25 @@ mod meeting;
 mod merge;
 mod order;
 mod parallel;
+mod placing;
 mod points;
 mod polytope;
 mod split;
 mod start;
 mod surface;
+mod verify;
+
+/// Asked now and then by long work, from any thread: whether to go on.
+pub type GoesOn<'a> = &'a (dyn Fn() -> bool + Sync);
 
 #[cfg(test)]
 mod large_tests;
 #[cfg(test)]
 mod tests;
 
+pub use apart::{Apart, intersect_apart};
 pub use half_space::HalfSpace;
-pub use halfspaces::{Form, HalfSpaceError, Intersect, Numbers, intersect};
-pub use points::{HullError, convex_hull};
+pub use halfspaces::{Form, HalfSpaceError, Intersect, Numbers, intersect, intersect_verified};
+pub use points::{HullError, convex_hull, convex_hull_while};
 pub use polytope::{Polygons, Polytope};
+pub use verify::Misplaced;

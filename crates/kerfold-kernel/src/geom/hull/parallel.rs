@@ -1,6 +1,7 @@
 //! Filling and sorting tables on all processors; the result never depends on their number.
 
 use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
 
 /// Below this many values a thread costs more than it saves.
 const WORTH_A_THREAD: usize = 1 << 14;
@@ -12,11 +13,65 @@ pub(super) fn fill<T: Send>(out: &mut [T], make: impl Fn(usize) -> T + Sync) {
     });
 }
 
-/// Sets every value of `out` to `make(its index, itself)`.
-pub(super) fn update<T: Send>(out: &mut [T], make: impl Fn(usize, &T) -> T + Sync) {
+/// Sets every value of `out` to what `make(its index, itself)` has first, and returns what it has
+/// besides, in the order of the values.
+pub(super) fn update_and_pick<T: Send, P: Send>(
+    out: &mut [T],
+    make: impl Fn(usize, &T) -> (T, Option<P>) + Sync,
+) -> Vec<P> {
+    let picked = Picked::default();
     in_shares(out, |start, part| {
-        part.iter_mut().zip(start..).for_each(|(value, i)| *value = make(i, value))
+        let mut own = Vec::new();
+        for (i, value) in (start..).zip(part) {
+            let (next, pick) = make(i, value);
+            *value = next;
+            own.extend(pick);
+        }
+        picked.add(start, own);
     });
+    picked.in_order()
+}
+
+/// The values that are wanted, in their order.
+pub(super) fn pick<T: Copy + Send + Sync>(
+    values: &[T],
+    is_wanted: impl Fn(&T) -> bool + Sync,
+) -> Vec<T> {
+    let all = Picked::default();
+    let share = share_of(values.len());
+    let (picked, is_wanted) = (&all, &is_wanted);
+    std::thread::scope(|scope| {
+        for (k, part) in values.chunks(share).enumerate() {
+            let work = move || picked.add(k, part.iter().copied().filter(is_wanted).collect());
+            if share >= values.len() {
+                work();
+            } else {
+                scope.spawn(work);
+            }
+        }
+    });
+    all.in_order()
+}
+
+/// What threads pick, each with the number of its share.
+struct Picked<T>(Mutex<Vec<(usize, Vec<T>)>>);
+
+impl<T> Default for Picked<T> {
+    fn default() -> Self {
+        Self(Mutex::new(Vec::new()))
+    }
+}
+
+impl<T> Picked<T> {
+    fn add(&self, share: usize, values: Vec<T>) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).push((share, values));
+    }
+
+    fn in_order(self) -> Vec<T> {
+        let mut shares = self.0.into_inner().unwrap_or_else(PoisonError::into_inner);
+        shares.sort_unstable_by_key(|share| share.0);
+        shares.into_iter().flat_map(|share| share.1).collect()
+    }
 }
 
 /// Runs `work` on shares of `count` runs that lie one behind the other in `out`. Each share is told

@@ -2,7 +2,6 @@
 
 use glam::DVec3;
 
-use super::Numbers;
 use super::cloud::{Cloud, PointSigns};
 use super::grow::grow;
 use super::merge::{Faces, fan_starts};
@@ -10,6 +9,7 @@ use super::order::{MOST_POINTS, insertion_order};
 use super::polytope::Polygons;
 use super::start::{Flat, far_apart};
 use super::surface::{NONE, Room, Surface};
+use super::{GoesOn, Numbers};
 use crate::code::codes;
 use crate::geom::RoundingBound;
 use crate::geom::predicate::orient3d;
@@ -70,6 +70,9 @@ pub enum HullError {
         /// The normal of the plane, unit length.
         normal: DVec3,
     },
+    /// The caller said so.
+    #[error("stopped before the hull was finished")]
+    Stopped,
 }
 
 codes!(error HullError {
@@ -79,6 +82,7 @@ codes!(error HullError {
     Coincident = 214,
     Collinear = 215,
     Coplanar = 216,
+    Stopped = 217,
 });
 
 /// The faces of the convex hull of `points`, as runs of point numbers, counter-clockwise seen from
@@ -93,6 +97,18 @@ codes!(error HullError {
 /// # Errors
 /// [`HullError`] when a coordinate is not finite or the points span no volume.
 pub fn convex_hull(points: &[DVec3], numbers: Numbers) -> Result<Polygons, HullError> {
+    convex_hull_while(points, numbers, &|| true)
+}
+
+/// [`convex_hull`] as long as `goes_on`, which is asked now and then, says yes.
+///
+/// # Errors
+/// [`HullError`] as [`convex_hull`], and [`HullError::Stopped`].
+pub fn convex_hull_while(
+    points: &[DVec3],
+    numbers: Numbers,
+    goes_on: GoesOn<'_>,
+) -> Result<Polygons, HullError> {
     let count = points.len();
     if count < 4 {
         return Err(HullError::TooFew { count });
@@ -119,7 +135,7 @@ pub fn convex_hull(points: &[DVec3], numbers: Numbers) -> Result<Polygons, HullE
         Surface::tetrahedron(&cloud, places, centre.is_corner.then_some(places[0]), &mut room);
     let mut inserted = places;
     inserted.sort_unstable();
-    grow(&cloud, &mut surface, &order, &inserted);
+    grow(&cloud, &mut surface, &order, &inserted, goes_on).ok_or(HullError::Stopped)?;
     if numbers == Numbers::Constructed {
         let (low, high) =
             points.iter().fold((points[0], points[0]), |(l, h), &p| (l.min(p), h.max(p)));

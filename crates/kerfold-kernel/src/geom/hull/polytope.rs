@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use crate::geom::RoundingBound;
+
 /// Closed runs of corners, one behind the other in a single vector.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Polygons {
@@ -73,5 +75,22 @@ impl Polytope {
     /// Number of edges: half the corners.
     pub fn edge_count(&self) -> usize {
         self.faces.corners().len() / 2
+    }
+
+    /// The shortest edge, in the unit of the coordinates; infinite without any.
+    pub fn shortest_edge(&self) -> f64 {
+        let at = |v: u32| self.vertices[v as usize];
+        let sides = |run: &'_ [u32]| {
+            let next = run.iter().cycle().skip(1);
+            run.iter().zip(next).map(|(&u, &v)| at(u).distance(at(v))).fold(f64::INFINITY, f64::min)
+        };
+        self.faces.iter().map(sides).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The rounding bound of the solid, in the unit of the coordinates.
+    pub fn rounding(&self) -> f64 {
+        let low = self.vertices.iter().copied().reduce(DVec3::min).unwrap_or_default();
+        let high = self.vertices.iter().copied().reduce(DVec3::max).unwrap_or_default();
+        RoundingBound::of_box(low, high).length()
     }
 }

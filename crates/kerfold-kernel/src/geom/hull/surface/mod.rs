@@ -13,7 +13,7 @@ mod pole;
 mod walk;
 
 use super::cloud::{Cloud, Signs};
-use super::parallel::update;
+use super::parallel::update_and_pick;
 
 pub(super) use parts::{Division, Growth};
 pub(super) use pole::Pole;
@@ -220,13 +220,27 @@ impl<'a> Surface<'a> {
         self.last = 0;
     }
 
-    /// Sets every pole to what `make` has for the corners and the pole so far.
-    pub(super) fn update_poles(&mut self, make: impl Fn([u32; 3], Pole) -> Pole + Sync) {
+    /// Sets every pole to what `make` has first for the facet, its corners and the pole so far, and
+    /// returns what it has besides.
+    pub(super) fn update_poles<P: Send>(
+        &mut self,
+        make: impl Fn(u32, [u32; 3], Pole) -> (Pole, Option<P>) + Sync,
+    ) -> Vec<P> {
         let facets = &*self.facets;
-        update(&mut self.poles[..self.used], |f, &pole| {
+        update_and_pick(&mut self.poles[..self.used], |f, &pole| {
             let [a, b, c, ..] = facets[f];
-            make([a, b, c], pole)
-        });
+            make(f as u32, [a, b, c], pole)
+        })
+    }
+
+    /// The pole of a facet, or what it was set to.
+    pub(super) fn pole(&self, f: u32) -> Pole {
+        self.poles[f as usize]
+    }
+
+    /// Sets the pole of a facet.
+    pub(super) fn replace_pole(&mut self, f: u32, pole: Pole) {
+        self.poles[f as usize] = pole;
     }
 
     /// Which side of `f` leads to `g`.

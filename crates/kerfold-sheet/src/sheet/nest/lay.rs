@@ -12,7 +12,7 @@ use super::search::Turns;
 use super::shape::Shape;
 use super::stock::StockSheet;
 use super::{Axis, CommonLine, Effort, Guillotine, Lying, NoPlace, Piece, Problem, Rotation, nest};
-use crate::geom::polygon::{bounds, convex_hull};
+use crate::geom::polygon::{bounds, convex_hull, signed_area};
 use crate::net::PieceId;
 use crate::progress::Progress;
 
@@ -97,8 +97,9 @@ pub(crate) fn lay(
     let group = |piece: PieceId| {
         params.nest.together.0.iter().position(|g| g.len() > 1 && g.contains(&piece))
     };
+    let least = Least::of(candidates, sheets[0].stock.spacing);
     let pieces = candidates.iter().map(|c| Piece {
-        shape: Shape::new(&c.shape.outline, &c.shape.holes),
+        shape: Shape::new(&c.shape.outline, &least.holes_with_room(c.shape)),
         turns: match c.rotation.angles() {
             Some(angles) => Turns::Some(angles),
             None => {
@@ -117,6 +118,35 @@ pub(crate) fn lay(
     let start =
         (is_plain && candidates.len() <= MOST_BOXES).then(|| boxes(candidates, &sheets[0], pack));
     Ok(Laid { lying: nest(&problem, start, effort, progress)?, cuts: Vec::new() })
+}
+
+/// What a hole must have at least, or no piece can lie in it.
+struct Least {
+    area: f64,
+    diameter: f64,
+}
+
+impl Least {
+    fn of(candidates: &[Candidate<'_>], spacing: f64) -> Self {
+        let areas = candidates.iter().map(|c| c.shape.area());
+        let extents = candidates.iter().filter_map(|c| bounds(&c.hull));
+        let diameters = extents.map(|(low, high)| (high - low).max_element());
+        Self {
+            area: areas.fold(f64::INFINITY, f64::min),
+            // A piece is as wide as its hull one way or the other, and keeps the spacing.
+            diameter: diameters.fold(f64::INFINITY, f64::min) + 2.0 * spacing,
+        }
+    }
+
+    /// The holes of a piece in which another might lie. All others count as material: thousands of
+    /// stitch holes would only cost time.
+    fn holes_with_room(&self, shape: &CutShape) -> Vec<Vec<DVec2>> {
+        let has_room = |hole: &&Vec<DVec2>| {
+            let (low, high) = bounds(hole.iter()).unwrap_or_default();
+            signed_area(hole).abs() >= self.area && low.distance(high) >= self.diameter
+        };
+        shape.holes.iter().filter(has_room).cloned().collect()
+    }
 }
 
 /// A layout of bounding boxes.

@@ -58,7 +58,12 @@ const ROOMS: &[Room] = &[
     room(2, TOP, "select", &["geom", "units", "mesh", "measure", "seam", "progress"]),
     room(3, TOP, "check", &["geom", "units", "mesh", "measure"]),
     room(3, TOP, "op", &["geom", "units", "mesh", "measure", "select", "check", "progress"]),
-    room(3, TOP, "unfold", &["geom", "random", "mesh", "measure", "seam", "net", "progress"]),
+    room(
+        3,
+        TOP,
+        "unfold",
+        &["geom", "random", "mesh", "measure", "seam", "check", "net", "progress"],
+    ),
     room(3, TOP, "panel", &["geom", "units", "mesh", "measure", "net", "progress"]),
     room(3, SHEET, "sheet", &["geom", "units", "random", "net", "progress"]),
     room(3, SHEET, "lint", &["geom", "units"]),

@@ -33,7 +33,7 @@ pub use hull::{
 pub use menger::{MengerParams, MengerReport, Thickness, menger};
 pub use operate::{Operate, OperatorOutput};
 pub use planarize::{PlanarizeParams, PlanarizeReport, RimRule, planarize};
-pub use report::CutReport;
+pub use report::{CutReport, Origins};
 pub use resolve::{ResolveParams, ResolveReport, resolve};
 pub use rind::{GroupThickness, RindParams, RindReport, ShellSource, rind};
 pub use sierpinski::{

@@ -66,7 +66,12 @@ const ROOMS: &[Room] = &[
         "op",
         &["memory", "geom", "units", "mesh", "measure", "select", "check", "progress"],
     ),
-    room(3, TOP, "unfold", &["geom", "random", "mesh", "measure", "seam", "net", "progress"]),
+    room(
+        3,
+        TOP,
+        "unfold",
+        &["geom", "random", "mesh", "measure", "seam", "check", "net", "progress"],
+    ),
     room(3, TOP, "panel", &["geom", "units", "mesh", "measure", "check", "net", "progress"]),
     room(3, SHEET, "sheet", &["geom", "units", "random", "net", "progress"]),
     room(3, SHEET, "lint", &["geom", "units"]),

@@ -9,6 +9,7 @@ mod findings;
 mod params;
 mod profile;
 mod report;
+mod run;
 mod short;
 
 pub use details::{Details, EdgeDetail, VertexDetail, details};
@@ -16,6 +17,7 @@ pub use params::{CheckError, CheckParams, Requirement};
 pub use profile::{Breach, Limits, Profile, Unit};
 pub use report::{
     CheckFinding, CheckKind, ConicalNode, Element, FaceReport, ModelCounts, Report, ValenceReport,
-    Verdict, check,
+    Verdict,
 };
+pub use run::check;
 pub(crate) use short::short;

@@ -4,14 +4,14 @@
 use std::collections::HashMap;
 
 use super::MakeError;
-use super::dform::{DformParams, MatchingChoice};
-use crate::measure::{concave_edges, fold_angle};
-use crate::mesh::{EdgeId, EdgeMap, Mesh, VertexId};
-use crate::op::{OpContext, Scope, TruncateEdgeParams, truncate_edges};
+use super::dform::{DformError, DformParams, MatchingChoice};
+use crate::measure::{concave_edges, edge_length, fold_angle};
+use crate::mesh::{EdgeId, EdgeMap, FaceId, Mesh, VertexId};
+use crate::op::{OpContext, Origins, Scope, TruncateEdgeParams, truncate_edges};
 use crate::progress::Progress;
 use crate::seam::{
     MATCHING_LIMIT, SeamError, flattest_matching, fold_sum, hamiltonian_folds, least_matching,
-    matching, one_piece_folds, piece_count, seam_cycles, table,
+    matching, one_piece_folds, piece_count, piece_of_faces, seam_cycles, table,
 };
 use crate::select::{NewElements, Selection};
 use crate::unfold::{MeshSource, Seams, UnfoldParams, unfold};
@@ -20,6 +20,8 @@ use crate::units::counted;
 /// Choices of folds that are carved and laid out, at most, until one lies flat in as many pieces as
 /// it should.
 const TRIED: usize = 24;
+/// The same at each smaller offset.
+const TRIED_SMALLER: usize = 3;
 /// Up to this many vertices all two-piece seams are candidates; of larger meshes only the best one
 /// found.
 const LISTED_VERTICES: usize = 64;
@@ -31,7 +33,8 @@ pub struct CarvedDform {
     pub mesh: Mesh,
     /// What carving made; `strip` are the folds that it made.
     pub made: NewElements,
-    /// All folds, one at every vertex: the strips, and those that stay sharp.
+    /// All folds: the strips, those that stay sharp, and where cuts met what lies within a piece.
+    /// One at every vertex, but where cuts met.
     pub folds: Vec<EdgeId>,
     /// What the user should know.
     pub notes: Vec<String>,
@@ -47,39 +50,106 @@ impl CarvedDform {
 
 /// Chooses the folds and cuts them off, round after round.
 ///
-/// For two pieces and for one, choices are tried in the order of their fold sums, 24 at most, until
-/// the carved pieces lie flat without overlap and no fold has to be opened (but the one that opens
-/// a ring); the first choice is kept where none does. On a mesh that is not convex only those folds
-/// are cut off whose ends are convex corners, each without touching the rest of the mesh; no plane
-/// can shave the others, which stay sharp folds.
+/// The pieces that the folds promise are those that come out: what is connected before carving is
+/// connected by folds after it, and the carved pieces are laid out to see that no fold opens. For two pieces and for one, choices are tried in the order of their fold sums, 24 at most,
+/// until that holds. Where no choice keeps its promise, the largest smaller offset at which one
+/// does is taken if the offset was left open, and named if it was given; where there is none
+/// either, the first choice is kept, with a note. On a mesh that is not convex only those folds are
+/// cut off whose ends are convex corners, each without touching the rest of the mesh; no plane can
+/// shave the others, which stay sharp folds.
 ///
 /// # Errors
 /// [`MakeError::Seam`] when the mesh is open, not 3-valent, or has no such choice;
-/// [`MakeError::Op`] when it cannot be cut so.
+/// [`MakeError::Op`] when it cannot be cut so; [`MakeError::Dform`] when the given offset loses
+/// folds that a smaller one keeps.
 pub fn carve_dform(
     mesh: &Mesh,
     params: &DformParams,
     progress: &dyn Progress,
 ) -> Result<CarvedDform, MakeError> {
-    let Candidates { folds, pieces, mut notes } = candidates(mesh, params.matching, progress)?;
-    let (mut first, mut failure) = (None, None);
-    let count = folds.len().min(TRIED);
-    for (i, folds) in folds.iter().take(TRIED).enumerate() {
-        progress.report("trying folds", i, count);
-        match carve(mesh, folds, params, progress) {
-            Ok(carved)
-                if count == 1
-                    || pieces.is_none_or(|pieces| lies_flat_in(pieces, &carved, progress)) =>
-            {
-                if i > 0 {
-                    notes.push(format!(
-                        "{i} choices of folds with no larger fold sum were passed over: carved, \
-                        their pieces overlap"
-                    ));
-                }
-                return Ok(carved.after(notes));
+    let Candidates { folds, mut notes } = candidates(mesh, params.matching, progress)?;
+    let asked = params.offset_or_default();
+    let broken = match carve_first_whole(mesh, &folds, (params, asked), progress) {
+        Carving::Whole { passed, carved } => {
+            if passed > 0 {
+                notes.push(format!(
+                    "{} passed over: carved, the pieces do not lie flat as they are",
+                    counted(
+                        passed,
+                        "choice of folds with no larger fold sum was",
+                        "choices of folds with no larger fold sum were"
+                    )
+                ));
             }
-            Ok(carved) => first = first.or(Some(carved)),
+            return Ok(carved.after(notes));
+        }
+        Carving::Broken(broken) => broken,
+        Carving::Impossible(error) => return Err(error),
+    };
+    match (smaller_offset(mesh, &folds, params, progress), params.offset) {
+        (Some((largest, _)), Some(offset)) => {
+            let BrokenPromise { promised, made, .. } = *broken;
+            Err(DformError::LosesFolds { offset, promised, made, largest }.into())
+        }
+        (Some((largest, carved)), None) => {
+            notes.push(format!(
+                "the offset is {largest} instead of {asked}: the largest that keeps the pieces whole"
+            ));
+            Ok(carved.after(notes))
+        }
+        (None, _) => {
+            let BrokenPromise { promised, made, carved } = *broken;
+            notes.push(format!(
+                "{} carved, but none lies flat unless a further fold opens; the first was taken, \
+                with {made} pieces instead of {promised}: fewer `--rounds` may do",
+                counted(folds.len().min(TRIED), "choice of folds was", "choices of folds were")
+            ));
+            Ok(carved.after(notes))
+        }
+    }
+}
+
+/// A number with the right word.
+fn counted(count: usize, one: &str, many: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { many })
+}
+
+/// What became of some choices of folds at one offset.
+enum Carving {
+    /// The first that lies flat in as many pieces as it promised, after some that do not.
+    Whole { passed: usize, carved: CarvedDform },
+    /// None does.
+    Broken(Box<BrokenPromise>),
+    /// None can be carved.
+    Impossible(MakeError),
+}
+
+/// The first choice, and how many pieces it promised and made.
+struct BrokenPromise {
+    promised: usize,
+    made: usize,
+    carved: CarvedDform,
+}
+
+fn carve_first_whole(
+    mesh: &Mesh,
+    choices: &[Vec<EdgeId>],
+    (params, offset): (&DformParams, f64),
+    progress: &dyn Progress,
+) -> Carving {
+    let (mut first, mut failure) = (None, None);
+    let count = choices.len().min(TRIED);
+    for (i, folds) in choices.iter().take(TRIED).enumerate() {
+        progress.report("trying folds", i, count);
+        let promised = piece_count(mesh, folds);
+        match carve(mesh, folds, (params, offset), progress) {
+            Ok(carved) => match pieces_flat(&carved, progress) {
+                Some(made) if made == promised => return Carving::Whole { passed: i, carved },
+                made => {
+                    let made = made.unwrap_or(carved.mesh.face_count());
+                    first = first.or(Some(Box::new(BrokenPromise { promised, made, carved })));
+                }
+            },
             Err(error) => failure = failure.or(Some(error)),
         }
         if progress.is_cancelled() {
@@ -87,24 +157,40 @@ pub fn carve_dform(
         }
     }
     match (first, failure) {
-        (Some(carved), _) => {
-            notes.push(format!(
-                "{count} choices of folds were carved, but none lies flat unless a further fold \
-                opens; the first was taken, \
-                 another `--offset` or fewer `--rounds` may do"
-            ));
-            Ok(carved.after(notes))
-        }
-        (None, Some(error)) => Err(error),
-        (None, None) => Err(SeamError::Empty.into()),
+        (Some(first), _) => Carving::Broken(first),
+        (None, Some(error)) => Carving::Impossible(error),
+        (None, None) => Carving::Impossible(SeamError::Empty.into()),
     }
+}
+
+/// The largest offset below the one asked for at which the first choices keep what they promise, in
+/// steps of a hundredth, and what is carved there.
+fn smaller_offset(
+    mesh: &Mesh,
+    choices: &[Vec<EdgeId>],
+    params: &DformParams,
+    progress: &dyn Progress,
+) -> Option<(f64, CarvedDform)> {
+    let choices = &choices[..choices.len().min(TRIED_SMALLER)];
+    let asked = params.offset_or_default();
+    let mut hundredths = (100.0 * asked).ceil() as u32;
+    let count = hundredths as usize;
+    while hundredths > 1 && !progress.is_cancelled() {
+        hundredths -= 1;
+        progress.report("trying smaller offsets", count - hundredths as usize, count);
+        let offset = f64::from(hundredths) / 100.0;
+        if let Carving::Whole { carved, .. } =
+            carve_first_whole(mesh, choices, (params, offset), progress)
+        {
+            return Some((offset, carved));
+        }
+    }
+    None
 }
 
 /// Choices of folds in the order in which they are tried.
 struct Candidates {
     folds: Vec<Vec<EdgeId>>,
-    /// How many pieces each is to leave; unknown where any number will do.
-    pieces: Option<usize>,
     notes: Vec<String>,
 }
 
@@ -113,16 +199,14 @@ fn candidates(
     choice: MatchingChoice,
     progress: &dyn Progress,
 ) -> Result<Candidates, SeamError> {
-    let one = |folds| Candidates { folds: vec![folds], pieces: None, notes: Vec::new() };
+    let one = |folds| Candidates { folds: vec![folds], notes: Vec::new() };
     match choice {
         MatchingChoice::Least => least_matching(mesh, progress).map(one),
         MatchingChoice::Flattest => flattest_matching(mesh, progress).map(one),
         MatchingChoice::Row(row) => matching(mesh, row, progress).map(one),
-        MatchingChoice::OnePiece => Ok(Candidates {
-            folds: one_piece_folds(mesh, progress)?,
-            pieces: Some(1),
-            notes: Vec::new(),
-        }),
+        MatchingChoice::OnePiece => {
+            Ok(Candidates { folds: one_piece_folds(mesh, progress)?, notes: Vec::new() })
+        }
         MatchingChoice::TwoPieces => match hamiltonian_folds(mesh, progress) {
             Ok(folds) => Ok(two_pieces(mesh, folds, progress)),
             Err(
@@ -151,27 +235,22 @@ fn two_pieces(mesh: &Mesh, best: Vec<EdgeId>, progress: &dyn Progress) -> Candid
         let others: Vec<_> = others.map(|r| r.folds).collect();
         folds.extend(others);
     }
-    Candidates { folds, pieces: Some(pieces), notes: Vec::new() }
+    Candidates { folds, notes: Vec::new() }
 }
 
-/// Whether the carved mesh comes apart along its seams into that many pieces, so that no fold opens
-/// for an overlap.
-fn lies_flat_in(pieces: usize, carved: &CarvedDform, progress: &dyn Progress) -> bool {
-    let params = UnfoldParams::default();
-    let net = unfold(
-        &carved.mesh,
-        &Seams::Folds(carved.folds.clone()),
-        &params,
-        &MeshSource::default(),
-        progress,
-    );
-    net.is_ok_and(|net| net.pieces.len() == pieces)
+/// How many pieces the carved mesh comes apart into along its seams, and along folds that have to
+/// open for an overlap; nothing where it cannot be unfolded.
+fn pieces_flat(carved: &CarvedDform, progress: &dyn Progress) -> Option<usize> {
+    let seams = Seams::Folds(carved.folds.clone());
+    let net =
+        unfold(&carved.mesh, &seams, &UnfoldParams::default(), &MeshSource::default(), progress);
+    net.ok().map(|net| net.pieces.len())
 }
 
 fn carve(
     mesh: &Mesh,
     folds: &[EdgeId],
-    params: &DformParams,
+    (params, offset): (&DformParams, f64),
     progress: &dyn Progress,
 ) -> Result<CarvedDform, MakeError> {
     let mut notes = vec![format!(
@@ -202,10 +281,11 @@ fn carve(
         bend: params.bend,
         repeat: params.rounds,
         scope,
-        ..TruncateEdgeParams::new(select, params.offset)
+        ..TruncateEdgeParams::new(select, offset)
     };
     let (carved, report) = truncate_edges(mesh, &cut, &OpContext { made: None, progress })?;
     notes.extend(report.notes("edge"));
+    let between = edges_within_pieces(mesh, folds, &carved, &report.origins);
     let mut folds = report.made.strip.clone();
     if !sharp.is_empty() {
         notes.push(format!(
@@ -213,9 +293,58 @@ fn carve(
             counted(sharp.len(), "fold stays", "folds stay")
         ));
         folds.extend(found_again(mesh, &sharp, &carved));
-        folds.sort_unstable();
     }
+    let joining = joining(&carved, &folds, between);
+    folds.extend(joining);
+    folds.sort_unstable();
+    folds.dedup();
     Ok(CarvedDform { mesh: carved, made: report.made, folds, notes })
+}
+
+/// The edges of the carved mesh between two faces that come from one piece. Where cuts meet, a
+/// strip may vanish between two others, and its neighbours then share an edge that no cut made. Of
+/// a piece that meets itself along a seam nobody can say which of these edges are seams, so none is
+/// named.
+fn edges_within_pieces(
+    mesh: &Mesh,
+    folds: &[EdgeId],
+    carved: &Mesh,
+    origins: &Origins,
+) -> Vec<EdgeId> {
+    let piece = piece_of_faces(mesh, folds);
+    let mut meets_itself = vec![false; mesh.face_count()];
+    let mut is_fold = EdgeMap::filled(mesh.edge_slots(), false);
+    folds.iter().for_each(|&e| is_fold[e] = true);
+    for e in mesh.edges().filter(|&e| !is_fold[e]) {
+        if let [Some(a), Some(b)] = mesh.edge_faces(e).map(|f| piece[f])
+            && a == b
+        {
+            meets_itself[a] = true;
+        }
+    }
+    let piece_of = |f: FaceId| origins.of(f).and_then(|origin| piece[origin]);
+    let is_within = |&e: &EdgeId| match carved.edge_faces(e).map(piece_of) {
+        [Some(a), Some(b)] => a == b && !meets_itself[a],
+        _ => false,
+    };
+    carved.edges().filter(is_within).collect()
+}
+
+/// Of the candidates those that join what the folds leave apart, the longest first. The others would
+/// close a ring around a vertex whose faces cannot lie flat together, and stay seams.
+fn joining(mesh: &Mesh, folds: &[EdgeId], mut candidates: Vec<EdgeId>) -> Vec<EdgeId> {
+    let mut piece = piece_of_faces(mesh, folds);
+    candidates
+        .sort_by(|&a, &b| edge_length(mesh, b).total_cmp(&edge_length(mesh, a)).then(a.cmp(&b)));
+    candidates.retain(|&e| {
+        let [a, b] = mesh.edge_faces(e).map(|f| piece[f]);
+        if a != b {
+            let joined: Vec<FaceId> = mesh.faces().filter(|&f| piece[f] == b).collect();
+            joined.into_iter().for_each(|f| piece[f] = a);
+        }
+        a != b
+    });
+    candidates
 }
 
 /// The folds that planes can cut off, and the others. On a convex mesh these are all; else those

@@ -90,6 +90,31 @@ impl<'de> Deserialize<'de> for MatchingChoice {
     }
 }
 
+/// Why a D-form cannot be made as asked.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum DformError {
+    /// The carved pieces do not lie flat, but with a smaller offset they do.
+    #[error(
+        "with the offset {offset} the folds promise {promised} pieces and {made} come out, since \
+        folds have to open; take {largest} at most, or leave the offset open"
+    )]
+    LosesFolds {
+        /// The offset that was given.
+        offset: f64,
+        /// Pieces that the folds leave before carving.
+        promised: usize,
+        /// Pieces that lie flat after it.
+        made: usize,
+        /// The largest smaller offset that keeps the promise, in hundredths.
+        largest: f64,
+    },
+}
+
+codes!(error DformError {
+    LosesFolds = 753,
+});
+
 /// How to make a D-form of a closed 3-valent mesh.
 #[derive(Debug, Clone, PartialEq, clap::Args, Deserialize)]
 pub struct DformParams {
@@ -104,10 +129,10 @@ pub struct DformParams {
     #[serde(default = "default_rounds")]
     pub rounds: u32,
     /// How deep, in (0, 2]: 0 at the fold, 1 at the far ends of the edges beside it; up to 1/2 the
-    /// cuts stay apart
-    #[arg(long, default_value_t = DEFAULT_OFFSET, value_parser = crate::units::parse_number)]
-    #[serde(default = "default_offset")]
-    pub offset: f64,
+    /// cuts stay apart. Unless given 0.3, or the largest below it that keeps the pieces whole
+    #[arg(long, value_parser = crate::units::parse_number)]
+    #[serde(default)]
+    pub offset: Option<f64>,
     /// How far the planes lean towards one of the two faces, -1 to 1; 0 weighs their normals alike
     #[arg(long, default_value_t = 0.0, value_parser = crate::units::parse_number, allow_negative_numbers = true)]
     #[serde(default)]
@@ -121,8 +146,11 @@ fn default_rounds() -> u32 {
     DEFAULT_ROUNDS
 }
 
-fn default_offset() -> f64 {
-    DEFAULT_OFFSET
+impl DformParams {
+    /// The offset that was given, or the usual one.
+    pub(super) fn offset_or_default(&self) -> f64 {
+        self.offset.unwrap_or(DEFAULT_OFFSET)
+    }
 }
 
 impl Default for DformParams {
@@ -130,7 +158,7 @@ impl Default for DformParams {
         Self {
             matching: MatchingChoice::default(),
             rounds: DEFAULT_ROUNDS,
-            offset: DEFAULT_OFFSET,
+            offset: None,
             bend: 0.0,
         }
     }
@@ -138,12 +166,13 @@ impl Default for DformParams {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{MakeError, carve_dform};
+    use super::super::{CarvedDform, MakeError, carve_dform};
     use super::*;
     use crate::mesh::Mesh;
     use crate::progress::Silent;
     use crate::seam::{SeamError, piece_count};
     use crate::shape::{SolidParams, solid};
+    use crate::unfold::{MeshSource, Seams, UnfoldParams, unfold};
     use clap::{Args, FromArgMatches};
 
     #[test]
@@ -197,6 +226,49 @@ mod tests {
         }
     }
 
+    /// At the defaults, and however deep the cuts: as many pieces as were promised.
+    #[test]
+    fn pieces_are_kept_where_cuts_meet() {
+        let names =
+            ["tetrahedron", "cube", "dodecahedron", "prism-3", "prism-5", "prism-9", "prism-20"];
+        for name in names.into_iter().chain(["truncated-tetrahedron"]) {
+            let carved = carve_dform(&named(name), &DformParams::default(), &Silent).expect(name);
+            assert_eq!(laid_flat(&carved), 2, "{name}");
+            // No strip of a piece is opened, and none is made one with the other piece.
+            assert_eq!(piece_count(&carved.mesh, &carved.folds), 2, "{name}");
+        }
+    }
+
+    fn laid_flat(carved: &CarvedDform) -> usize {
+        let seams = Seams::Folds(carved.folds.clone());
+        let params = UnfoldParams::default();
+        let net = unfold(&carved.mesh, &seams, &params, &MeshSource::default(), &Silent);
+        net.expect("a net").pieces.len()
+    }
+
+    #[test]
+    fn an_offset_that_loses_folds_is_refused_with_the_largest_that_keeps_them() {
+        let mut refused = 0;
+        for name in ["tetrahedron", "cube", "prism-5", "truncated-tetrahedron", "dodecahedron"] {
+            let params = DformParams { rounds: 2, offset: Some(1.5), ..DformParams::default() };
+            match carve_dform(&named(name), &params, &Silent) {
+                Ok(carved) => assert_eq!(laid_flat(&carved), 2, "{name}"),
+                Err(MakeError::Dform(DformError::LosesFolds {
+                    promised, made, largest, ..
+                })) => {
+                    refused += 1;
+                    assert!(promised == 2 && made > 2 && largest < 1.5, "{name}");
+                    let params = DformParams { offset: Some(largest), ..params };
+                    let carved = carve_dform(&named(name), &params, &Silent).expect(name);
+                    assert_eq!(laid_flat(&carved), 2, "{name}");
+                }
+                Err(MakeError::Op(_)) => {}
+                Err(error) => panic!("{name}: {error}"),
+            }
+        }
+        assert!(refused > 0);
+    }
+
     #[test]
     fn every_option_changes_the_d_form() {
         let solid = named("truncated-tetrahedron");
@@ -204,12 +276,12 @@ mod tests {
             let mesh = carve_dform(&solid, &params, &Silent).expect("a D-form").mesh;
             mesh.vertices().map(|v| mesh.position(v)).collect::<Vec<_>>()
         };
-        let usual = DformParams { rounds: 2, offset: 0.2, ..DformParams::default() };
+        let usual = DformParams { rounds: 2, offset: Some(0.2), ..DformParams::default() };
         let other = [
             DformParams { matching: MatchingChoice::Row(2), ..usual.clone() },
             DformParams { matching: MatchingChoice::Row(1), ..usual.clone() },
             DformParams { rounds: 1, ..usual.clone() },
-            DformParams { offset: 0.25, ..usual.clone() },
+            DformParams { offset: Some(0.25), ..usual.clone() },
             DformParams { bend: 0.2, ..usual.clone() },
             DformParams { bend: -0.2, ..usual.clone() },
         ];

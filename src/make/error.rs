@@ -1,7 +1,8 @@
 //! The one error of making things.
 
+use super::dform::DformError;
 use super::materials::MaterialError;
-use super::nest::NestError;
+use super::nest_error::NestError;
 use super::panels::PanelOptionError;
 use crate::check::CheckError;
 use crate::code::codes;
@@ -48,6 +49,9 @@ pub enum MakeError {
     /// A limit of the check is no limit.
     #[error(transparent)]
     Check(#[from] CheckError),
+    /// A D-form cannot be made as asked.
+    #[error(transparent)]
+    Dform(#[from] DformError),
     /// The mesh could not be unfolded.
     #[error(transparent)]
     Unfold(#[from] UnfoldError),
@@ -86,6 +90,7 @@ codes!(error MakeError {
     Select.0,
     Seam.0,
     Check.0,
+    Dform.0,
     Unfold.0,
     Nest.0,
     Sheet.0,

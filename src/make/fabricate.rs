@@ -11,12 +11,13 @@ use super::flat_folds;
 use super::seam_choice::SeamChoice;
 use crate::io::order_json;
 use crate::mesh::{EdgeId, FaceMap, Mesh};
-use crate::net::{Net, PieceId};
+use crate::net::{Net, PieceId, Seam};
 use crate::progress::Progress;
 use crate::select::{Context, NewElements, Selection};
 use crate::sheet::{SheetError, SheetParams, SheetSet, lay_out_watched};
 use crate::unfold::{
-    MeshSource, PiecesMode, Seams, UnfoldParams, check_folded, check_seams, seams_by_angle, unfold,
+    FLAT, MeshSource, PiecesMode, Seams, UnfoldParams, check_folded, check_seams, seams_by_angle,
+    unfold,
 };
 use crate::units::Angle;
 
@@ -80,6 +81,18 @@ pub struct FabricateSettings<'a> {
     pub choice: &'a FabricateParams,
     /// How the pieces lie on sheets, and what is drawn on them.
     pub sheet: &'a SheetParams,
+}
+
+impl Fabrication {
+    /// The seams of a model that was unfolded here at which nothing bends: nobody wants them, but
+    /// without them faces would overlap, or they were asked for.
+    pub(super) fn flat_seams(&self) -> Vec<String> {
+        if self.seams.is_empty() || !self.sources.is_empty() {
+            return Vec::new();
+        }
+        let is_flat = |s: &&Seam| s.fold_angle.to_radians().abs() <= FLAT;
+        self.net.seams.iter().filter(is_flat).map(|s| s.id.to_string()).collect()
+    }
 }
 
 /// Unfolds a mesh, in millimetres, and lays the pieces out. Pieces too large for the sheet are

@@ -13,6 +13,7 @@ mod fabricate;
 mod flat_folds;
 mod materials;
 mod nest;
+mod nest_error;
 mod operate;
 mod outputs;
 mod panels;
@@ -22,11 +23,12 @@ mod seam_choice;
 mod show;
 
 pub use carve::{CarvedDform, carve_dform};
-pub use dform::{DformParams, MatchingChoice, MatchingChoiceError};
+pub use dform::{DformError, DformParams, MatchingChoice, MatchingChoiceError};
 pub use error::MakeError;
 pub use fabricate::{FabricateParams, FabricateSettings, Fabrication, fabricate};
 pub use materials::{MaterialError, material, with_material};
-pub use nest::{NestError, NestStep, nest_files};
+pub use nest::{NestStep, nest_files};
+pub use nest_error::NestError;
 pub use operate::operate;
 pub use outputs::{Output, fabrication_outputs, sheet_picture};
 pub use panels::{

@@ -5,9 +5,8 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use super::{Fabrication, MakeError};
-use crate::code::codes;
-use crate::io::order_json::{Order, OrderError};
+use super::{Fabrication, MakeError, NestError};
+use crate::io::order_json::Order;
 use crate::io::read_text;
 use crate::net::{Net, Piece};
 use crate::progress::Progress;
@@ -47,41 +46,6 @@ fn one_or_many<'de, D: serde::Deserializer<'de>>(
         Files::Many(files) => files,
     })
 }
-
-/// A file of pieces that could not be taken.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum NestError {
-    /// The file could not be read.
-    #[error("{}: cannot be read: {error}", path.display())]
-    Unreadable {
-        /// The file.
-        path: PathBuf,
-        /// Why not.
-        error: std::io::Error,
-    },
-    /// What it says is not right.
-    #[error("{}: {error}", path.display())]
-    Order {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong.
-        error: OrderError,
-    },
-    /// A number of copies out of range.
-    #[error("quantity is {quantity}, but must be 1 to 10000")]
-    Quantity {
-        /// What it was.
-        quantity: u32,
-    },
-}
-
-codes!(error NestError {
-    Unreadable = 721,
-    Quantity = 722,
-} through {
-    Order.error,
-});
 
 /// What the pieces of files are, which the files do not say: plates are cut otherwise than along the
 /// border of their only face.

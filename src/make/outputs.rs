@@ -82,6 +82,12 @@ impl Fabrication {
             counted(self.divided, "fold was", "folds were")
                 + " opened so that the pieces fit on the sheet",
         );
+        let flat = self.flat_seams();
+        let runs = if flat.len() == 1 { "seam runs" } else { "seams run" };
+        note(
+            flat.len(),
+            format!("{} {runs} between faces in one plane: {}", flat.len(), flat.join(", ")),
+        );
         let unnamed = &report.unnamed_pieces;
         note(unnamed.len(), format!("no room for the names of pieces {}", piece_list(unnamed)));
         note(

@@ -36,7 +36,7 @@ pub use hull::{
 pub use menger::{MengerParams, MengerReport, RoundCrossing, Thickness, menger};
 pub use operate::{Operate, OperatorOutput};
 pub use planarize::{Needle, PlanarizeParams, PlanarizeReport, RimRule, planarize};
-pub use report::{CutReport, ShrunkOffset};
+pub use report::{CutReport, Origins, ShrunkOffset};
 pub use resolve::{ResolveParams, ResolveReport, resolve};
 pub use rind::{GroupThickness, RindParams, RindReport, ShellSource, rind};
 pub use sierpinski::{

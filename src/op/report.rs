@@ -3,7 +3,7 @@
 use super::cut::{Cutter, Lineage};
 use crate::code::Code;
 use crate::measure::{CrossingKind, CrossingPair};
-use crate::mesh::{FaceId, Mesh, VertexId};
+use crate::mesh::{FaceId, Mesh, Renumbering, VertexId};
 use crate::select::NewElements;
 
 /// The first of a list as a note names them; dots stand for the rest.
@@ -68,6 +68,8 @@ pub struct CutReport {
     pub cavities_gone: usize,
     /// What was made, for the selections `made` and `strip` of the next step.
     pub made: NewElements,
+    /// For truncations, which faces of the mesh before them those of the result continue.
+    pub origins: Origins,
     /// Vertices of the result where other than three edges meet.
     pub not_three_valent: Vec<VertexId>,
     /// How many connected parts the result has.
@@ -125,6 +127,46 @@ impl CutReport {
     }
 }
 
+/// For each face of a mesh the one that it continues of the mesh before all rounds: what is left of
+/// it, or a cap along one of its edges.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Origins(Vec<Option<FaceId>>);
+
+impl Origins {
+    /// Every face continues itself.
+    pub(super) fn new(mesh: &Mesh) -> Self {
+        Self((0..mesh.face_slots()).map(|i| Some(FaceId::new(i))).collect())
+    }
+
+    /// The face that a face continues: of the cap of an edge one of the two beside the edge,
+    /// nothing for the cap of anything else.
+    pub fn of(&self, f: FaceId) -> Option<FaceId> {
+        self.0.get(f.index()).copied().flatten()
+    }
+
+    /// After a round of cuts.
+    pub(super) fn after(&self, cutter: &Cutter, marks: &RoundMarks) -> Self {
+        let origin = |i: usize| {
+            let lineage = cutter.lineage_of(FaceId::new(i));
+            let strip = marks.strips.binary_search_by_key(&lineage, |s| s.0);
+            let beside = strip.map_or(lineage, |strip| marks.strips[strip].1[0]);
+            cutter.face_before(beside).and_then(|f| self.of(f))
+        };
+        Self((0..cutter.mesh().face_slots()).map(origin).collect())
+    }
+
+    /// After the gaps in the mesh were closed.
+    fn renumbered(&self, map: &Renumbering, faces: usize) -> Self {
+        let mut renumbered = vec![None; faces];
+        for (i, &origin) in self.0.iter().enumerate() {
+            if let Some(f) = map.face(FaceId::new(i)) {
+                renumbered[f.index()] = origin;
+            }
+        }
+        Self(renumbered)
+    }
+}
+
 /// The caps and strips of one round, by lineage.
 #[derive(Default)]
 pub(super) struct RoundMarks {
@@ -168,7 +210,8 @@ impl RoundMarks {
 
 /// Closes the gaps in the mesh and fills in what only the result can tell.
 pub(super) fn finish(mut mesh: Mesh, mut report: CutReport) -> (Mesh, CutReport) {
-    report.made.compact(&mut mesh);
+    let map = report.made.compact(&mut mesh);
+    report.origins = report.origins.renumbered(&map, mesh.face_slots());
     report.not_three_valent = mesh.vertices().filter(|&v| mesh.valence(v) != 3).collect();
     report.components = mesh.components().len();
     (mesh, report)

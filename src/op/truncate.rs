@@ -8,7 +8,7 @@ use serde::Deserialize;
 use super::OpError;
 use super::cavity::Cavities;
 use super::cut::{Cutter, Lineage, Reach, SlicingPlane};
-use super::report::{CutReport, RoundMarks, ShrunkOffset, finish};
+use super::report::{CutReport, Origins, RoundMarks, ShrunkOffset, finish};
 use super::size::check_size;
 use crate::geom::Plane;
 use crate::mesh::{Mesh, VertexId};
@@ -178,6 +178,7 @@ pub(super) fn truncate(
     let mut cutter = Cutter::new(mesh.clone());
     let mut report =
         CutReport { is_beyond_far_ends: settings.offset > 1.0, ..CutReport::default() };
+    report.origins = Origins::new(cutter.mesh());
     for round in 0..settings.repeat {
         cutter.start_round();
         let made = (round > 0).then_some(&report.made);
@@ -205,6 +206,7 @@ pub(super) fn truncate(
         report.overcut.extend(done.overcut);
         report.shrunk.extend(offsets.used());
         report.made = done.marks.collect(&cutter);
+        report.origins = report.origins.after(&cutter, &done.marks);
     }
     report.overcut.sort_unstable();
     report.overcut.dedup();

@@ -23,9 +23,61 @@ const LISTED_AT_ONCE: usize = 256;
 pub struct Matchings {
     graph: Graph,
     met: Vec<bool>,
+    /// The vertices without a fold.
+    unmet: Unmet,
     /// A vertex each, with the edges that may become its fold and how many of them have been tried.
     stack: Vec<Choice>,
     started: bool,
+}
+
+/// The vertices without a fold, by how many of their edges lead to another one without.
+#[derive(Debug, Clone)]
+struct Unmet {
+    /// For each number of such edges the vertices that have it.
+    of_count: [Vec<u32>; 4],
+    count: Vec<usize>,
+    /// Where each stands among those of its number.
+    place: Vec<usize>,
+}
+
+impl Unmet {
+    /// All vertices, with the number of their edges, 3 at most.
+    fn new(counts: impl Iterator<Item = usize>) -> Self {
+        let count: Vec<usize> = counts.collect();
+        let place = vec![0; count.len()];
+        let mut unmet = Self { of_count: Default::default(), count, place };
+        // The lowest vertex comes last, that is first.
+        (0..unmet.count.len() as u32).rev().for_each(|v| unmet.insert(v));
+        unmet
+    }
+
+    fn insert(&mut self, v: u32) {
+        let list = &mut self.of_count[self.count[v as usize]];
+        self.place[v as usize] = list.len();
+        list.push(v);
+    }
+
+    fn remove(&mut self, v: u32) {
+        let list = &mut self.of_count[self.count[v as usize]];
+        let place = self.place[v as usize];
+        list.swap_remove(place);
+        if let Some(&moved) = list.get(place) {
+            self.place[moved as usize] = place;
+        }
+    }
+
+    fn change(&mut self, v: u32, by: isize) {
+        self.remove(v);
+        let count = &mut self.count[v as usize];
+        *count = count.wrapping_add_signed(by);
+        self.insert(v);
+    }
+
+    /// The vertex with the fewest such edges, of several the one that came there last: near where
+    /// the last fold was chosen, a dead end shows soonest.
+    fn scarcest(&self) -> Option<u32> {
+        self.of_count.iter().find_map(|list| list.last().copied())
+    }
 }
 
 #[derive(Debug, Clone)]
@@ -42,7 +94,36 @@ impl Matchings {
     pub fn new(mesh: &Mesh) -> Result<Self, SeamError> {
         let graph = Graph::cubic(mesh)?;
         let met = vec![false; graph.vertex_ids.len()];
-        Ok(Self { graph, met, stack: Vec::new(), started: false })
+        let count = |v: u32| graph.incident(v).iter().filter(|&&e| graph.other(e, v) != v).count();
+        let unmet = Unmet::new((0..graph.vertex_count()).map(count));
+        Ok(Self { graph, met, unmet, stack: Vec::new(), started: false })
+    }
+
+    /// Takes an edge as a fold.
+    fn fold(&mut self, e: u32) {
+        for v in self.graph.ends[e as usize] {
+            self.met[v as usize] = true;
+            self.unmet.remove(v);
+            self.change_choices_around(v, -1);
+        }
+    }
+
+    /// Gives the last fold up.
+    fn unfold(&mut self, e: u32) {
+        for v in self.graph.ends[e as usize].into_iter().rev() {
+            self.change_choices_around(v, 1);
+            self.met[v as usize] = false;
+            self.unmet.insert(v);
+        }
+    }
+
+    fn change_choices_around(&mut self, v: u32, by: isize) {
+        for &e in self.graph.incident(v) {
+            let w = self.graph.other(e, v);
+            if w != v && !self.met[w as usize] {
+                self.unmet.change(w, by);
+            }
+        }
     }
 
     /// The next matching as edge numbers, in the order of choice.
@@ -52,15 +133,17 @@ impl Matchings {
             self.stack.push(first);
         }
         while let Some(top) = self.stack.last_mut() {
-            if let Some(&last) = top.tried.checked_sub(1).and_then(|i| top.edges.get(i)) {
-                self.graph.ends[last as usize].iter().for_each(|&v| self.met[v as usize] = false);
-            }
+            let last = top.tried.checked_sub(1).and_then(|i| top.edges.get(i)).copied();
+            let next = top.edges.get(top.tried).copied();
             top.tried += 1;
-            let Some(&e) = top.edges.get(top.tried - 1) else {
+            if let Some(last) = last {
+                self.unfold(last);
+            }
+            let Some(next) = next else {
                 self.stack.pop();
                 continue;
             };
-            self.graph.ends[e as usize].iter().for_each(|&v| self.met[v as usize] = true);
+            self.fold(next);
             match self.choice() {
                 Some(choice) => self.stack.push(choice),
                 None => return Some(self.stack.iter().map(|c| c.edges[c.tried - 1]).collect()),
@@ -69,17 +152,16 @@ impl Matchings {
         None
     }
 
-    /// The first vertex without a fold that has the fewest edges left, so that what is forced comes
-    /// first; `None` when all vertices have their folds.
+    /// A vertex without a fold that has the fewest edges left, so that what is forced comes first;
+    /// `None` when all vertices have their folds.
     fn choice(&self) -> Option<Choice> {
-        let open = |v: u32| {
-            let is_open = |&e: &u32| {
-                self.graph.other(e, v) != v && !self.met[self.graph.other(e, v) as usize]
-            };
-            self.graph.incident(v).iter().copied().filter(is_open).collect::<Vec<u32>>()
+        let v = self.unmet.scarcest()?;
+        let is_open = |&e: &u32| {
+            let w = self.graph.other(e, v);
+            w != v && !self.met[w as usize]
         };
-        let unmet = (0..self.graph.vertex_count()).filter(|&v| !self.met[v as usize]);
-        unmet.map(open).min_by_key(Vec::len).map(|edges| Choice { edges, tried: 0 })
+        let edges = self.graph.incident(v).iter().copied().filter(is_open).collect();
+        Some(Choice { edges, tried: 0 })
     }
 }
 

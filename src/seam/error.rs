@@ -1,6 +1,5 @@
 //! Why there is no such seam set.
 
-use super::NoHamiltonian;
 use crate::code::codes;
 use crate::mesh::{EdgeId, VertexId};
 
@@ -148,5 +147,48 @@ impl<T: std::fmt::Display> std::fmt::Display for Listed<'_, T> {
             write!(f, "{}{item}", if i > 0 { ", " } else { "" })?;
         }
         f.write_str(if self.0.len() > SHOWN { ", …]" } else { "]" })
+    }
+}
+
+/// How it was shown that no seam runs through all vertices once.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum NoHamiltonian {
+    /// All choices of folds were listed.
+    Listed {
+        /// How many there are.
+        matchings: usize,
+        /// The fewest closed seams that any of them leaves.
+        fewest_cycles: usize,
+    },
+    /// The clauses contradict each other: one fold a vertex, one fold a face, no seam closed too
+    /// early, and what the caller forbade.
+    Contradiction {
+        /// How many closed seams had to be forbidden one by one.
+        cycles: usize,
+        /// How many sets of folds the caller forbade.
+        forbidden: usize,
+        /// How many conflicts the solver met.
+        conflicts: u64,
+    },
+}
+
+impl std::fmt::Display for NoHamiltonian {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Listed { matchings, fewest_cycles } => {
+                write!(
+                    f,
+                    "each of the {matchings} choices of folds leaves at least {fewest_cycles} \
+                    closed seams"
+                )
+            }
+            Self::Contradiction { cycles, conflicts, .. } => {
+                write!(
+                    f,
+                    "after forbidding {cycles} closed seams nothing is left ({conflicts} conflicts)"
+                )
+            }
+        }
     }
 }

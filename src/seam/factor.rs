@@ -29,26 +29,34 @@ pub fn seam_cycles(mesh: &Mesh, folds: &[EdgeId]) -> Vec<Vec<HalfEdgeId>> {
 /// The number of connected pieces that the faces make when exactly the folds are kept; holes are no
 /// pieces.
 pub fn piece_count(mesh: &Mesh, folds: &[EdgeId]) -> usize {
+    let pieces = piece_of_faces(mesh, folds);
+    mesh.faces().filter_map(|f| pieces[f]).max().map_or(0, |last| last + 1)
+}
+
+/// For each face the number of its piece, from 0, when exactly the folds are kept; nothing for
+/// holes.
+pub fn piece_of_faces(mesh: &Mesh, folds: &[EdgeId]) -> FaceMap<Option<usize>> {
     let is_fold = marked(mesh, folds);
-    let mut seen = FaceMap::filled(mesh.face_slots(), false);
+    let mut piece = FaceMap::filled(mesh.face_slots(), None);
     let mut stack: Vec<FaceId> = Vec::new();
-    let mut pieces = 0;
+    let mut count = 0;
     for seed in mesh.faces() {
-        if std::mem::replace(&mut seen[seed], true) {
+        if piece[seed].is_some() {
             continue;
         }
-        pieces += 1;
+        piece[seed] = Some(count);
         stack.push(seed);
         while let Some(f) = stack.pop() {
             for h in mesh.face_half_edges(f).filter(|h| is_fold[h.edge()]) {
                 let g = mesh.face(h.twin());
-                if !mesh.is_hole(g) && !std::mem::replace(&mut seen[g], true) {
+                if !mesh.is_hole(g) && piece[g].replace(count).is_none() {
                     stack.push(g);
                 }
             }
         }
+        count += 1;
     }
-    pieces
+    piece
 }
 
 fn marked(mesh: &Mesh, folds: &[EdgeId]) -> EdgeMap<bool> {

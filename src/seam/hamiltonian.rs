@@ -1,10 +1,10 @@
 //! The two-piece seam whose folds bend least, as far as a fixed amount of work finds it.
 
-use super::SeamError;
 use super::enumerate::Matchings;
+use super::error::{NoHamiltonian, SeamError};
 use super::exchange::Factor;
 use super::graph::Graph;
-use super::two_piece::{NoHamiltonian, TwoPieceSearch, connected};
+use super::two_piece::{TwoPieceSearch, connected};
 use super::weight::{fold_weight, quantised};
 use crate::mesh::{EdgeId, EdgeMap, Mesh};
 use crate::progress::Progress;

@@ -11,8 +11,8 @@
 //! - [`TwoPieceSearch`] and [`hamiltonian_folds`] look for the seam of two pieces, or prove that
 //!   there is none.
 //! - [`one_piece_folds`] finds, on surfaces with handles, the seams that leave one piece.
-//! - [`seam_cycles`], [`piece_count`] and [`is_perfect_matching`] tell what a choice of folds
-//!   means.
+//! - [`seam_cycles`], [`piece_count`], [`piece_of_faces`] and [`is_perfect_matching`] show what a
+//!   choice of folds means.
 
 mod blossom;
 mod enumerate;
@@ -33,10 +33,10 @@ mod weight;
 mod fixtures;
 
 pub use enumerate::{MATCHING_LIMIT, MatchingRow, Matchings, matching, table};
-pub use error::SeamError;
-pub use factor::{is_perfect_matching, piece_count, seam_cycles};
+pub use error::{NoHamiltonian, SeamError};
+pub use factor::{is_perfect_matching, piece_count, piece_of_faces, seam_cycles};
 pub use hamiltonian::hamiltonian_folds;
 pub use least::{flattest_matching, least_matching, least_matching_by};
 pub use one_piece::one_piece_folds;
-pub use two_piece::{NoHamiltonian, TwoPieceSearch};
+pub use two_piece::TwoPieceSearch;
 pub use weight::{fold_sum, fold_weight};

@@ -1,6 +1,6 @@
 //! Seams of two pieces: Hamiltonian cycles of seam edges, found one after the other.
 
-use super::SeamError;
+use super::error::{NoHamiltonian, SeamError};
 use super::exchange::Factor;
 use super::graph::Graph;
 use super::least::least_folds;
@@ -55,49 +55,6 @@ pub struct TwoPieceSearch {
     last: Option<Vec<u32>>,
     is_exhausted: bool,
     proof: NoHamiltonian,
-}
-
-/// How it was shown that no seam runs through all vertices once.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum NoHamiltonian {
-    /// All choices of folds were listed.
-    Listed {
-        /// How many there are.
-        matchings: usize,
-        /// The fewest closed seams that any of them leaves.
-        fewest_cycles: usize,
-    },
-    /// The clauses contradict each other: one fold a vertex, one fold a face, no seam closed too
-    /// early, and what the caller forbade.
-    Contradiction {
-        /// How many closed seams had to be forbidden one by one.
-        cycles: usize,
-        /// How many sets of folds the caller forbade.
-        forbidden: usize,
-        /// How many conflicts the solver met.
-        conflicts: u64,
-    },
-}
-
-impl std::fmt::Display for NoHamiltonian {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Listed { matchings, fewest_cycles } => {
-                write!(
-                    f,
-                    "each of the {matchings} choices of folds leaves at least {fewest_cycles} \
-                    closed seams"
-                )
-            }
-            Self::Contradiction { cycles, conflicts, .. } => {
-                write!(
-                    f,
-                    "after forbidding {cycles} closed seams nothing is left ({conflicts} conflicts)"
-                )
-            }
-        }
-    }
 }
 
 impl TwoPieceSearch {

@@ -4,27 +4,25 @@
 //! `first[f]..first[f + 1]`, and side s starts at the corner with the same number. Seen from
 //! outside, sides run counter-clockwise.
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 use super::convex::Parts;
+use super::flat_polygon::FlatPolygon;
+use super::sets::Sets;
 use super::{Seams, UnfoldError};
-use crate::geom::{Frame, Plane, RoundingBound, fit_plane};
+use crate::geom::RoundingBound;
 use crate::measure;
 use crate::mesh::{EdgeId, EdgeMap, FaceId, HalfEdgeId, HalfEdgeMap, Mesh};
 
 /// No face, no side.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// How far a corner may lie off its face's least-squares plane, relative to the face's diameter.
-///
-/// Flattening a side of length L whose ends lie d off on different sides shortens it by (2d)² / 2L.
-/// A limit of 1e-5 of the diameter D, and of 1.5e-5 of √(D·L) where sides are short, keeps mating
-/// sides equal to 1e-9 of the diameter, and still lets files with single-precision coordinates
-/// through.
-const PLANARITY: f64 = 1e-5;
-
 /// Folds flatter than this are flat, in radians: a micrometre on a metre. No tool bends that.
-pub(super) const FLAT: f64 = 1e-6;
+pub const FLAT: f64 = 1e-6;
+
+/// How deep an overlap must be to be one, in units of the rounding bound of constructed points; see
+/// [`super::overlap`].
+const OVERLAP_BOUND: f64 = 10.0;
 
 /// An edge between two faces that may stay together.
 #[derive(Debug, Clone, Copy)]
@@ -75,9 +73,9 @@ impl Dual {
         }
         let (low, high) = mesh.bounds().expect("a mesh with faces has vertices");
         let rounding = RoundingBound::of_box(low, high).length();
-        let mut dual = Self::empty(faces, super::overlap::BOUND * rounding);
+        let mut dual = Self::empty(faces, OVERLAP_BOUND * rounding);
         for f in dual.faces.clone() {
-            let flat = FlatPolygon::new(mesh, f, rounding)?;
+            let flat = FlatPolygon::new(&mesh.face_positions(f), f.index(), rounding)?;
             dual.push_face(mesh, f, flat)?;
         }
         dual.link(mesh, seams)?;
@@ -195,7 +193,7 @@ impl Dual {
     }
 
     fn part_count(&self, is_joined: impl Fn(u32) -> bool) -> usize {
-        let mut sets = super::start::Sets::new(self.face_count());
+        let mut sets = Sets::new(self.face_count());
         let joined = (0..self.across.len() as u32)
             .filter(|&s| is_joined(s))
             .filter(|&s| sets.join(self.owner[s as usize], self.neighbour(s)))
@@ -235,68 +233,4 @@ fn marked(mesh: &Mesh, listed: &[EdgeId], value: bool) -> Result<EdgeMap<bool>, 
         table[e] = value;
     }
     Ok(table)
-}
-
-/// One face in a frame of its own.
-struct FlatPolygon {
-    corners: Vec<DVec2>,
-    directions: Vec<DVec2>,
-    diameter: f64,
-}
-
-impl FlatPolygon {
-    fn new(mesh: &Mesh, f: FaceId, rounding: f64) -> Result<Self, UnfoldError> {
-        let face = f.index();
-        let points = mesh.face_positions(f);
-        let no_area = UnfoldError::FaceWithoutArea { face };
-        // As `check` has it: a corner on the line of the others up to rounding is no area.
-        if measure::face_width(mesh, f) <= rounding {
-            return Err(no_area);
-        }
-        let plane = Plane::newell(&points).filter(|_| points.len() >= 3).ok_or(no_area.clone())?;
-        let diameter = 2.0 * points.iter().map(|p| p.distance(plane.point())).fold(0.0, f64::max);
-        let next = |i: usize| points[(i + 1) % points.len()];
-        let shortest =
-            (0..points.len()).map(|i| points[i].distance(next(i))).fold(diameter, f64::min);
-        let limit = PLANARITY * diameter.min(1.5 * (diameter * shortest).sqrt()) + 16.0 * rounding;
-        let plane = flat_enough(plane, &points, face, limit)?;
-        let longest = (0..points.len()).map(|i| next(i) - points[i]).fold(DVec3::ZERO, longer);
-        // The longest side lies along x: a frame that does not depend on how the face is turned in
-        // space.
-        let frame = Frame::along(plane.point(), longest, plane.normal()).ok_or(no_area.clone())?;
-        let corners: Vec<DVec2> = points.iter().map(|&p| frame.flatten(p)).collect();
-        // Directions come from differences of given points, not of flat ones: short sides keep all
-        // their digits.
-        let direction = |i: usize| {
-            let d = next(i) - points[i];
-            DVec2::new(d.dot(frame.x), d.dot(frame.y)).try_normalize().ok_or(no_area.clone())
-        };
-        let directions = (0..points.len()).map(direction).collect::<Result<_, _>>()?;
-        Ok(Self { corners, directions, diameter })
-    }
-}
-
-fn longer(a: DVec3, b: DVec3) -> DVec3 {
-    if b.length_squared() > a.length_squared() { b } else { a }
-}
-
-/// The plane itself, or the least-squares plane where that lies nearer to the corners; an error
-/// when both are too far off.
-fn flat_enough(
-    plane: Plane,
-    points: &[DVec3],
-    face: usize,
-    limit: f64,
-) -> Result<Plane, UnfoldError> {
-    let deviation =
-        |plane: &Plane| points.iter().map(|&p| plane.signed_distance(p).abs()).fold(0.0, f64::max);
-    if points.len() == 3 || deviation(&plane) <= limit {
-        return Ok(plane);
-    }
-    let fitted = fit_plane(points).ok_or(UnfoldError::FaceWithoutArea { face })?;
-    let outward = if fitted.normal().dot(plane.normal()) < 0.0 { fitted.flipped() } else { fitted };
-    match deviation(&outward) {
-        deviation if deviation <= limit => Ok(outward),
-        deviation => Err(UnfoldError::NotPlanar { face, deviation, limit }),
-    }
 }

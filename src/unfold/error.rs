@@ -1,6 +1,7 @@
 //! Why a mesh could not be unfolded.
 
 use super::ProofError;
+use crate::check::{Breach, Profile};
 use crate::code::codes;
 use crate::seam::{NoHamiltonian, SeamError};
 
@@ -17,19 +18,19 @@ pub enum UnfoldError {
         /// The face.
         face: usize,
     },
-    /// A face that is not flat enough to be laid flat without changing its edges.
+    /// A face that `check` does not call planar.
     #[error(
-        "face {face} is not planar: a corner lies {deviation:.3e} mm off its plane, {limit:.3e} mm \
-        are allowed; \
-         see `check`, then `planarize` the mesh or triangulate the face"
+        "face {face} is not planar: {:.3} {unit} off, the profile {profile} allows {} {unit}; see \
+        `check`, then `planarize` the mesh or triangulate the face",
+        breach.measured, breach.limit, unit = breach.unit
     )]
     NotPlanar {
         /// The face.
         face: usize,
-        /// Largest distance of a corner from the least-squares plane, in mm.
-        deviation: f64,
-        /// What is allowed, in mm.
-        limit: f64,
+        /// Whose limits were broken.
+        profile: Profile,
+        /// By how much.
+        breach: Breach,
     },
     /// A face whose sides cross or touch each other.
     #[error(

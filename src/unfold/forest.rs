@@ -1,6 +1,6 @@
 //! Which faces are connected: one tree of folds for each piece, by parent pointers.
 
-use super::dual::{Dual, NONE};
+use super::dual::{Dual, FLAT, NONE};
 
 /// Trees over the faces. A face hangs on its parent by one of its own sides.
 #[derive(Debug, Clone)]
@@ -124,11 +124,15 @@ impl Forest {
         }
     }
 
-    /// Whether the caller wants the fold above `c` to stay.
+    /// Whether the fold above `c` opens only where nothing else helps: the caller wants it to stay,
+    /// or it is flat, and a seam through a plane face would show for nothing.
     pub fn must_keep(&self, dual: &Dual, c: u32) -> bool {
         match self.parent_side[c as usize] {
             NONE => false,
-            s => dual.hinges[dual.hinge[s as usize] as usize].is_kept,
+            s => {
+                let hinge = dual.hinges[dual.hinge[s as usize] as usize];
+                hinge.is_kept || hinge.fold <= FLAT
+            }
         }
     }
 

@@ -8,6 +8,7 @@ mod convex;
 mod d_form;
 mod dual;
 mod error;
+mod flat_polygon;
 mod forest;
 mod given;
 mod grid;
@@ -19,9 +20,11 @@ mod polish;
 mod proof;
 mod repair;
 mod result;
+mod sets;
 mod split;
 mod start;
 
+pub use dual::FLAT;
 pub use error::UnfoldError;
 pub use given::{check_folded, check_seams, seams_by_angle};
 pub use params::{MeshSource, PiecesMode, PiecesModeError, Seams, UnfoldParams};
@@ -57,7 +60,7 @@ const REPAIR_SHARE: u64 = 3;
 
 /// Unfolds a mesh into flat pieces that do not overlap themselves.
 ///
-/// The mesh is in millimetres and its faces are planar (to 1e-5 of their diameter; see
+/// The mesh is in millimetres and its faces are planar (within the usual profile of `check`; see
 /// [`UnfoldError::NotPlanar`]) simple polygons, convex or not; it may have rims (they are cuts),
 /// handles and several components. Faces stay whole.
 ///

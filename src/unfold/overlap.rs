@@ -13,9 +13,6 @@ use glam::DVec2;
 
 use super::dual::Dual;
 
-/// The bound, in units of the rounding bound of constructed points.
-pub(super) const BOUND: f64 = 10.0;
-
 /// Whether two faces with their corners at `p` and `q` overlap deeper than the bound.
 pub(super) fn overlap(dual: &Dual, f: u32, p: &[DVec2], g: u32, q: &[DVec2]) -> bool {
     let others = dual.parts.of(g);

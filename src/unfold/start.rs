@@ -12,35 +12,9 @@ use glam::{DVec2, DVec3};
 
 use super::dual::{Dual, FLAT, NONE};
 use super::forest::Forest;
+use super::sets::Sets;
 use crate::mesh::{EdgeId, EdgeMap, Mesh};
 use crate::random::Rng;
-
-/// Sets of faces that are connected (union-find).
-#[derive(Debug)]
-pub(super) struct Sets(Vec<u32>);
-
-impl Sets {
-    /// Every face alone.
-    pub fn new(count: usize) -> Self {
-        Self((0..count as u32).collect())
-    }
-
-    fn leader(&mut self, mut f: u32) -> u32 {
-        while self.0[f as usize] != f {
-            let above = self.0[self.0[f as usize] as usize];
-            self.0[f as usize] = above;
-            f = above;
-        }
-        f
-    }
-
-    /// Joins the sets of two faces; false when they were one already.
-    pub fn join(&mut self, f: u32, g: u32) -> bool {
-        let (f, g) = (self.leader(f), self.leader(g));
-        self.0[f as usize] = g;
-        f != g
-    }
-}
 
 /// The rule that weighs the edges of one start.
 #[derive(Debug, Clone, Copy)]

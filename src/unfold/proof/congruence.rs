@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::{LENGTH, LENGTH_OF_SIZE, ProofError, exceeds};
+use crate::geom::fit_plane;
 use crate::mesh::{EdgeId, FaceId, Mesh};
 use crate::net::Net;
 
@@ -17,6 +18,7 @@ pub(super) fn check(mesh: &Mesh, net: &Net, size: f64) -> Result<f64, ProofError
     let limit = LENGTH_OF_SIZE * size;
     for flat in net.pieces.iter().flat_map(|piece| &piece.faces) {
         let points = mesh.face_positions(FaceId::new(flat.face));
+        let limit = limit + bend(&points);
         let by = distortion(&points, &flat.polygon);
         if exceeds(by, limit) {
             return Err(ProofError::Distorted { face: flat.face, by, limit });
@@ -24,6 +26,17 @@ pub(super) fn check(mesh: &Mesh, net: &Net, size: f64) -> Result<f64, ProofError
         worst = worst.max(by);
     }
     Ok(worst)
+}
+
+/// How much nearer two corners of a face may come when it is laid flat: that its corners lie off
+/// their plane takes that much of its distances, the most where sides are short. Nothing of a
+/// planar face.
+fn bend(points: &[DVec3]) -> f64 {
+    let Some(plane) = Some(points).filter(|p| p.len() > 3).and_then(fit_plane) else { return 0.0 };
+    let off = points.iter().map(|&p| plane.signed_distance(p).abs()).fold(0.0, f64::max);
+    let sides = points.iter().zip(points.iter().cycle().skip(1));
+    let shortest = sides.map(|(p, q)| p.distance(*q)).fold(f64::INFINITY, f64::min);
+    (16.0 * off * off / shortest).min(4.0 * off)
 }
 
 fn distortion(points: &[DVec3], flat: &[DVec2]) -> f64 {

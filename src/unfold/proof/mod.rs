@@ -22,8 +22,8 @@ use crate::net::{Net, Proof};
 /// Sides of one edge may differ by this much of their length (plus as much of the model's size, for
 /// rounding).
 pub const LENGTH: f64 = 1e-9;
-/// Distances may differ by this much of the model's size: what flattening nearly planar faces may
-/// cost.
+/// Distances may differ by this much of the model's size: what flattening may cost when all faces
+/// are planar.
 const LENGTH_OF_SIZE: f64 = 1e-9;
 /// A refolded corner may miss its vertex by this much of the model's size when all faces are
 /// planar.

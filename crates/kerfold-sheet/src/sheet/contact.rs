@@ -7,13 +7,25 @@
 
 use glam::DVec2;
 
-use super::verify::{distance_to_segment, edges};
-use crate::geom::polygon::{Location, locate};
+use super::distance::{distance_to_segment, edges};
+use crate::geom::polygon::{Location, bounds, locate};
 
 /// Whether two parts, each an outline counter-clockwise and holes clockwise, overlap by more than
 /// `tolerance` mm.
 pub(crate) fn overlap(a: &[Vec<DVec2>], b: &[Vec<DVec2>], tolerance: f64) -> bool {
     runs_inside(a, b, tolerance) || runs_inside(b, a, tolerance)
+}
+
+/// Whether a contour reaches beyond the outline of its sheet, both counter-clockwise, by more than
+/// `tolerance` mm.
+pub(crate) fn sticks_out(contour: &[DVec2], outline: &[DVec2], tolerance: f64) -> bool {
+    let Some((low, high)) = bounds(contour.iter().chain(outline)) else { return false };
+    // What lies around the sheet, as if it were material with a hole.
+    let by = high - low + DVec2::splat(2.0 * tolerance);
+    let (low, high) = (low - by, high + by);
+    let frame = vec![low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
+    let hole = outline.iter().rev().copied().collect();
+    runs_inside(&[contour.to_vec()], &[frame, hole], tolerance)
 }
 
 fn runs_inside(a: &[Vec<DVec2>], b: &[Vec<DVec2>], tolerance: f64) -> bool {
@@ -86,6 +98,29 @@ mod tests {
         let hole: Vec<DVec2> =
             square(4.0).into_iter().rev().map(|p| p + DVec2::splat(3.0)).collect();
         assert!(!overlap(&[square(10.0), hole], &moved(&square(4.0), 3.0, 3.0), 1e-6));
+    }
+
+    #[test]
+    fn what_sticks_out_of_a_sheet_is_found_and_what_lies_on_its_border_is_not() {
+        let turned = |by: f64| -> Vec<DVec2> {
+            ell().iter().map(|p| DVec2::from_angle(by).rotate(*p) + DVec2::splat(70.0)).collect()
+        };
+        for by in [0.0, 0.3, 1.1, 2.9] {
+            // In itself, with every corner off by rounding.
+            let sheet = turned(by);
+            let shaken = |scale: f64| -> Vec<DVec2> {
+                let off = |(i, p): (usize, &DVec2)| *p + DVec2::from_angle(i as f64) * scale;
+                sheet.iter().enumerate().map(off).collect()
+            };
+            assert!(!sticks_out(&sheet, &sheet, 1e-9), "{by}");
+            assert!(!sticks_out(&shaken(1e-12), &sheet, 1e-9), "{by}");
+            assert!(sticks_out(&shaken(1e-3), &sheet, 1e-9), "{by}");
+            // Beside it, and across its notch with all corners inside.
+            let beside: Vec<DVec2> = sheet.iter().map(|p| *p + DVec2::splat(500.0)).collect();
+            assert!(sticks_out(&beside, &sheet, 1e-9), "{by}");
+        }
+        let across = points([(5.0, 35.0), (35.0, 5.0), (35.0, 8.0), (8.0, 35.0)]);
+        assert!(sticks_out(&across, &ell(), 1e-9));
     }
 
     #[test]

@@ -211,7 +211,7 @@ mod tests {
     use super::super::drawing::Mark;
     use super::super::lay_out;
     use super::super::testing::{net_of, random_convex, ring, square, strips, two_pieces};
-    use super::super::verify::edges;
+    use super::super::distance::edges;
     use super::super::{Labels, LetterParams, ScoreParams, ScoreStyle, StockParams};
     use super::super::{NestParams, Rotation};
     use super::*;

@@ -261,7 +261,7 @@ fn sharpened(points: Vec<DVec2>, least: f64) -> Vec<DVec2> {
 #[cfg(test)]
 mod tests {
     use super::super::testing::{ell, piece, points, random_convex, ring, square};
-    use super::super::verify::distance_to_contour;
+    use super::super::distance::distance_to_contour;
     use super::*;
     use crate::geom::polygon::{Location, locate, segments_cross};
     use proptest::prelude::*;

@@ -208,8 +208,13 @@ pub fn lay_out_watched(
     let (mut drawings, mut report) =
         draw(net, &shapes, &layout, usual, (params, &stretches, jointed.as_ref()))?;
     for (drawing, sheet) in drawings.iter_mut().zip(&layout.sheets) {
+        let tolerance = 6.0 * sheets[sheet.stock].stock.rounding();
+        // With a kerf, lines of one part that meet have become one.
+        let meets_itself = params.kerf.mm() == 0.0 && drawing.cut_own_lines_once(tolerance);
         if params.nest.common_line == CommonLine::On {
-            report.shared_length += drawing.cut_once(6.0 * sheets[sheet.stock].stock.rounding());
+            report.shared_length += drawing.cut_once(tolerance);
+        }
+        if meets_itself || params.nest.common_line == CommonLine::On {
             drawing.arrange();
         }
         draw_sheet(drawing, sheet, &sheets[sheet.stock]);
@@ -349,7 +354,7 @@ fn draw_sheet(drawing: &mut Drawing, sheet: &Sheet, stock: &StockSheet) {
 #[cfg(test)]
 mod tests {
     use super::super::testing::{ell, net_of, random_convex, ring, square};
-    use super::super::verify::contour_distance;
+    use super::super::distance::contour_distance;
     use super::super::{Labels, LetterParams, NestParams, SheetSize, StockParams};
     use super::*;
     use crate::units::Length;

@@ -13,6 +13,7 @@ mod assembly;
 mod bounding_box;
 mod common_line;
 mod contact;
+mod distance;
 mod draw;
 mod drawing;
 mod error;

@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 
 use glam::DVec2;
 
-use super::verify::edges;
+use super::distance::edges;
 use crate::geom::polygon::{bounds, segments_cross, signed_area};
 use crate::geom::predicate::orient2d;
 use crate::net::{EdgeLabel, Fold, FoldKind, Net, Seam, Segment};

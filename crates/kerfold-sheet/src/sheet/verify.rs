@@ -8,7 +8,10 @@ use std::collections::BTreeMap;
 
 use glam::DVec2;
 
-use super::contact::overlap;
+use super::contact::{overlap, sticks_out};
+pub(crate) use super::distance::{
+    contour_distance, distance_to_contour, distance_to_segment, edges,
+};
 use super::error::SheetError;
 use super::kerf::CutShape;
 use super::layout::{Layout, Placed, Sheet, SheetId};
@@ -76,9 +79,10 @@ fn verify_stock(laid: &[Laid], sheet: &Sheet, stock: &StockSheet) -> Result<(), 
             Err(SheetError::OnDefect { piece: here.piece, sheet: sheet.id, what, distance, least })
         };
         if !stock.outline.is_empty() {
-            let is_inside = contour.iter().all(|&p| locate(&stock.outline, p) != Location::Outside);
-            let distance = if is_inside { contour_distance(contour, &stock.outline) } else { 0.0 };
-            if !is_inside || distance < stock.stock.margin - rounding {
+            // A piece may lie on the outline, and then be off it by rounding.
+            let is_outside = sticks_out(contour, &stock.outline, rounding);
+            let distance = if is_outside { 0.0 } else { contour_distance(contour, &stock.outline) };
+            if is_outside || distance < stock.stock.margin - rounding {
                 return bad("the outline of the sheet", distance, stock.stock.margin);
             }
         }
@@ -118,11 +122,15 @@ impl Laid {
         Self { piece: shape.piece, contours, low, high }
     }
 
-    /// Whether a point is covered by the piece: inside the outline and in none of its holes.
-    fn covers(&self, p: DVec2) -> bool {
-        let mut contours = self.contours.iter();
-        let in_outline = contours.next().is_some_and(|c| locate(c, p) != Location::Outside);
-        in_outline && contours.all(|c| locate(c, p) != Location::Inside)
+    /// The distance from the outline of a piece that begins inside this one's: from the hole that
+    /// it lies in, 0 where material covers it. `None` when it begins outside.
+    fn distance_around(&self, outline: &[DVec2]) -> Option<f64> {
+        let (&p, around) = (outline.first()?, self.contours.first()?);
+        if locate(around, p) == Location::Outside {
+            return None;
+        }
+        let hole = self.contours[1..].iter().find(|hole| locate(hole, p) == Location::Inside);
+        Some(hole.map_or(0.0, |hole| contour_distance(hole, outline)))
     }
 }
 
@@ -184,63 +192,13 @@ pub fn clearance(a: (&CutShape, &Placed), b: (&CutShape, &Placed)) -> f64 {
 }
 
 fn distance(a: &Laid, b: &Laid) -> f64 {
-    let one_covers = |x: &Laid, y: &Laid| {
-        y.contours.first().and_then(|c| c.first()).is_some_and(|&p| x.covers(p))
+    let (Some(first), Some(second)) = (a.contours.first(), b.contours.first()) else {
+        return f64::INFINITY;
     };
-    if one_covers(a, b) || one_covers(b, a) {
-        return 0.0;
-    }
-    let boxes = |laid: &Laid| -> Vec<(DVec2, DVec2)> {
-        laid.contours.iter().map(|c| bounds(c).unwrap_or_default()).collect()
-    };
-    let (own, others) = (boxes(a), boxes(b));
-    let mut least = f64::INFINITY;
-    for (c, &(low, high)) in a.contours.iter().zip(&own) {
-        for (d, &(other_low, other_high)) in b.contours.iter().zip(&others) {
-            // Contours are no nearer than their boxes. The outlines come first, so that this spares
-            // nearly all pairs of holes.
-            let apart = (low - other_high).max(other_low - high).max(DVec2::ZERO).length();
-            if apart < least {
-                least = least.min(contour_distance(c, d));
-            }
-        }
-    }
-    least
-}
-
-/// The least distance between two closed contours; 0 when they cross.
-pub(crate) fn contour_distance(a: &[DVec2], b: &[DVec2]) -> f64 {
-    let crossing = edges(a).any(|(p, q)| edges(b).any(|(r, s)| segments_cross(p, q, r, s)));
-    if crossing {
-        return 0.0;
-    }
-    // Without a crossing the least distance is at a corner of one of them.
-    let from_a = a.iter().map(|&p| distance_to_contour(p, b));
-    let from_b = b.iter().map(|&p| distance_to_contour(p, a));
-    from_a.chain(from_b).fold(f64::INFINITY, f64::min)
-}
-
-/// The distance from a point to a closed contour.
-pub(crate) fn distance_to_contour(p: DVec2, contour: &[DVec2]) -> f64 {
-    edges(contour).map(|(a, b)| distance_to_segment(p, a, b)).fold(f64::INFINITY, f64::min)
-}
-
-/// The distance from a point to a closed segment.
-pub(crate) fn distance_to_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
-    p.distance(nearest_on_segment(p, a, b))
-}
-
-/// The point of a closed segment that is nearest to another point.
-pub(crate) fn nearest_on_segment(p: DVec2, a: DVec2, b: DVec2) -> DVec2 {
-    let along = b - a;
-    let squared = along.length_squared();
-    let t = if squared > 0.0 { ((p - a).dot(along) / squared).clamp(0.0, 1.0) } else { 0.0 };
-    a + along * t
-}
-
-/// The edges of a closed contour.
-pub(crate) fn edges(contour: &[DVec2]) -> impl Iterator<Item = (DVec2, DVec2)> {
-    contour.iter().zip(contour.iter().cycle().skip(1)).map(|(&a, &b)| (a, b))
+    // Of the holes only one in which the other piece lies is nearer than the outlines are: sheets
+    // with thousands of stitch holes are measured as fast as without.
+    let around = a.distance_around(second).or_else(|| b.distance_around(first));
+    around.unwrap_or_else(|| contour_distance(first, second))
 }
 
 #[cfg(test)]

@@ -275,6 +275,11 @@ impl Cutter {
         }
     }
 
+    /// The face of the mesh before the round that a lineage names; nothing for that of a cap.
+    pub(in crate::op) fn face_before(&self, lineage: Lineage) -> Option<FaceId> {
+        (lineage.0 < self.faces_before).then(|| FaceId::new(lineage.0 as usize))
+    }
+
     /// The lineage of the cap of the n-th cut of the round, counted from 0.
     pub(in crate::op) fn cap_lineage(&self, cut: usize) -> Lineage {
         Lineage(self.faces_before + cut as u32)

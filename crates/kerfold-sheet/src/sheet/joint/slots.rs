@@ -15,7 +15,7 @@
 
 use glam::DVec2;
 
-use super::super::verify::edges;
+use super::super::distance::edges;
 use super::boundary::{Boundaries, Contour, Place, segment_distance};
 use super::fingers::{corner, depths};
 use super::params::{FlapSide, Tabs, WEB};

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::super::verify::edges;
+use super::super::distance::edges;
 use crate::geom::polygon::{Location, locate};
 use crate::net::{Piece, Segment};
 

@@ -31,6 +31,39 @@ pub(super) struct Place {
 struct Free {
     low: DVec2,
     high: DVec2,
+    /// The rectangle of glass that holds it, bounded by the cuts so far and the edges of the sheet.
+    glass: Glass,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Glass {
+    low: DVec2,
+    high: DVec2,
+}
+
+/// The direction of a cut.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Cut {
+    Upright,
+    Level,
+}
+
+impl Glass {
+    /// Cuts it through, and gives the cut with the part before and the part behind; `None` where
+    /// there is an edge already.
+    fn cut(self, cut: Cut, at: DVec2, rounding: f64) -> Option<([DVec2; 2], [Self; 2])> {
+        let along = |p: DVec2| if cut == Cut::Upright { p.x } else { p.y };
+        if along(at) <= along(self.low) + rounding || along(at) >= along(self.high) - rounding {
+            return None;
+        }
+        let moved = |p: DVec2| match cut {
+            Cut::Upright => DVec2::new(at.x, p.y),
+            Cut::Level => DVec2::new(p.x, at.y),
+        };
+        let before = Self { high: moved(self.high), ..self };
+        let behind = Self { low: moved(self.low), ..self };
+        Some(([behind.low, before.high], [before, behind]))
+    }
 }
 
 /// Which side of the rest is cut through.
@@ -139,12 +172,9 @@ fn pack(
             let reserve = stock.spacing + stock.rounding();
             let (low, high) =
                 (DVec2::splat(stock.margin), stock.size - DVec2::splat(stock.margin - reserve));
-            open.push(Sheet {
-                bin,
-                is_untouched: true,
-                free: vec![Free { low, high }],
-                cuts: trimming(stock),
-            });
+            let (cuts, glass) = trimmed(stock);
+            let free = vec![Free { low, high, glass }];
+            open.push(Sheet { bin, is_untouched: true, free, cuts });
         };
         let (sheet, free, angle) = place;
         let stock = &sheet_of(sheets, open[sheet].bin).stock;
@@ -178,44 +208,122 @@ fn best_place(open: &[Sheet], b: &Boxed) -> Option<(usize, usize, f64)> {
     best
 }
 
-/// The cuts that take the margin off on the left and below; on the other sides the last cuts do it.
-fn trimming(stock: &Stock) -> Vec<[DVec2; 2]> {
-    let at = stock.margin - stock.spacing / 2.0;
-    if at <= 0.0 {
-        return Vec::new();
+/// The cuts that take the margin off on the left and below, and the glass that is left; on the other
+/// sides the last cuts do it.
+fn trimmed(stock: &Stock) -> (Vec<[DVec2; 2]>, Glass) {
+    let at = DVec2::splat(stock.margin - stock.spacing / 2.0);
+    let mut glass = Glass { low: DVec2::ZERO, high: stock.size };
+    let mut cuts = Vec::new();
+    for direction in [Cut::Upright, Cut::Level] {
+        if let Some((cut, [_, behind])) = glass.cut(direction, at, stock.rounding()) {
+            cuts.push(cut);
+            glass = behind;
+        }
     }
-    let left = [DVec2::new(at, 0.0), DVec2::new(at, stock.size.y)];
-    vec![left, [DVec2::new(at, at), DVec2::new(stock.size.x, at)]]
+    (cuts, glass)
 }
 
 /// Cuts a box out of the lower left corner of a free rectangle. Cuts run in the middle of the
 /// spacing.
 fn divide(sheet: &mut Sheet, rect: Free, size: DVec2, split: Split, stock: &Stock) {
-    let half = stock.spacing / 2.0;
     let corner = (rect.low + size).min(rect.high);
     let rest = (rect.high - corner).max(DVec2::ZERO);
-    let upright = match split {
+    let is_upright = match split {
         Split::Upright => true,
         Split::Level => false,
         Split::Larger => rest.x * (rect.high.y - rect.low.y) >= rest.y * (rect.high.x - rect.low.x),
     };
-    // Rectangles that reach the margin reach the edge of the glass.
-    let last = stock.size - DVec2::splat(stock.margin + half);
-    let end = |p: DVec2| DVec2::select(p.cmpge(last), stock.size, p);
-    let (low, at, high) =
-        ((rect.low - half).max(DVec2::ZERO), corner - half, end(rect.high - half));
-    let (x, y) = ((at.x < stock.size.x).then_some(at.x), (at.y < stock.size.y).then_some(at.y));
-    let upright_to = |top: f64| x.map(|x| [DVec2::new(x, low.y), DVec2::new(x, top)]);
-    let level_to = |right: f64| y.map(|y| [DVec2::new(low.x, y), DVec2::new(right, y)]);
-    let right = Free { low: DVec2::new(corner.x, rect.low.y), high: rect.high };
-    let above = Free { low: DVec2::new(rect.low.x, corner.y), high: rect.high };
-    let (cuts, rests) = if upright {
-        let above = Free { high: DVec2::new(corner.x, rect.high.y), ..above };
-        ([upright_to(high.y), level_to(at.x.min(high.x))], [right, above])
-    } else {
-        let right = Free { high: DVec2::new(rect.high.x, corner.y), ..right };
-        ([level_to(high.x), upright_to(at.y.min(high.y))], [right, above])
-    };
-    sheet.cuts.extend(cuts.into_iter().flatten());
-    sheet.free.extend(rests.into_iter().filter(|f| (f.high - f.low).cmpgt(DVec2::ZERO).all()));
+    let order = if is_upright { [Cut::Upright, Cut::Level] } else { [Cut::Level, Cut::Upright] };
+    let at = corner - DVec2::splat(stock.spacing / 2.0);
+    let (mut left, mut rests) = (rect, Vec::new());
+    for direction in order {
+        // Where the box reaches an edge of its glass there is no rest either.
+        let Some((cut, [before, behind])) = left.glass.cut(direction, at, stock.rounding()) else {
+            continue;
+        };
+        sheet.cuts.push(cut);
+        let (low, high) = match direction {
+            Cut::Upright => (DVec2::new(corner.x, left.low.y), DVec2::new(corner.x, left.high.y)),
+            Cut::Level => (DVec2::new(left.low.x, corner.y), DVec2::new(left.high.x, corner.y)),
+        };
+        rests.push((direction, Free { low, high: left.high, glass: behind }));
+        left = Free { low: left.low, high, glass: before };
+    }
+    // What lies to the right comes first, whichever cut was made first.
+    rests.sort_by_key(|&(direction, _)| direction == Cut::Level);
+    let least = DVec2::splat(stock.rounding());
+    let is_room = |f: &Free| (f.high - f.low).cmpgt(least).all();
+    sheet.free.extend(rests.into_iter().map(|(_, rest)| rest).filter(is_room));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::progress::Silent;
+    use proptest::prelude::*;
+
+    /// Carries the cuts out: each must divide one part of the glass from edge to edge.
+    fn parts_of(size: DVec2, cuts: &[[DVec2; 2]]) -> Result<Vec<Glass>, String> {
+        let mut parts = vec![Glass { low: DVec2::ZERO, high: size }];
+        for &[a, b] in cuts {
+            let direction = if a.x == b.x { Cut::Upright } else { Cut::Level };
+            let divided = parts.iter().position(|part| {
+                let ends = part.cut(direction, a, 1e-6).map(|(cut, _)| cut);
+                ends.is_some_and(|[p, q]| p.distance(a) < 1e-6 && q.distance(b) < 1e-6)
+            });
+            let i = divided.ok_or_else(|| format!("{a} to {b} divides no part"))?;
+            let (_, halves) = parts.swap_remove(i).cut(direction, a, 1e-6).expect("just tried");
+            parts.extend(halves);
+        }
+        Ok(parts)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(128))]
+        #[test]
+        fn every_cut_divides_one_part_of_the_glass(
+            // Few sizes, so that boxes often fill a rectangle, and some that nearly do.
+            sizes in prop::collection::vec((1..6_u32, 1..6_u32, 0..3_u32), 1..40),
+            margin in prop::sample::select(vec![0.0, 1.0, 1.5, 2.0, 10.0]),
+            split in prop::sample::select(SPLITS.to_vec()),
+        ) {
+            let stock = Stock { size: DVec2::new(300.0, 200.0), margin, spacing: 3.0 };
+            let boxes: Vec<Boxed> = sizes.iter().map(|&(w, h, off)| {
+                let side = |n: u32| f64::from(n) * 20.0 + f64::from(off) * 0.7 + 3.0;
+                let size = DVec2::new(side(w), side(h));
+                Boxed { ways: vec![(0.0, size), (90.0, DVec2::new(size.y, size.x))] }
+            }).collect();
+            let sheet = StockSheet { stock, outline: Vec::new(), defects: Vec::new() };
+            let order: Vec<usize> = (0..boxes.len()).collect();
+            let (places, cuts) = pack(&boxes, &order, &[sheet], split).expect("all fit");
+            for (bin, cuts) in cuts.iter().enumerate() {
+                let parts = parts_of(stock.size, cuts).map_err(TestCaseError::fail)?;
+                // Every box comes out, alone and whole.
+                for (place, b) in places.iter().zip(&boxes).filter(|(p, _)| p.bin == bin) {
+                    let high = place.low + size_of(b, place.angle) - DVec2::splat(stock.spacing);
+                    let middle = place.low.midpoint(high);
+                    let holds = |part: &&Glass| middle.cmpgt(part.low).all() && middle.cmplt(part.high).all();
+                    let part = parts.iter().find(holds).expect("the parts cover the glass");
+                    prop_assert!(place.low.cmpge(part.low - 1e-6).all() && high.cmple(part.high + 1e-6).all());
+                    prop_assert!(((part.high - part.low) - (high - place.low)).cmple(DVec2::splat(2.0 * margin + 6.0)).all());
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn boxes_that_fill_a_sheet_share_their_cuts() {
+        // Six squares of 100 mm with 2 mm between them fill the room inside the margin.
+        let stock = Stock { size: DVec2::new(324.0, 222.0), margin: 10.0, spacing: 2.0 };
+        let boxes = vec![Boxed { ways: vec![(0.0, DVec2::splat(102.0))] }; 6];
+        let sheet = StockSheet { stock, outline: Vec::new(), defects: Vec::new() };
+        let effort = Effort { seed: 0, work: 0 };
+        let (places, cuts) = guillotine(&boxes, &[sheet], effort, &Silent).expect("all fit");
+        assert!(places.iter().all(|p| p.bin == 0));
+        // The margin on four sides, two lines between columns or one between rows, and the others
+        // once for each row or column.
+        let parts = parts_of(stock.size, &cuts[0]).expect("each cut divides a part");
+        assert_eq!(parts.len(), cuts[0].len() + 1);
+        assert!(cuts[0].len() <= 13, "{}", cuts[0].len());
+    }
 }

@@ -12,7 +12,7 @@ use super::search::Turns;
 use super::shape::Shape;
 use super::stock::StockSheet;
 use super::{Axis, CommonLine, Effort, Guillotine, Lying, NoPlace, Piece, Problem, Rotation, nest};
-use crate::geom::polygon::{bounds, convex_hull};
+use crate::geom::polygon::{bounds, convex_hull, signed_area};
 use crate::net::PieceId;
 use crate::progress::Progress;
 
@@ -38,21 +38,6 @@ pub(crate) struct Candidate<'a> {
     hull: Vec<DVec2>,
     /// On every sheet of the stock, the turn at which it fits best.
     pub poses: Vec<Option<OrientedBox>>,
-}
-
-impl Candidate<'_> {
-    /// The greatest extent along an axis: no circle with a smaller diameter holds the piece.
-    fn extent(&self) -> f64 {
-        bounds(&self.hull).map_or(0.0, |(low, high)| (high - low).max_element())
-    }
-}
-
-/// The holes of a shape that a piece of the extent `smallest` may lie in. Others are no place for
-/// anything: a piece with hundreds of them, for thread or rivets, would fall into thousands of
-/// parts.
-fn roomy_holes(shape: &CutShape, smallest: f64) -> Vec<Vec<DVec2>> {
-    let diagonal = |hole: &[DVec2]| bounds(hole).map_or(0.0, |(low, high)| high.distance(low));
-    shape.holes.iter().filter(|hole| diagonal(hole) >= smallest).cloned().collect()
 }
 
 /// Finds out on which sheets pieces fit.
@@ -112,9 +97,9 @@ pub(crate) fn lay(
     let group = |piece: PieceId| {
         params.nest.together.0.iter().position(|g| g.len() > 1 && g.contains(&piece))
     };
-    let smallest = candidates.iter().map(Candidate::extent).fold(f64::INFINITY, f64::min);
+    let least = Least::of(candidates, sheets[0].stock.spacing);
     let pieces = candidates.iter().map(|c| Piece {
-        shape: Shape::new(&c.shape.outline, &roomy_holes(c.shape, smallest)),
+        shape: Shape::new(&c.shape.outline, &least.holes_with_room(c.shape)),
         turns: match c.rotation.angles() {
             Some(angles) => Turns::Some(angles),
             None => {
@@ -133,6 +118,35 @@ pub(crate) fn lay(
     let start =
         (is_plain && candidates.len() <= MOST_BOXES).then(|| boxes(candidates, &sheets[0], pack));
     Ok(Laid { lying: nest(&problem, start, effort, progress)?, cuts: Vec::new() })
+}
+
+/// What a hole must have at least, or no piece can lie in it.
+struct Least {
+    area: f64,
+    diameter: f64,
+}
+
+impl Least {
+    fn of(candidates: &[Candidate<'_>], spacing: f64) -> Self {
+        let areas = candidates.iter().map(|c| c.shape.area());
+        let extents = candidates.iter().filter_map(|c| bounds(&c.hull));
+        let diameters = extents.map(|(low, high)| (high - low).max_element());
+        Self {
+            area: areas.fold(f64::INFINITY, f64::min),
+            // A piece is as wide as its hull one way or the other, and keeps the spacing.
+            diameter: diameters.fold(f64::INFINITY, f64::min) + 2.0 * spacing,
+        }
+    }
+
+    /// The holes of a piece in which another might lie. All others count as material: thousands of
+    /// stitch holes would only cost time.
+    fn holes_with_room(&self, shape: &CutShape) -> Vec<Vec<DVec2>> {
+        let has_room = |hole: &&Vec<DVec2>| {
+            let (low, high) = bounds(hole.iter()).unwrap_or_default();
+            signed_area(hole).abs() >= self.area && low.distance(high) >= self.diameter
+        };
+        shape.holes.iter().filter(has_room).cloned().collect()
+    }
 }
 
 /// A layout of bounding boxes.

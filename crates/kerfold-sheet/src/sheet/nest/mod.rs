@@ -7,6 +7,7 @@
 //! work counted in parts measured, not time.
 
 mod abut;
+mod abut_orders;
 mod collision_field;
 mod explore;
 mod guillotine;
@@ -141,7 +142,10 @@ pub(crate) fn nest(
     let turns: Vec<Turns> = problem.pieces.iter().map(|p| p.turns.clone()).collect();
     let groups: Vec<Option<usize>> = problem.pieces.iter().map(|p| p.group).collect();
     if problem.common_line == CommonLine::On {
-        return Ok(lying(&abut::lay_abutting((problem, &shapes), effort, progress)?, &shapes));
+        return Ok(lying(
+            &abut_orders::lay_abutting((problem, &shapes), effort, progress)?,
+            &shapes,
+        ));
     }
     let mut field = CollisionField::new(&shapes, problem.spacing);
     let mut rng = Rng::new(effort.seed);

@@ -145,6 +145,20 @@ fn outlines_and_defects_are_kept_clear() {
     assert!(error.to_string().contains("300,0"), "{error}");
 }
 
+/// Pieces that lie on the border of a sheet are off it by rounding, and not over it.
+#[test]
+fn a_sheet_with_an_outline_needs_no_margin() {
+    for outline in ["0,0:200,0:200,200:0,200", "0,0:200,0:200,60:60,200:0,200"] {
+        for count in 8..12 {
+            let mut params = params(200.0, 200.0);
+            params.margin = crate::units::Length::from_mm(0.0);
+            params.nest.sheet_outline = outline.parse().expect("an outline");
+            let set = laid(&polygons(count), &params);
+            assert!(!set.layout.sheets.is_empty());
+        }
+    }
+}
+
 /// Divides a rectangle by the cuts in their order: each must run from side to side of the part that
 /// it lies in.
 fn assert_edge_to_edge(size: DVec2, cuts: &[[DVec2; 2]]) {

@@ -27,7 +27,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Deserializer, de};
 
-use crate::mesh::{EdgeId, FaceId, Mesh, VertexId};
+use crate::mesh::{EdgeId, FaceId, Mesh, Renumbering, VertexId};
 use crate::progress::{Progress, Silent};
 use expr::{Atom, Expr};
 
@@ -62,12 +62,13 @@ pub struct NewElements {
 
 impl NewElements {
     /// Closes the gaps in the ids of a mesh, and follows the ids to their new numbers.
-    pub(crate) fn compact(&mut self, mesh: &mut Mesh) {
+    pub(crate) fn compact(&mut self, mesh: &mut Mesh) -> Renumbering {
         let map = mesh.compact();
         self.vertices = self.vertices.iter().filter_map(|&v| map.vertex(v)).collect();
         self.edges = self.edges.iter().filter_map(|&e| map.edge(e)).collect();
         self.strip = self.strip.iter().filter_map(|&e| map.edge(e)).collect();
         self.faces = self.faces.iter().filter_map(|&f| map.face(f)).collect();
+        map
     }
 }
 

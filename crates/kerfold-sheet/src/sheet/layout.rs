@@ -210,7 +210,7 @@ pub fn lay_out_watched(
     for (drawing, sheet) in drawings.iter_mut().zip(&layout.sheets) {
         let tolerance = 6.0 * sheets[sheet.stock].stock.rounding();
         // With a kerf, lines of one part that meet have become one.
-        let meets_itself = params.kerf.mm() == 0.0 && drawing.cut_own_lines_once(tolerance);
+        let meets_itself = params.stock.kerf.mm() == 0.0 && drawing.cut_own_lines_once(tolerance);
         if params.nest.common_line == CommonLine::On {
             report.shared_length += drawing.cut_once(tolerance);
         }

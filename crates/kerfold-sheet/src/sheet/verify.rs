@@ -10,7 +10,7 @@ use glam::DVec2;
 
 use super::contact::{overlap, sticks_out};
 pub(crate) use super::distance::{
-    contour_distance, distance_to_contour, distance_to_segment, edges,
+    contour_distance, edges,
 };
 use super::error::SheetError;
 use super::kerf::CutShape;

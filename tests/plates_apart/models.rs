@@ -7,8 +7,10 @@ use kerfold::units::Length;
 
 /// All ready-made solids, the families with a few of their members, 200 mm large.
 pub fn solids() -> impl Iterator<Item = (&'static str, Mesh)> {
-    let fixed = solid_names().filter(|n| !n.contains(['N', 'A']));
-    let families = ["prism-3", "prism-7", "antiprism-4", "antiprism-5", "box-30x20x10"];
+    // Five Platonic and thirteen Archimedean solids come first; aliases follow.
+    let fixed = solid_names().take(18);
+    let families =
+        ["prism-3", "prism-7", "antiprism-4", "antiprism-5", "geodesic-2", "box-30x20x10"];
     fixed.chain(families).map(|name| {
         let params = SolidParams {
             name: name.parse().expect("a name"),

@@ -119,7 +119,7 @@ fn document(pages: &[Page], title: &str, command: &str, extra: Option<&str>) -> 
 }
 
 /// A string object: ASCII in brackets, anything else in UTF-16.
-pub(crate) fn text(text: &str) -> String {
+fn text(text: &str) -> String {
     if text.chars().all(|c| (' '..='~').contains(&c)) {
         let escaped = text.replace('\\', r"\\").replace('(', r"\(").replace(')', r"\)");
         return format!("({escaped})");
@@ -129,7 +129,7 @@ pub(crate) fn text(text: &str) -> String {
 }
 
 /// Numbered objects and where they begin.
-pub(crate) struct Objects {
+struct Objects {
     bytes: Vec<u8>,
     offsets: Vec<usize>,
 }
@@ -141,23 +141,10 @@ impl Default for Objects {
 }
 
 impl Objects {
-    /// For streams that are no text: says so in its second line, as the standard wants.
-    pub(crate) fn packed() -> Self {
-        Self { bytes: b"%PDF-1.5\n%\xe2\xe3\xcf\xd3\n".to_vec(), offsets: Vec::new() }
-    }
-
-    pub(crate) fn add(&mut self, object: &str) {
+    fn add(&mut self, object: &str) {
         self.begin();
         self.bytes.extend(object.bytes());
         self.bytes.extend(b"\nendobj\n");
-    }
-
-    /// A stream; its dictionary without brackets and length.
-    pub(crate) fn add_stream(&mut self, dictionary: &str, bytes: &[u8]) {
-        self.begin();
-        self.bytes.extend(format!("<< {dictionary} /Length {} >>\nstream\n", bytes.len()).bytes());
-        self.bytes.extend(bytes);
-        self.bytes.extend(b"\nendstream\nendobj\n");
     }
 
     fn begin(&mut self) {
@@ -166,7 +153,7 @@ impl Objects {
     }
 
     /// The file; object 1 is its root, object 3 its information.
-    pub(crate) fn finish(mut self) -> Vec<u8> {
+    fn finish(mut self) -> Vec<u8> {
         let start = self.bytes.len();
         let count = self.offsets.len() + 1;
         let mut end = format!("xref\n0 {count}\n0000000000 65535 f \n");

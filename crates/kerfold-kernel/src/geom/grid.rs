@@ -106,7 +106,7 @@ mod tests {
             (0..500).map(|_| std::array::from_fn(|_| rng.unit() * 8.0 - 4.0)).collect();
         let mut grid = Grid::new([-4.0; 3], 1.0);
         points.iter().for_each(|&p| drop(grid.insert(p)));
-        let apart = |p: [f64; 3], q: [f64; 3]| (0..3).map(|k| (p[k] - q[k]).abs());
+        let apart = |p: [f64; 3], q: [f64; 3]| (0..3).map(move |k| (p[k] - q[k]).abs());
         for &p in &points {
             let found: Vec<u32> = grid.around(p).collect();
             for (number, &q) in points.iter().enumerate() {

@@ -231,21 +231,41 @@ impl SegmentTree {
         meet(i.min(j) as usize, i.max(j) as usize)
     }
 
-    /// Calls `visit` for every segment whose box, grown by its reach, touches the box between two
-    /// corners, in a fixed order, until it breaks off.
+    /// Calls `visit` for the segments that may come as near to the box between two corners as their
+    /// reach, in a fixed order, until it breaks off.
     pub fn in_box<B>(
         &self,
         low: DVec2,
         high: DVec2,
+        visit: impl FnMut(usize) -> ControlFlow<B>,
+    ) -> ControlFlow<B> {
+        let root = self.nodes.first();
+        let asked = root.map(|root| Node::level(low.max(root.low), high.min(root.high)));
+        let is_out = |node: &Node| asked.as_ref().is_none_or(|asked| are_apart(node, asked));
+        self.search((low, high), is_out, visit)
+    }
+
+    /// Calls `visit` for the segments as diagonals of boxes: for every one whose box, grown by its
+    /// reach, holds a point.
+    pub fn boxes_around<B>(
+        &self,
+        p: DVec2,
+        visit: impl FnMut(usize) -> ControlFlow<B>,
+    ) -> ControlFlow<B> {
+        self.search((p, p), |_| false, visit)
+    }
+
+    fn search<B>(
+        &self,
+        (low, high): (DVec2, DVec2),
+        is_out: impl Fn(&Node) -> bool,
         mut visit: impl FnMut(usize) -> ControlFlow<B>,
     ) -> ControlFlow<B> {
-        let is_out = |l: DVec2, h: DVec2| l.cmpgt(high).any() || h.cmplt(low).any();
-        let asked =
-            self.nodes.first().map(|root| Node::level(low.max(root.low), high.min(root.high)));
-        let mut open = vec![0_u32];
-        while let (Some(number), Some(asked)) = (open.pop(), &asked) {
+        let is_beside = |l: DVec2, h: DVec2| l.cmpgt(high).any() || h.cmplt(low).any();
+        let mut open = if self.nodes.is_empty() { Vec::new() } else { vec![0_u32] };
+        while let Some(number) = open.pop() {
             let node = &self.nodes[number as usize];
-            if is_out(node.low, node.high) || are_apart(node, asked) {
+            if is_beside(node.low, node.high) || is_out(node) {
                 continue;
             }
             if let Some([left, right]) = node.parts {
@@ -256,7 +276,7 @@ impl SegmentTree {
                 let segment = &self.segments[s as usize];
                 let reach = DVec2::splat(segment.reach);
                 let [a, b] = segment.ends;
-                if !is_out(a.min(b) - reach, a.max(b) + reach) {
+                if !is_beside(a.min(b) - reach, a.max(b) + reach) {
                     visit(s as usize)?;
                 }
             }

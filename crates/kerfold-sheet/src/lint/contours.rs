@@ -71,7 +71,7 @@ impl Contours {
         let slack = DVec2::splat(gap);
         let mut candidates = Vec::new();
         let middle = low.midpoint(high);
-        ended(boxes.in_box(middle, middle, |b| {
+        ended(boxes.boxes_around(middle, |b| {
             candidates.push(numbers[b]);
             flow(work.compare(1))
         }))?;

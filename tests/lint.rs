@@ -7,7 +7,7 @@ use glam::DVec2;
 use kerfold::io::artwork::read_artwork;
 use kerfold::io::sheet::files::sheet_bytes;
 use kerfold::io::sheet::pdf::tiles::write_tiles;
-use kerfold::lint::{Check, LintFinding, LintParams, lint};
+use kerfold::lint::{Check, LintFinding, LintParams, lint, lint_pages};
 use kerfold::make::{material, with_material};
 use kerfold::net::{MeshCounts, Net, Piece, PieceId, Proof};
 use kerfold::progress::Silent;
@@ -22,7 +22,7 @@ fn found(name: &str, params: &LintParams) -> Vec<LintFinding> {
     let path = Path::new("fixtures/lint").join(name);
     let bytes = std::fs::read(&path).unwrap_or_else(|e| panic!("{name}: {e}"));
     let (_, pages) = read_artwork(&path, &bytes).unwrap_or_else(|e| panic!("{name}: {e}"));
-    pages.iter().flat_map(|page| lint(page, params).findings).collect()
+    lint_pages(&pages, params).expect("little").into_iter().flat_map(|r| r.findings).collect()
 }
 
 /// File, fault, the line that has it, and its place.
@@ -114,7 +114,7 @@ fn assert_clean(name: &str, drawings: &[kerfold::sheet::Drawing], params: &Sheet
             assert_eq!(pages.len(), 1, "{place}");
             let strokes: usize = drawing.marks().map(|m| m.strokes.len()).sum();
             assert_eq!(pages[0].paths.len(), strokes, "{place}");
-            assert_eq!(lint(&pages[0], &limits).findings, [], "{place}");
+            assert_eq!(lint(&pages[0], &limits).expect("little").findings, [], "{place}");
         }
     }
 }
@@ -128,7 +128,7 @@ fn assert_tiles_clean(name: &str, drawings: &[kerfold::sheet::Drawing], params: 
         assert!(pages.len() > 1);
         for (i, page) in pages.iter().enumerate() {
             assert_eq!(
-                lint(page, &LintParams::default()).findings,
+                lint(page, &LintParams::default()).expect("little").findings,
                 [],
                 "{name} on A4, page {}",
                 i + 1
@@ -263,7 +263,7 @@ fn files_that_cannot_be_followed_say_why() {
         ),
         ("x.dxf", b"  0\nSECTION\n  2\nENTITIES\n", "breaks off"),
         ("x.dxf", b"  0\nSECTION\nzero\nENTITIES\n", "line 3"),
-        ("x.dxf", b"AutoCAD Binary DXF\r\n\x1a\0", "binary DXF"),
+        ("x.dxf", b"AutoCAD Binary DXF\r\n\x1a\0", "binary file breaks off"),
         ("x.pdf", b"%PDF-1.4\n1 0 obj\n<< >>\nendobj\n", "no catalogue"),
         ("x.pdf", b"%PDF-1.4\ntrailer << /Encrypt 1 0 R >>", "encrypted"),
     ] {

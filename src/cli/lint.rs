@@ -89,7 +89,8 @@ fn limits(args: &LintArgs) -> Result<LintParams, CliError> {
 }
 
 fn judge(file: &Path, params: &LintParams) -> Result<Vec<Judged>, CliError> {
-    let bytes = read(file).map_err(|error| CliError::Unreadable { path: file.to_owned(), error })?;
+    let bytes =
+        read(file).map_err(|error| CliError::Unreadable { path: file.to_owned(), error })?;
     let (format, pages) = read_artwork(file, &bytes)
         .map_err(|error| CliError::Artwork { path: file.to_owned(), error })?;
     let reports = lint_pages(&pages, params)

@@ -84,14 +84,15 @@ impl<const D: usize> Grid<D> {
 /// A cell with the cells that touch it, in order of their numbers.
 fn neighbours<const D: usize>(home: Cell<D>) -> impl Iterator<Item = Cell<D>> {
     let count = 3_usize.pow(D as u32);
-    (0..count).map(move |step| {
+    (0..count).filter_map(move |step| {
         let mut rest = step;
         let mut cell = home;
         for side in cell.iter_mut().rev() {
-            *side = side.saturating_add(rest as i64 % 3 - 1);
+            // There is nothing beyond the outermost cells.
+            *side = side.checked_add(rest as i64 % 3 - 1)?;
             rest /= 3;
         }
-        cell
+        Some(cell)
     })
 }
 
@@ -105,8 +106,10 @@ mod tests {
         let points: Vec<[f64; 3]> =
             (0..500).map(|_| std::array::from_fn(|_| rng.unit() * 8.0 - 4.0)).collect();
         let mut grid = Grid::new([-4.0; 3], 1.0);
-        points.iter().for_each(|&p| drop(grid.insert(p)));
-        let apart = |p: [f64; 3], q: [f64; 3]| (0..3).map(|k| (p[k] - q[k]).abs());
+        for &p in &points {
+            grid.insert(p);
+        }
+        let apart = |p: [f64; 3], q: [f64; 3]| (0..3).map(move |k| (p[k] - q[k]).abs());
         for &p in &points {
             let found: Vec<u32> = grid.around(p).collect();
             for (number, &q) in points.iter().enumerate() {

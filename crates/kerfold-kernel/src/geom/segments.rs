@@ -231,19 +231,41 @@ impl SegmentTree {
         meet(i.min(j) as usize, i.max(j) as usize)
     }
 
-    /// Calls `visit` for every segment whose box, grown by its reach, touches the box between two
-    /// corners, in a fixed order, until it breaks off.
+    /// Calls `visit` for the segments that may come as near to the box between two corners as their
+    /// reach, in a fixed order, until it breaks off.
     pub fn in_box<B>(
         &self,
         low: DVec2,
         high: DVec2,
+        visit: impl FnMut(usize) -> ControlFlow<B>,
+    ) -> ControlFlow<B> {
+        let root = self.nodes.first();
+        let asked = root.map(|root| Node::level(low.max(root.low), high.min(root.high)));
+        let is_out = |node: &Node| asked.as_ref().is_none_or(|asked| are_apart(node, asked));
+        self.search((low, high), is_out, visit)
+    }
+
+    /// Calls `visit` for the segments as diagonals of boxes: for every one whose box, grown by its
+    /// reach, holds a point.
+    pub fn boxes_around<B>(
+        &self,
+        p: DVec2,
+        visit: impl FnMut(usize) -> ControlFlow<B>,
+    ) -> ControlFlow<B> {
+        self.search((p, p), |_| false, visit)
+    }
+
+    fn search<B>(
+        &self,
+        (low, high): (DVec2, DVec2),
+        is_out: impl Fn(&Node) -> bool,
         mut visit: impl FnMut(usize) -> ControlFlow<B>,
     ) -> ControlFlow<B> {
-        let is_out = |l: DVec2, h: DVec2| l.cmpgt(high).any() || h.cmplt(low).any();
+        let is_beside = |l: DVec2, h: DVec2| l.cmpgt(high).any() || h.cmplt(low).any();
         let mut open = if self.nodes.is_empty() { Vec::new() } else { vec![0_u32] };
         while let Some(number) = open.pop() {
             let node = &self.nodes[number as usize];
-            if is_out(node.low, node.high) {
+            if is_beside(node.low, node.high) || is_out(node) {
                 continue;
             }
             if let Some([left, right]) = node.parts {
@@ -254,12 +276,31 @@ impl SegmentTree {
                 let segment = &self.segments[s as usize];
                 let reach = DVec2::splat(segment.reach);
                 let [a, b] = segment.ends;
-                if !is_out(a.min(b) - reach, a.max(b) + reach) {
+                if !is_beside(a.min(b) - reach, a.max(b) + reach) {
                     visit(s as usize)?;
                 }
             }
         }
         ControlFlow::Continue(())
+    }
+}
+
+impl Node {
+    /// A box that is asked for, its sides level and upright.
+    fn level(low: DVec2, high: DVec2) -> Self {
+        let slack = DVec2::splat(1e-15 * low.abs().max(high.abs()).max_element());
+        Self {
+            from: 0,
+            to: 0,
+            parts: None,
+            kinds: 0,
+            spread: 0.0,
+            low,
+            high,
+            centre: low.midpoint(high),
+            axis: DVec2::X,
+            half: (high - low) / 2.0 + slack,
+        }
     }
 }
 
@@ -323,9 +364,8 @@ fn are_apart(p: &Node, q: &Node) -> bool {
     let between = q.centre - p.centre;
     let cosine = p.axis.dot(q.axis).abs();
     let sine = p.axis.perp_dot(q.axis).abs();
-    let onto_other = |half: DVec2| {
-        DVec2::new(half.x * cosine + half.y * sine, half.x * sine + half.y * cosine)
-    };
+    let onto_other =
+        |half: DVec2| DVec2::new(half.x * cosine + half.y * sine, half.x * sine + half.y * cosine);
     let local = |axis: DVec2| DVec2::new(axis.dot(between), axis.perp_dot(between)).abs();
     local(p.axis).cmpgt(p.half + onto_other(q.half)).any()
         || local(q.axis).cmpgt(q.half + onto_other(p.half)).any()
@@ -367,8 +407,10 @@ mod tests {
         for shift in [0.0, 1e6] {
             let mut rng = Rng::new(7);
             let mut at = || DVec2::new(rng.unit(), rng.unit()) * 10.0 + DVec2::splat(shift);
-            let segments: Vec<Segment> =
-                (0..400).map(|_| (at(), at())).map(|(a, b)| segment(a, a + (b - a) * 0.2)).collect();
+            let segments: Vec<Segment> = (0..400)
+                .map(|_| (at(), at()))
+                .map(|(a, b)| segment(a, a + (b - a) * 0.2))
+                .collect();
             let (found, _) = near_pairs(&segments);
             for j in 0..segments.len() {
                 for i in 0..j {
@@ -401,16 +443,19 @@ mod tests {
         let level = |y: f64| segment(DVec2::new(0.0, y), DVec2::new(9.0, y));
         let tree = SegmentTree::new((0..50).map(|i| level(f64::from(i))).collect());
         let mut found = Vec::new();
-        let end: ControlFlow<()> =
-            tree.in_box(DVec2::new(3.0, 6.5), DVec2::new(4.0, 8.5), |i| {
-                found.push(i);
-                ControlFlow::Continue(())
-            });
+        let end: ControlFlow<()> = tree.in_box(DVec2::new(3.0, 6.5), DVec2::new(4.0, 8.5), |i| {
+            found.push(i);
+            ControlFlow::Continue(())
+        });
         assert!(end.is_continue());
         found.sort_unstable();
         assert_eq!(found, [7, 8]);
         let first = tree.in_box(DVec2::ZERO, DVec2::splat(99.0), ControlFlow::Break);
         assert!(first.is_break());
-        assert!(SegmentTree::new(Vec::new()).in_box(DVec2::ZERO, DVec2::ONE, ControlFlow::Break).is_continue());
+        assert!(
+            SegmentTree::new(Vec::new())
+                .in_box(DVec2::ZERO, DVec2::ONE, ControlFlow::Break)
+                .is_continue()
+        );
     }
 }

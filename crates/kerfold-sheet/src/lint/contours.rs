@@ -41,13 +41,9 @@ struct Ring {
 impl Contours {
     pub fn of(lines: &[Line], gap: f64, work: &mut Work) -> Result<Self, LintError> {
         let rings: Vec<Option<Ring>> = lines.iter().map(Ring::of).collect();
-        let mut found = Self {
-            parent: vec![None; lines.len()],
-            depth: vec![0; lines.len()],
-            rings,
-        };
-        let numbers: Vec<usize> =
-            (0..lines.len()).filter(|&i| found.rings[i].is_some()).collect();
+        let mut found =
+            Self { parent: vec![None; lines.len()], depth: vec![0; lines.len()], rings };
+        let numbers: Vec<usize> = (0..lines.len()).filter(|&i| found.rings[i].is_some()).collect();
         let boxes = found.rings.iter().flatten();
         let boxes = boxes.map(|r| Segment { ends: [r.low, r.high], reach: gap, kind: 0 });
         let boxes = SegmentTree::new(boxes.collect());
@@ -55,9 +51,8 @@ impl Contours {
             let around = found.around(i, line, (&boxes, &numbers), gap, work)?;
             let area = |&r: &usize| found.rings[r].as_ref().map_or(f64::INFINITY, |r| r.area);
             found.depth[i] = around.len();
-            found.parent[i] = around
-                .into_iter()
-                .min_by(|a, b| area(a).total_cmp(&area(b)).then(a.cmp(b)));
+            found.parent[i] =
+                around.into_iter().min_by(|a, b| area(a).total_cmp(&area(b)).then(a.cmp(b)));
         }
         Ok(found)
     }
@@ -76,7 +71,7 @@ impl Contours {
         let slack = DVec2::splat(gap);
         let mut candidates = Vec::new();
         let middle = low.midpoint(high);
-        ended(boxes.in_box(middle, middle, |b| {
+        ended(boxes.boxes_around(middle, |b| {
             candidates.push(numbers[b]);
             flow(work.compare(1))
         }))?;

@@ -39,8 +39,10 @@ pub(super) fn units(artwork: &Artwork, report: &mut LintReport) {
 
 pub(super) fn not_flat(artwork: &Artwork, report: &mut LintReport) {
     if let Some((count, at)) = artwork.not_flat {
-        let lines = if count == 1 { "line does" } else { "lines do" };
-        let words = format!("{count} {lines} not lie flat; seen from above its length is not true");
+        let words = match count {
+            1 => "1 line does not lie flat; seen from above its length is not true".to_owned(),
+            _ => format!("{count} lines do not lie flat; seen from above lengths are not true"),
+        };
         report.add(Check::NotFlat, Some(at), "", words);
     }
 }

@@ -63,11 +63,7 @@ pub fn lint_pages(pages: &[Artwork], params: &LintParams) -> Result<Vec<LintRepo
     pages.iter().map(|page| judge(page, params, &mut work)).collect()
 }
 
-fn judge(
-    artwork: &Artwork,
-    params: &LintParams,
-    work: &mut Work,
-) -> Result<LintReport, LintError> {
+fn judge(artwork: &Artwork, params: &LintParams, work: &mut Work) -> Result<LintReport, LintError> {
     let mut report = LintReport::new(&params.skip);
     let joined = lines::join(artwork, params.gap.mm(), params.join(), work)?;
     features::units(artwork, &mut report);

@@ -20,7 +20,8 @@ pub(super) struct Common {
     pub crossing: Option<DVec2>,
     /// A place where they cross while they run along one another.
     pub flat_crossing: Option<DVec2>,
-    /// The least distance, where it is below the reach, and its place; 0 where they touch.
+    /// The least distance of two closed cuts, where it is below the reach, and its place; 0 where
+    /// they touch.
     pub nearest: Option<(f64, DVec2)>,
 }
 
@@ -133,8 +134,7 @@ fn compare(a: &Stroke, b: &Stroke, lines: &[Line], gap: f64, reach: f64) -> Opti
     let is_neighbour = is_own && (a.index + 1 == b.index || closes);
     // Two curves that are one, cut into pieces at other places, have short stretches in common.
     let shortest = if is_own { SHORTEST * gap } else { 0.0 };
-    let mut found =
-        Common { overlap: overlap(a.ends, b.ends, gap, shortest), ..Common::default() };
+    let mut found = Common { overlap: overlap(a.ends, b.ends, gap, shortest), ..Common::default() };
     let [p, q] = a.ends;
     let [r, s] = b.ends;
     if !is_neighbour && segments_cross(p, q, r, s) && !is_touch(a.ends, b.ends, gap) {
@@ -144,7 +144,8 @@ fn compare(a: &Stroke, b: &Stroke, lines: &[Line], gap: f64, reach: f64) -> Opti
             Some(_) => found.flat_crossing = at,
         }
     }
-    if !is_own {
+    let is_contour = |s: &Stroke| lines[s.line].closed && lines[s.line].operation.is_cut();
+    if !is_own && is_contour(a) && is_contour(b) {
         let (distance, at) = nearest(a.ends, b.ends);
         found.nearest = (distance < reach).then_some((distance, at));
     }
@@ -154,12 +155,7 @@ fn compare(a: &Stroke, b: &Stroke, lines: &[Line], gap: f64, reach: f64) -> Opti
 
 /// The length along which two segments run on one another, and its middle. Ends that only meet are
 /// no overlap.
-fn overlap(
-    a: [DVec2; 2],
-    b: [DVec2; 2],
-    gap: f64,
-    shortest: f64,
-) -> Option<(f64, DVec2)> {
+fn overlap(a: [DVec2; 2], b: [DVec2; 2], gap: f64, shortest: f64) -> Option<(f64, DVec2)> {
     let (long, short) = if a[0].distance(a[1]) >= b[0].distance(b[1]) { (a, b) } else { (b, a) };
     let length = long[0].distance(long[1]);
     let along = (long[1] - long[0]) / length;

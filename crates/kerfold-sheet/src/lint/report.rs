@@ -128,6 +128,8 @@ pub struct UnknownCheck {
     pub name: String,
 }
 
+codes!(error struct UnknownCheck = 813);
+
 fn names() -> [&'static str; 13] {
     Check::ALL.map(Check::name)
 }

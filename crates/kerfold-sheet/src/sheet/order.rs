@@ -348,9 +348,9 @@ impl<'a> Nearest<'a> {
             }
             let Some(way) = self.way(entry) else { continue };
             let distance = at.distance(way.ends[0]);
-            let is_nearer = best.as_ref().is_none_or(|b| {
-                distance.total_cmp(&b.0).then(way.mark.cmp(&b.1.mark)).is_lt()
-            });
+            let is_nearer = best
+                .as_ref()
+                .is_none_or(|b| distance.total_cmp(&b.0).then(way.mark.cmp(&b.1.mark)).is_lt());
             if is_nearer {
                 *best = Some((distance, way));
             }

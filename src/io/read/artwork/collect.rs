@@ -102,11 +102,7 @@ impl<'a> Collector<'a> {
         self.art.notes.extend(note);
     }
 
-    pub fn finish(
-        mut self,
-        size: Option<DVec2>,
-        unit: UnitState,
-    ) -> Result<Artwork, ArtError> {
+    pub fn finish(mut self, size: Option<DVec2>, unit: UnitState) -> Result<Artwork, ArtError> {
         if size.is_some_and(|s| !is_in_range(s)) {
             return Err(ArtError::OutOfRange { what: "the page".to_owned() });
         }

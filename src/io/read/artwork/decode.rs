@@ -103,7 +103,10 @@ pub(super) fn check_xml(text: &str, budget: &Budget) -> Result<(), ArtError> {
         tag.bytes().filter(|b| *b == b'=').count()
     });
     if attributes.max().unwrap_or(0) > MOST_ATTRIBUTES {
-        return Err(ArtError::TooMuch { what: "attributes of one element", limit: MOST_ATTRIBUTES });
+        return Err(ArtError::TooMuch {
+            what: "attributes of one element",
+            limit: MOST_ATTRIBUTES,
+        });
     }
     let values: Vec<&str> = text.split("<!ENTITY").skip(1).filter_map(quoted).collect();
     let Some(longest) = values.iter().map(|v| v.len()).max() else { return Ok(()) };

@@ -82,6 +82,8 @@ struct Layer {
     colour: i64,
     /// Why they are not, if so; frozen layers hide what is put on them, too.
     hidden: Option<&'static str>,
+    /// Whether they are on paper, too; what is not is a note.
+    is_plotted: bool,
 }
 
 const FROZEN: &str = "entity on a layer that is frozen";
@@ -95,12 +97,11 @@ impl Layer {
             Some(FROZEN)
         } else if colour < 0 {
             Some(OFF)
-        } else if entity.number(290) == Some(0.0) {
-            Some(NOT_PLOTTED)
         } else {
             None
         };
-        Self { colour: colour.abs().max(1), hidden }
+        let is_plotted = entity.number(290) != Some(0.0);
+        Self { colour: colour.abs().max(1), hidden, is_plotted }
     }
 }
 
@@ -288,7 +289,7 @@ impl<'a> Insertion<'a> {
         let own = entity.text(8).unwrap_or("0");
         let layer = place.layer.filter(|_| own == "0").unwrap_or(own);
         let known = self.drawing.layers.get(&folded(layer)).copied();
-        let known = known.unwrap_or(Layer { colour: 7, hidden: None });
+        let known = known.unwrap_or(Layer { colour: 7, hidden: None, is_plotted: true });
         // What is put on a layer that is only switched off may lie on others.
         let is_hidden = |why| entity.kind != "INSERT" || why == FROZEN;
         if let Some(why) = known.hidden.filter(|why| is_hidden(*why)) {
@@ -304,30 +305,47 @@ impl<'a> Insertion<'a> {
         let here = Placement { transform, layer: Some(layer), colour, ..*place };
         match entity.kind {
             "INSERT" => self.insert(entity, &here),
-            "TEXT" | "MTEXT" | "ATTRIB" => self.text(entity, layer, &here),
             "ATTDEF" | "VIEWPORT" => Ok(()),
-            _ => self.line(entity, layer, &here),
+            kind => {
+                let operation = self.operation(layer, known);
+                let colour = index_colour(here.colour);
+                let put = Place { layer, name: None, operation, colour };
+                if matches!(kind, "TEXT" | "MTEXT" | "ATTRIB") {
+                    self.text(entity, &put, &here)
+                } else {
+                    self.line(entity, &put, &here)
+                }
+            }
         }
+    }
+
+    /// What is done on a layer, as far as it tells.
+    fn operation(&mut self, layer: &str, known: Layer) -> Option<Operation> {
+        let told = Operation::of_name(layer);
+        if known.is_plotted || told == Some(Operation::Info) {
+            return told;
+        }
+        self.out.unread(NOT_PLOTTED);
+        Some(Operation::Info)
     }
 
     fn text(
         &mut self,
         entity: &Entity<'_>,
-        layer: &str,
+        put: &Place<'_>,
         here: &Placement<'_>,
     ) -> Result<(), ArtError> {
         // Long texts come in pieces, the last one under code 1.
         let pieces = entity.pairs.iter().filter(|p| matches!(p.0, 1 | 3));
         let text: String = pieces.map(|p| p.1.trim()).collect();
         let at = here.transform.transform_point2(entity.point(10).unwrap_or_default());
-        let (operation, colour) = (Operation::of_name(layer), index_colour(here.colour));
-        self.out.text(&text, at, &Place { layer, name: None, operation, colour })
+        self.out.text(&text, at, put)
     }
 
     fn line(
         &mut self,
         entity: &Entity<'_>,
-        layer: &str,
+        put: &Place<'_>,
         here: &Placement<'_>,
     ) -> Result<(), ArtError> {
         let Some(Outline { points, closed, is_flat, is_exact }) =
@@ -339,8 +357,7 @@ impl<'a> Insertion<'a> {
         let points: Vec<DVec2> =
             points.into_iter().map(|p| here.transform.transform_point2(p)).collect();
         let first = points.first().copied();
-        let (operation, colour) = (Operation::of_name(layer), index_colour(here.colour));
-        self.out.path((points, closed), &Place { layer, name: None, operation, colour })?;
+        self.out.path((points, closed), put)?;
         if !is_exact {
             self.out.unread("spline through points, taken as straight lines between them");
         }

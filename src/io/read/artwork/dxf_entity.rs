@@ -44,9 +44,8 @@ pub(super) fn outline(
 fn is_flat(entity: &Entity<'_>) -> bool {
     let is_level = |codes: &[i32], entity: &Entity<'_>| {
         let heights = codes.iter().flat_map(|&code| entity.numbers(code));
-        let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), z| {
-            (l.min(z), h.max(z))
-        });
+        let (low, high) =
+            heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), z| (l.min(z), h.max(z)));
         low > high || high - low <= FLATNESS
     };
     let is_upright = entity.normal().truncate().abs().max_element() < 1e-6;
@@ -57,9 +56,8 @@ fn is_flat(entity: &Entity<'_>) -> bool {
         "POINT" => true,
         "POLYLINE" => {
             let heights = entity.vertices.iter().filter_map(|v| v.number(30));
-            let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), z| {
-                (l.min(z), h.max(z))
-            });
+            let (low, high) =
+                heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), z| (l.min(z), h.max(z)));
             is_upright && (low > high || high - low <= FLATNESS)
         }
         _ => is_upright,
@@ -160,10 +158,7 @@ fn ellipse(entity: &Entity<'_>, flattener: &Flattener<'_>) -> Result<Option<Line
     part_of_ellipse(centre, [major, minor], range, flattener).map(Some)
 }
 
-fn spline(
-    entity: &Entity<'_>,
-    flattener: &Flattener<'_>,
-) -> Result<Option<Outline>, ArtError> {
+fn spline(entity: &Entity<'_>, flattener: &Flattener<'_>) -> Result<Option<Outline>, ArtError> {
     let zip = |x: i32| -> Vec<DVec2> {
         let (xs, ys) = (entity.numbers(x), entity.numbers(x + 10));
         xs.into_iter().zip(ys).map(|(x, y)| DVec2::new(x, y)).collect()

@@ -103,11 +103,7 @@ fn upright(objects: &Objects, node: &PageNode<'_>) -> Result<(DAffine2, DVec2), 
     Ok((turned * upright, size))
 }
 
-fn contents(
-    objects: &Objects,
-    node: &PageNode<'_>,
-    budget: &Budget,
-) -> Result<Vec<u8>, ArtError> {
+fn contents(objects: &Objects, node: &PageNode<'_>, budget: &Budget) -> Result<Vec<u8>, ArtError> {
     let streams: Vec<&Object> = match node.entry(objects, "Contents") {
         Some(Object::Array(items)) => items.iter().map(|o| objects.get(o)).collect(),
         Some(one) => vec![one],
@@ -172,15 +168,15 @@ impl Painter<'_> {
             };
             let Object::Word(operator) = object else {
                 stack.push(object);
-                if stack.len() > MOST_OPEN {
-                    return Err(ArtError::TooDeep);
-                }
+                check_open(stack.len())?;
                 continue;
             };
             let numbers: Vec<f64> = stack.iter().filter_map(Object::number).collect();
             match operator.as_str() {
-                "q" if saved.len() >= MOST_OPEN => return Err(ArtError::TooDeep),
-                "q" => saved.push(state.clone()),
+                "q" => {
+                    check_open(saved.len())?;
+                    saved.push(state.clone());
+                }
                 "Q" => state = saved.pop().unwrap_or(state),
                 "cm" => state.transform *= matrix(&numbers),
                 "Do" => self.object(&stack, resources, &state, depth)?,
@@ -189,8 +185,8 @@ impl Painter<'_> {
                     skip_image(&mut lexer);
                 }
                 "sh" => self.out.unread("shading"),
-                "BDC" | "BMC" if self.layers.len() >= MOST_OPEN => return Err(ArtError::TooDeep),
                 "BDC" | "BMC" => {
+                    check_open(self.layers.len())?;
                     let layer = self.layer(&stack, resources);
                     self.layers.push(layer);
                 }
@@ -296,12 +292,7 @@ impl Painter<'_> {
     }
 
     /// Live text.
-    fn show(
-        &mut self,
-        stack: &[Object],
-        text: &TextState,
-        state: &State,
-    ) -> Result<(), ArtError> {
+    fn show(&mut self, stack: &[Object], text: &TextState, state: &State) -> Result<(), ArtError> {
         let pieces = stack.iter().flat_map(|object| match object {
             Object::Array(items) => items.as_slice(),
             other => std::slice::from_ref(other),
@@ -380,6 +371,12 @@ impl Painter<'_> {
         };
         Layer { name, is_hidden }
     }
+}
+
+/// Refuses what is opened again and again and never closed.
+fn check_open(count: usize) -> Result<(), ArtError> {
+    let what = "states, layers or operands that are open at a time";
+    if count < MOST_OPEN { Ok(()) } else { Err(ArtError::TooMuch { what, limit: MOST_OPEN }) }
 }
 
 /// What shows after clipping by a path, too: what its box and the box before have in common.

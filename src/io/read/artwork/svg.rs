@@ -311,10 +311,8 @@ impl<'a> Reader<'a> {
                 vec![(flattener.ellipse(at(["cx", "cy"]), axes)?, true)]
             }
             "rect" => {
-                let (rx, ry) = (
-                    self.given(node, "rx", here.view.x),
-                    self.given(node, "ry", here.view.y),
-                );
+                let (rx, ry) =
+                    (self.given(node, "rx", here.view.x), self.given(node, "ry", here.view.y));
                 let radii = DVec2::new(rx.or(ry).unwrap_or(0.0), ry.or(rx).unwrap_or(0.0));
                 rectangle(at(["x", "y"]), at(["width", "height"]), radii, &flattener)?
             }

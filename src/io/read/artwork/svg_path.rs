@@ -182,8 +182,7 @@ pub(super) fn length(text: &str, whole: f64, per_inch: PerInch) -> Option<(f64, 
 
 /// A list of transforms, the first outermost, up to its first mistake.
 pub(super) fn transform(text: &str) -> DAffine2 {
-    let shear =
-        |x: f64, y: f64| DAffine2::from_mat2(DMat2::from_cols_array(&[1.0, y, x, 1.0]));
+    let shear = |x: f64, y: f64| DAffine2::from_mat2(DMat2::from_cols_array(&[1.0, y, x, 1.0]));
     let tokens = TransformListParser::from(text).map_while(Result::ok);
     tokens.fold(DAffine2::IDENTITY, |all, token| {
         all * match token {

@@ -1,7 +1,10 @@
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
+use glam::DVec2;
+
 use super::*;
+use crate::lint::{ArtPath, Operation, UnitState};
 
 fn one(name: &str, text: &str) -> Artwork {
     read_artwork(Path::new(name), text.as_bytes()).unwrap_or_else(|e| panic!("{e}")).1.remove(0)
@@ -183,4 +186,145 @@ fn cut_off_and_garbled_files_end_in_words_not_in_panics() {
             let _ = read_artwork(Path::new("x"), &garbled);
         }
     }
+}
+
+#[test]
+fn bombs_end_in_an_error_with_the_limit() {
+    let tens = |one: &str| one.repeat(10);
+    let uses =
+        (1..8).map(|k| format!("<g id='l{k}'>{}</g>", tens(&format!("<use href='#l{}'/>", k - 1))));
+    let uses: String = uses.collect();
+    let svg = format!(
+        "<svg xmlns='http://www.w3.org/2000/svg'><path id='l0' d='M0 0h1'/>{uses}<use href='#l7'/></svg>"
+    );
+    let entity = format!("<!DOCTYPE svg [<!ENTITY a '{}'>]>", "x".repeat(100_000));
+    let entities = format!(
+        "{entity}<svg xmlns='http://www.w3.org/2000/svg'><text>{}</text></svg>",
+        "&a;".repeat(2000)
+    );
+    let far = "<svg xmlns='http://www.w3.org/2000/svg'><path d='M0 0C0 9e9 9e9 0 9e9 9e9'/></svg>";
+    let attributes = "a='' ".repeat(3000);
+    let attributes = format!("<svg xmlns='http://www.w3.org/2000/svg' {attributes}/>");
+    let block = "0 BLOCK 2 A 0 LINE 10 0 20 0 11 1 21 1 0 ENDBLK";
+    let arrays = format!(
+        "0 SECTION 2 BLOCKS {block} 0 ENDSEC 0 SECTION 2 ENTITIES 0 INSERT 2 A 70 1000 71 1000 0 \
+        ENDSEC 0 EOF"
+    );
+    let arrays = arrays.split_whitespace().map(|w| format!("{w}\n")).collect::<String>();
+    let page = "%PDF-1.4 1 0 obj <</Type/Catalog/Pages 2 0 R>> endobj 3 0 obj \
+                <</Type/Pages/Kids[4 0 R]>> endobj 4 0 obj <</Type/Page/Contents 5 0 R>> endobj";
+    let pages = format!("{page} 2 0 obj <</Type/Pages/Kids[{}]>> endobj", "4 0 R ".repeat(1001));
+    let open = format!(
+        "{page} 2 0 obj <</Type/Pages/Kids[4 0 R]>> endobj 5 0 obj <<>> stream {} endstream",
+        "q ".repeat(5000)
+    );
+    let bombs =
+        [svg.as_str(), &entities, far, &attributes, arrays.as_str(), pages.as_str(), open.as_str()];
+    for bomb in bombs {
+        let error = read_artwork(Path::new("x.svg"), bomb.as_bytes()).err();
+        assert!(matches!(error, Some(ArtError::TooMuch { .. })), "{error:?}");
+    }
+}
+
+#[test]
+fn numbers_that_are_none_are_named() {
+    for body in [
+        "<path id='p' d='M0 0L1e999 5'/>",
+        "<circle id='p' r='1e999'/>",
+        "<path id='p' d='M0 0L1e30 5'/>",
+        "<g transform='scale(1e300)'><path id='p' d='M0 0L1e30 5'/></g>",
+    ] {
+        let text = format!("<svg xmlns='http://www.w3.org/2000/svg' width='9mm'>{body}</svg>");
+        let error = read_artwork(Path::new("x"), text.as_bytes()).map_err(|e| e.to_string());
+        assert!(error.as_ref().is_err_and(|e| e.contains('p')), "{body}: {error:?}");
+    }
+    for (code, number) in [(40, "inf"), (40, "nan"), (10, "1e20"), (40, "1e400")] {
+        let circle =
+            format!("0 SECTION 2 ENTITIES 0 CIRCLE {code} {number} 10 1 20 1 40 2 0 ENDSEC 0 EOF");
+        let circle: String = circle.split_whitespace().map(|w| format!("{w}\n")).collect();
+        let error = read_artwork(Path::new("x.dxf"), circle.as_bytes()).err();
+        assert!(matches!(error, Some(ArtError::OutOfRange { .. })), "{number}: {error:?}");
+    }
+}
+
+#[test]
+fn svg_pages_are_as_large_as_they_say() {
+    let page = |attributes: &str| {
+        let text = format!(
+            "<svg xmlns='http://www.w3.org/2000/svg' {attributes}><path d='M0 0h90'/></svg>"
+        );
+        let art = one("x.svg", &text);
+        (art.size, art.unit == UnitState::Known, length(&art.paths[0]))
+    };
+    for side in ["width='100mm'", "height='60mm'", "width='100mm' height='100%'"] {
+        let (size, is_known, length) = page(&format!("{side} viewBox='0 0 200 120'"));
+        assert!(size.is_some_and(|s| s.distance(DVec2::new(100.0, 60.0)) < 1e-9) && is_known);
+        assert!((length - 45.0).abs() < 1e-9, "{side}: {length}");
+    }
+    assert!(!page("viewBox='0 0 200 120'").1);
+    let old = "xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape' width='50.8mm' \
+               height='25.4mm' inkscape:version=";
+    assert!((page(&format!("{old}'0.48.4 r9939'")).2 - 25.4).abs() < 1e-9);
+    assert!((page(&format!("{old}'0.92.3'")).2 - 25.4 * 90.0 / 96.0).abs() < 1e-9);
+}
+
+#[test]
+fn svg_styles_win_over_attributes_and_visibility_is_inherited() {
+    let art = svg("<style>path{stroke:blue} #b{stroke:lime !important}</style>\
+         <path display='none' style='display:inline' d='M0 0H10'/>\
+         <path stroke='red' d='M0 1H10'/><path id='b' style='stroke:red' d='M0 2H10'/>\
+         <g visibility='hidden'><path d='M0 3H10'/><path visibility='visible' d='M0 4H10'/></g>\
+         <text x='2' y='2'>Lid</text><path clip-path='url(#c)' d='M0 5H10'/>");
+    assert_eq!(art.paths.len(), 5);
+    assert_eq!(art.texts.iter().map(|t| t.text.as_str()).collect::<Vec<_>>(), ["Lid"]);
+    assert!(art.unread[0].0.starts_with("clip-path"), "{:?}", art.unread);
+}
+
+#[test]
+fn svg_is_read_in_other_encodings_and_packed() {
+    let text = "<?xml version='1.0' encoding='ISO-8859-1'?><svg \
+                xmlns='http://www.w3.org/2000/svg'><path id='Köln' d='M0 0h9'/></svg>";
+    let latin: Vec<u8> = text.chars().map(|c| c as u32 as u8).collect();
+    let wide = |swap: bool| {
+        let units = std::iter::once(0xfeff).chain(text.encode_utf16());
+        units.flat_map(|u| if swap { u.to_be_bytes() } else { u.to_le_bytes() }).collect()
+    };
+    let packed = miniz_oxide::deflate::compress_to_vec(text.as_bytes(), 6);
+    let gzip = [b"\x1f\x8b\x08\x08\0\0\0\0\0\x03x.svg\0".to_vec(), packed].concat();
+    for bytes in [text.as_bytes().to_vec(), latin, wide(false), wide(true), gzip] {
+        let art =
+            read_artwork(Path::new("x"), &bytes).unwrap_or_else(|e| panic!("{e}")).1.remove(0);
+        assert_eq!(art.paths[0].name.as_deref(), Some("Köln"));
+    }
+}
+
+#[test]
+fn dxf_names_know_no_case_and_missing_blocks_are_named() {
+    let layers = "0 SECTION 2 TABLES 0 LAYER 2 OFF 62 -7 0 LAYER 2 ICE 70 1 62 7 0 LAYER 2 SHY 62 7 \
+                  290 0 0 ENDSEC";
+    let block = "0 BLOCK 2 Door 10 0 20 0 0 LINE 8 cut 10 0 20 0 11 5 21 0 0 ENDBLK";
+    let entities = "0 INSERT 8 off 2 dOOR 10 1 20 1 0 INSERT 8 ice 2 DOOR 10 1 20 1 0 INSERT 2 gate \
+                    0 LINE 8 Off 10 0 20 0 11 1 21 1 0 LINE 8 shy 10 0 20 0 11 1 21 1";
+    let art = dxf(4, &format!("{block} 0 ENDSEC {layers} 0 SECTION 2 REST"), entities);
+    // What is not plotted is there, and never machined.
+    let operations: Vec<Operation> = art.paths.iter().map(|p| p.operation).collect();
+    assert_eq!(operations, [Operation::Cut, Operation::Info]);
+    let kinds: Vec<&str> = art.unread.iter().map(|(kind, _)| kind.as_str()).collect();
+    assert_eq!(kinds.len(), 4, "{kinds:?}");
+    assert!(kinds.iter().any(|kind| kind.contains("`gate`")), "{kinds:?}");
+}
+
+#[test]
+fn dxf_curves_with_normal_down_stay_and_run_the_other_way() {
+    let down = "210 0 220 0 230 -1";
+    let quarter = format!("0 ELLIPSE 10 50 20 50 11 20 21 0 40 0.5 41 0 42 1.5707963267949 {down}");
+    let art = dxf(4, "", &quarter);
+    let last = art.paths[0].points.last().copied().unwrap_or_default();
+    assert!(last.distance(DVec2::new(50.0, 40.0)) < 1e-9, "{last}");
+    // Circles are in a plane of their own, which is turned over.
+    let circle = dxf(4, "", &format!("0 CIRCLE 10 50 20 50 40 3 {down}"));
+    assert!(circle.paths[0].points.iter().all(|p| p.x < 0.0));
+    let tilted = dxf(4, "", "0 CIRCLE 10 0 20 0 40 3 210 1 220 0 230 1");
+    assert_eq!(tilted.not_flat.map(|n| n.0), Some(1));
+    assert_eq!(dxf(4, "", "0 LINE 10 0 20 0 30 1 11 5 21 0 31 1").not_flat, None);
 }

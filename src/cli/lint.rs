@@ -159,13 +159,9 @@ fn verdict(page: &Judged) -> String {
     let size = size.map_or(String::new(), |s| format!(" on {} × {} mm", short(s.x), short(s.y)));
     let findings = match page.report.findings.len() {
         0 => "pass".to_owned(),
-        count => format!("FAIL, {}", counted(count, "finding")),
+        count => format!("FAIL, {}", counted(count, "finding", "findings")),
     };
-    format!("{}{size}: {findings}", counted(page.artwork.paths.len(), "line"))
-}
-
-fn counted(count: usize, what: &str) -> String {
-    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+    format!("{}{size}: {findings}", counted(page.artwork.paths.len(), "line", "lines"))
 }
 
 fn names(checks: &[Check]) -> Vec<&'static str> {

@@ -107,8 +107,7 @@ fn nested(
 fn read_recipe(path: &Path) -> Result<Recipe, CliError> {
     let bytes = std::fs::read(path)
         .map_err(|error| CliError::Unreadable { path: path.to_owned(), error })?;
-    let text =
-        decode_text(&bytes).map_err(|at| CliError::NotText { path: path.to_owned(), at })?;
+    let text = decode_text(&bytes).map_err(|at| CliError::NotText { path: path.to_owned(), at })?;
     Recipe::parse(&text).map_err(|error| CliError::Recipe {
         path: path.to_owned(),
         error: Box::new(error),

@@ -14,8 +14,8 @@ pub(super) fn recipe_snippet(path: &Path, text: &str, error: &RecipeError) -> Op
     let path = path.to_string_lossy();
     let mark = AnnotationKind::Primary.span(span).label(error.advice());
     let snippet = Snippet::source(text).path(path).annotation(mark);
-    let is_coloured =
-        std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
+    let is_coloured = std::io::stderr().is_terminal()
+        && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
     let renderer = if is_coloured { Renderer::styled() } else { Renderer::plain() };
     Some(renderer.render(&[Group::with_level(Level::ERROR).element(snippet)]))
 }

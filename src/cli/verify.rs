@@ -11,8 +11,8 @@ use super::unfold::net_text;
 use super::{Console, Outcome};
 use crate::code::Coded;
 use crate::io::ReadOptions;
-use crate::io::pieces_json::read_pieces_json;
 use crate::io::decode_text;
+use crate::io::pieces_json::read_pieces_json;
 use crate::mesh::Mesh;
 use crate::net::{Net, Proof};
 use crate::unfold::{LENGTH_LIMIT, ProofError, REFOLD_LIMIT, prove, renumbered};
@@ -51,8 +51,7 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Result<Outcome, CliEr
 fn read_net(path: &Path) -> Result<Net, CliError> {
     let bytes = std::fs::read(path)
         .map_err(|error| CliError::Unreadable { path: path.to_owned(), error })?;
-    let text =
-        decode_text(&bytes).map_err(|at| CliError::NotText { path: path.to_owned(), at })?;
+    let text = decode_text(&bytes).map_err(|at| CliError::NotText { path: path.to_owned(), at })?;
     let (net, _) = read_pieces_json(&text)
         .map_err(|error| CliError::Pieces { path: path.to_owned(), error })?;
     if net.scale > 0.0 && net.scale.is_finite() {

@@ -72,7 +72,10 @@ mod tests {
         assert_eq!(holds("OFF8 6 12\n"), Some(MeshFormat::Off));
         assert_eq!(holds("OFFICE\n"), None);
         assert_eq!(holds("# made by hand\nv 0 0 0\n"), Some(MeshFormat::Obj));
-        assert_eq!(holds("solid x\n facet normal 0 0 1\n outer loop\n vertex 0 0 0"), Some(MeshFormat::Stl));
+        assert_eq!(
+            holds("solid x\n facet normal 0 0 1\n outer loop\n vertex 0 0 0"),
+            Some(MeshFormat::Stl)
+        );
         assert_eq!(holds("hello"), None);
         assert_eq!(holds(""), None);
     }

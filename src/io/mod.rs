@@ -26,8 +26,8 @@ pub use format::MeshFormat;
 pub(crate) use number::xml as escaped;
 pub use read::artwork;
 pub use read::{
-    MeshUnit, ReadMesh, ReadNote, ReadOptions, decode_text, read_mesh, read_mesh_bytes, read_points,
-    read_seams, read_text,
+    MeshUnit, ReadMesh, ReadNote, ReadOptions, decode_text, read_mesh, read_mesh_bytes,
+    read_points, read_seams, read_text,
 };
 pub use write::glb;
 pub use write::plates;

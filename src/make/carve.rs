@@ -109,11 +109,6 @@ pub fn carve_dform(
     }
 }
 
-/// A number with the right word.
-fn counted(count: usize, one: &str, many: &str) -> String {
-    format!("{count} {}", if count == 1 { one } else { many })
-}
-
 /// What became of some choices of folds at one offset.
 enum Carving {
     /// The first that lies flat in as many pieces as it promised, after some that do not.

@@ -239,11 +239,6 @@ fn mitre_note(mitred: &[(EdgeLabel, f64)]) -> Option<String> {
         .then(|| format!("mitre, off the square edge of either side: {}", angles.join("; ")))
 }
 
-/// A number with the words for one or for several.
-fn counted(count: usize, one: &str, several: &str) -> String {
-    format!("{count} {}", if count == 1 { one } else { several })
-}
-
 /// The first names of a list of edges.
 fn edge_list(edges: &[EdgeLabel]) -> String {
     const LISTED: usize = 12;

@@ -236,11 +236,10 @@ impl StepFields<'_> {
             document += &format!("{field} = {}\n", self.value_text(entry)?);
             places.push((start..document.len(), span.start));
         }
-        let deserializer =
-            toml::Deserializer::parse(&document).map_err(|e| {
-                // Each value was read once; only together they can be wrong.
-                self.source.bad(self.span.clone(), e.message())
-            })?;
+        let deserializer = toml::Deserializer::parse(&document).map_err(|e| {
+            // Each value was read once; only together they can be wrong.
+            self.source.bad(self.span.clone(), e.message())
+        })?;
         T::deserialize(deserializer).map_err(|e| {
             // What is wrong with the step as a whole, such as a missing field, spans all of its
             // text or none of it.

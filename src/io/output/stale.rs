@@ -12,9 +12,23 @@ use std::path::{Path, PathBuf};
 const DRAWINGS: [&str; 4] = ["svg", "dxf", "pdf", "lbrn2"];
 /// Names that are the same in every run.
 const FIXED: [&str; 17] = [
-    "pieces.json", "layout.json", "assembly.txt", "panels.json", "panels.csv", "edges.csv",
-    "nodes.csv", "cutting-list.csv", "assembly-map.svg", "assembly-map.pdf", "plates.step",
-    "plates.obj", "plates.glb", "plates.stl", "model.obj", "report.json", "report.html",
+    "pieces.json",
+    "layout.json",
+    "assembly.txt",
+    "panels.json",
+    "panels.csv",
+    "edges.csv",
+    "nodes.csv",
+    "cutting-list.csv",
+    "assembly-map.svg",
+    "assembly-map.pdf",
+    "plates.step",
+    "plates.obj",
+    "plates.glb",
+    "plates.stl",
+    "model.obj",
+    "report.json",
+    "report.html",
 ];
 /// How every command line in a file begins.
 const COMMAND: &[u8] = b"kerfold ";
@@ -94,12 +108,19 @@ mod tests {
 
     #[test]
     fn names_of_others_are_not_ours() {
-        for ours in ["sheet-01.svg", "sheet-12-a4.pdf", "P07.dxf", "pieces.json", "sheet-100.lbrn2"] {
+        for ours in ["sheet-01.svg", "sheet-12-a4.pdf", "P07.dxf", "pieces.json", "sheet-100.lbrn2"]
+        {
             assert!(is_ours_by_name(ours), "{ours}");
         }
-        for other in
-            ["sheet.svg", "sheet-1a.svg", "sheet-01.txt", "sheet-01-.pdf", "P.svg", "Page.pdf", "x.json"]
-        {
+        for other in [
+            "sheet.svg",
+            "sheet-1a.svg",
+            "sheet-01.txt",
+            "sheet-01-.pdf",
+            "P.svg",
+            "Page.pdf",
+            "x.json",
+        ] {
             assert!(!is_ours_by_name(other), "{other}");
         }
     }

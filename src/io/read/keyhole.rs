@@ -121,7 +121,8 @@ fn grown(triangles: Vec<[u32; 3]>, borders: &[[u32; 2]]) -> Vec<Vec<u32>> {
         let mut at = 0;
         while at < polygon.len() {
             let (a, b) = (polygon[at], polygon[(at + 1) % polygon.len()]);
-            let over = at_side.get(&[b, a]).filter(|&&t| !is_taken[t] && !borders.contains(&[a, b]));
+            let over =
+                at_side.get(&[b, a]).filter(|&&t| !is_taken[t] && !borders.contains(&[a, b]));
             let tip = over.and_then(|&t| {
                 let tip = triangles[t].into_iter().find(|&v| v != a && v != b)?;
                 (!polygon.contains(&tip)).then_some((t, tip))
@@ -160,9 +161,10 @@ mod tests {
     fn a_hole_is_kept_by_polygons_around_it() {
         let positions: Vec<DVec3> = square(0.0, 60.0)
             .into_iter()
-            .chain([[20., 20.], [20., 40.], [40., 40.], [40., 20.]].map(|[x, y]| {
-                DVec3::new(x, y, 0.3 * x - 2.0 * y)
-            }))
+            .chain(
+                [[20., 20.], [20., 40.], [40., 40.], [40., 20.]]
+                    .map(|[x, y]| DVec3::new(x, y, 0.3 * x - 2.0 * y)),
+            )
             .collect();
         let face = [0, 1, 2, 3, 0, 4, 5, 6, 7, 4];
         assert!(visits_twice(&face));

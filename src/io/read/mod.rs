@@ -25,9 +25,9 @@ mod text;
 mod weld;
 
 pub use decode::{decode_text, read_text};
+pub(super) use off::begins_off;
 pub use points::read_points;
 pub use seams::read_seams;
-pub(super) use off::begins_off;
 pub(super) use stl::is_binary as is_binary_stl;
 
 /// How a mesh file is taken.

@@ -17,8 +17,23 @@ const SEAM: &str = "seam";
 const NO_GROUP: &str = "default";
 /// Statements that make no shape, so nobody misses them.
 const LOOKS: [&[u8]; 17] = [
-    b"vt", b"vn", b"s", b"mg", b"usemtl", b"mtllib", b"usemap", b"maplib", b"bevel", b"c_interp",
-    b"d_interp", b"lod", b"shadow_obj", b"trace_obj", b"ctech", b"stech", b"vp",
+    b"vt",
+    b"vn",
+    b"s",
+    b"mg",
+    b"usemtl",
+    b"mtllib",
+    b"usemap",
+    b"maplib",
+    b"bevel",
+    b"c_interp",
+    b"d_interp",
+    b"lod",
+    b"shadow_obj",
+    b"trace_obj",
+    b"ctech",
+    b"stech",
+    b"vp",
 ];
 
 pub(super) fn read(bytes: &[u8]) -> Result<RawMesh, Located> {
@@ -38,9 +53,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawMesh, Located> {
         return Err(missing_vertex(bytes, raw.face_lines[face] as usize, index, count));
     }
     match raw.seams.iter().find(|seam| seam.ends.iter().any(is_missing)) {
-        Some(seam) => {
-            Err(missing_vertex(bytes, seam.line, seam.ends[0].max(seam.ends[1]), count))
-        }
+        Some(seam) => Err(missing_vertex(bytes, seam.line, seam.ends[0].max(seam.ends[1]), count)),
         None => Ok(raw),
     }
 }
@@ -157,8 +170,7 @@ impl Scan {
         let Counted { count, first } = self.weights;
         let weights = (count > 0).then_some(ReadNote::Weights { count, first });
         let Counted { count, first } = self.passed_over;
-        let passed_over =
-            (count > 0).then_some(ReadNote::PassedOver { count, first_line: first });
+        let passed_over = (count > 0).then_some(ReadNote::PassedOver { count, first_line: first });
         self.raw.notes.extend(self.commas.note().into_iter().chain(weights).chain(passed_over));
         self.raw
     }
@@ -337,7 +349,8 @@ mod tests {
 
     #[test]
     fn what_is_passed_over_is_noted_and_names_may_be_latin() {
-        let text = b"v 0 0 0\nv 1 0 0\nv 0 1 0\ncstype bezier\nl 1 2\ng W\xe4nde\nvt 0 0\nf 1 2 3\n";
+        let text =
+            b"v 0 0 0\nv 1 0 0\nv 0 1 0\ncstype bezier\nl 1 2\ng W\xe4nde\nvt 0 0\nf 1 2 3\n";
         let raw = read(text).expect("an OBJ");
         assert_eq!(raw.notes, [ReadNote::PassedOver { count: 2, first_line: 4 }]);
         assert_eq!(raw.groups[0].name.as_deref(), Some("Wände"));

@@ -115,7 +115,8 @@ impl RawMesh {
             }
             at += 1;
         });
-        self.notes.extend(repeated.map(|(count, first)| ReadNote::RepeatedCorners { count, first }));
+        self.notes
+            .extend(repeated.map(|(count, first)| ReadNote::RepeatedCorners { count, first }));
         self.notes.extend(dropped.map(|(count, first)| ReadNote::DroppedFaces { count, first }));
     }
 

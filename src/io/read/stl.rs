@@ -106,7 +106,9 @@ fn of_text(text: &[u8]) -> Result<Soup, Located> {
                 return Err(fault("a triangle needs three `vertex` lines"));
             }
             soup.triangle_lines.push(line as u32 - 3);
-        } else if [&b"solid"[..], b"facet", b"outerloop", b"endfacet", b"endsolid"].into_iter().any(is)
+        } else if [&b"solid"[..], b"facet", b"outerloop", b"endfacet", b"endsolid"]
+            .into_iter()
+            .any(is)
         {
             if started != 0 {
                 return Err(fault("a triangle needs three `vertex` lines and an `endloop`"));
@@ -238,7 +240,11 @@ mod tests {
             TEXT.replace("0 1 0", "0,0 1,0 0"),
         ] {
             let raw = read(text.as_bytes()).expect(&text);
-            assert_eq!((&raw.positions, &raw.corners), (&plain.positions, &plain.corners), "{text}");
+            assert_eq!(
+                (&raw.positions, &raw.corners),
+                (&plain.positions, &plain.corners),
+                "{text}"
+            );
         }
         let mut longer = binary_file(b"", &[[0., 0., 0., 1., 0., 0., 0., 1., 0.]]);
         longer.extend([7, 7, 0, 0]);

@@ -207,11 +207,11 @@ fn free_corner(drawing: &Drawing, stock: &Stock, side: f64) -> Option<DVec2> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::distance::edges;
     use super::super::drawing::LayerKind;
     use super::super::drawing::Mark;
     use super::super::lay_out;
     use super::super::testing::{net_of, random_convex, ring, square, strips, two_pieces};
-    use super::super::distance::edges;
     use super::super::{Labels, LetterParams, ScoreParams, ScoreStyle, StockParams};
     use super::super::{NestParams, Rotation};
     use super::*;

@@ -260,8 +260,8 @@ fn sharpened(points: Vec<DVec2>, least: f64) -> Vec<DVec2> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::{ell, piece, points, random_convex, ring, square};
     use super::super::distance::distance_to_contour;
+    use super::super::testing::{ell, piece, points, random_convex, ring, square};
     use super::*;
     use crate::geom::polygon::{Location, locate, segments_cross};
     use proptest::prelude::*;

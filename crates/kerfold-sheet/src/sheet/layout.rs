@@ -353,8 +353,8 @@ fn draw_sheet(drawing: &mut Drawing, sheet: &Sheet, stock: &StockSheet) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::{ell, net_of, random_convex, ring, square};
     use super::super::distance::contour_distance;
+    use super::super::testing::{ell, net_of, random_convex, ring, square};
     use super::super::{Labels, LetterParams, NestParams, SheetSize, StockParams};
     use super::*;
     use crate::units::Length;

@@ -48,9 +48,7 @@ pub use kerf_coupon::kerf_coupon;
 pub use layout::{
     Layout, Placed, Sheet, SheetId, SheetReport, SheetSet, fits, lay_out, lay_out_watched,
 };
-pub use letter::{
-    Angles, CAPITAL, Labels, LetterParams, Lettering, Stretch, glyph, lettering,
-};
+pub use letter::{Angles, CAPITAL, Labels, LetterParams, Lettering, Stretch, glyph, lettering};
 pub use material::{Hex, Material, MaterialColours, Speeds};
 pub use nest::{
     CommonLine, Corners, DefectList, GroupList, Guillotine, NestParams, Rotation, RotationList,

@@ -9,9 +9,7 @@ use std::collections::BTreeMap;
 use glam::DVec2;
 
 use super::contact::{overlap, sticks_out};
-pub(crate) use super::distance::{
-    contour_distance, edges,
-};
+pub(crate) use super::distance::{contour_distance, edges};
 use super::error::SheetError;
 use super::kerf::CutShape;
 use super::layout::{Layout, Placed, Sheet, SheetId};

@@ -142,7 +142,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Header, usize, &[u8]), Located> {
             // A comment that runs over several lines. In a text it may stand anywhere: a statement
             // that went lost with it would leave numbers over.
             [word, ..]
-                if !is_misspelt(word) && (was_after_comment || encoding == Some(Encoding::Text)) =>
+                if !is_misspelt(word)
+                    && (was_after_comment || encoding == Some(Encoding::Text)) =>
             {
                 let (count, first) = passed_over.unwrap_or((0, number));
                 passed_over = Some((count + 1, first));

@@ -22,9 +22,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawMesh, Located> {
         Encoding::BinaryBigEndian => elements(&header, Binary::new(body, true)),
     }?;
     let passed_over = header.passed_over;
-    raw.notes.extend(
-        passed_over.map(|(count, first_line)| ReadNote::PassedOver { count, first_line }),
-    );
+    raw.notes
+        .extend(passed_over.map(|(count, first_line)| ReadNote::PassedOver { count, first_line }));
     Ok(raw)
 }
 
@@ -291,7 +290,8 @@ mod tests {
         assert_eq!((raw.vertex_lines, raw.face_lines), (vec![16, 17, 19], vec![21]));
     }
 
-    const CORNERS: &str = "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
+    const CORNERS: &str =
+        "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
     const POINTS: &str = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
 
     #[test]

@@ -12,8 +12,8 @@ use glam::DVec2;
 use super::glyph::lettering;
 use crate::geom::polygon::{Location, borders_meet, bounds, centroid, locate, signed_area};
 use crate::net::{FlatFace, Piece, Segment};
-use crate::sheet::error::SheetError;
 use crate::sheet::distance::{distance_to_contour, edges};
+use crate::sheet::error::SheetError;
 
 /// Height of a piece's name, in mm.
 const NAME_HEIGHT: f64 = 6.0;

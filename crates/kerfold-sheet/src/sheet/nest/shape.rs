@@ -255,8 +255,8 @@ impl Posed {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::testing::random_convex;
     use super::super::super::distance::{contour_distance, distance_to_contour};
+    use super::super::super::testing::random_convex;
     use super::*;
     use proptest::prelude::*;
 

@@ -5,7 +5,7 @@ use glam::DVec2;
 use crate::geom::predicate::orient2d;
 
 /// The convex parts of all faces: lists of corners, numbered within their face.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Parts {
     /// Face → its first part; one entry more than there are faces (none before the first push).
     face_first: Vec<u32>,

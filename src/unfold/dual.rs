@@ -38,7 +38,7 @@ pub(super) struct Hinge {
 }
 
 /// See the module documentation.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Dual {
     pub faces: Vec<FaceId>,
     pub first: Vec<u32>,
@@ -59,6 +59,8 @@ pub(super) struct Dual {
     pub diameter: Vec<f64>,
     /// The edges that may stay together, ascending.
     pub hinges: Vec<Hinge>,
+    /// Whether flat edges open only where nothing else helps.
+    pub keeps_flat: bool,
     /// How deep two faces may sink into each other and still count as touching; see
     /// [`super::overlap`].
     pub bound: f64,
@@ -95,6 +97,7 @@ impl Dual {
             parts: Parts::default(),
             diameter: Vec::new(),
             hinges: Vec::new(),
+            keeps_flat: true,
             bound,
         }
     }
@@ -145,6 +148,12 @@ impl Dual {
             }
         }
         Ok(())
+    }
+
+    /// The same, but flat edges open like others; nothing where there are none.
+    pub fn with_loose_flat_edges(&self) -> Option<Self> {
+        let has_flat = self.hinges.iter().any(|hinge| hinge.fold <= FLAT);
+        has_flat.then(|| Self { keeps_flat: false, ..self.clone() })
     }
 
     /// The edge of a side.

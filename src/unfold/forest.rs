@@ -131,7 +131,7 @@ impl Forest {
             NONE => false,
             s => {
                 let hinge = dual.hinges[dual.hinge[s as usize] as usize];
-                hinge.is_kept || hinge.fold <= FLAT
+                hinge.is_kept || (dual.keeps_flat && hinge.fold <= FLAT)
             }
         }
     }

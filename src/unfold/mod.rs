@@ -88,6 +88,8 @@ pub fn unfold(
     progress: &dyn Progress,
 ) -> Result<Net, UnfoldError> {
     let dual = Dual::new(mesh, seams)?;
+    let loose = dual.with_loose_flat_edges();
+    let duals = [&dual, loose.as_ref().unwrap_or(&dual)];
     let faces = dual.face_count();
     if let PiecesMode::Count(asked) = params.pieces
         && asked > faces
@@ -103,9 +105,9 @@ pub fn unfold(
         }),
         PiecesMode::Count(2) => match d_form::two_pieces(&dual, mesh, seams, params, progress)? {
             Some(layout) => layout,
-            None => counted(fewest(&dual, mesh, seams, params, progress), params.pieces)?,
+            None => counted(fewest(duals, mesh, seams, params, progress), params.pieces)?,
         },
-        _ => counted(fewest(&dual, mesh, seams, params, progress), params.pieces)?,
+        _ => counted(fewest(duals, mesh, seams, params, progress), params.pieces)?,
     };
     let mut net = result::net(mesh, &layout, source);
     if let Seams::Within { keep, .. } = seams {
@@ -125,9 +127,10 @@ struct Tried {
 
 /// The layout with the fewest pieces that the search finds: attempts from other starts, at most one
 /// more than there are steps of effort, until there are as few pieces as can be or the budget is
-/// spent; then seams of its own choice are made shorter.
+/// spent; then seams of its own choice are made shorter. The first attempt keeps flat edges together
+/// as far as can be, and later ones open them only for fewer pieces.
 fn fewest<'a>(
-    dual: &'a Dual,
+    [dual, loose]: [&'a Dual; 2],
     mesh: &Mesh,
     seams: &Seams,
     params: &UnfoldParams,
@@ -140,7 +143,7 @@ fn fewest<'a>(
     let mut tried = Tried::default();
     let mut best: Option<Layout> = None;
     for _ in 0..=params.effort {
-        let starts = if best.is_none() { STARTS } else { LATER_STARTS };
+        let (starts, dual) = if best.is_none() { (STARTS, dual) } else { (LATER_STARTS, loose) };
         let (start, starts) =
             best_start(dual, mesh, seams, (starts, tried.starts), &mut rng, progress);
         tried.starts += starts;

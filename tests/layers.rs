@@ -137,7 +137,7 @@ const DOORS: &[(&str, &[&str])] = &[
     ("spade", &["crates/kerfold-kernel/src/geom/triangulate.rs", "src/op/cut/bridge.rs"]),
     ("batsat", &["src/seam/sat.rs"]),
     ("i_overlay", &["crates/kerfold-sheet/src/sheet/kerf.rs"]),
-    ("tobj", &["src/io/read/obj.rs"]),
+    ("tobj", &["src/io/write/obj_check.rs"]),
     ("tempfile", &["src/io/output/"]),
     ("annotate_snippets", &["src/cli/"]),
     ("svg", &["src/io/sheet/svg.rs"]),

@@ -209,6 +209,12 @@ pub enum IoError {
         /// What is wrong with it, in numbers of the mesh in memory.
         fault: FileFault,
     },
+    /// What was to be written as OBJ reads otherwise than the mesh: a fault of ours.
+    #[error(
+        "the OBJ text does not say what the mesh is, so nothing was written; please report this \
+        bug, and write PLY or OFF instead"
+    )]
+    NotReadBack,
     /// A coordinate does not fit the single precision of glTF.
     #[error("{name} is too far out for GLB, which holds numbers up to 3e38; write OBJ or PLY")]
     TooFarForGlb {
@@ -237,6 +243,7 @@ codes!(error IoError {
     TooFarForStl = 117,
     TooFarForGlb = 118,
     NotForFiles = 119,
+    NotReadBack = 120,
 } through {
     Content.fault,
     Mesh.fault,

@@ -10,6 +10,7 @@ use crate::mesh::Mesh;
 
 pub mod glb;
 mod obj;
+mod obj_check;
 mod off;
 pub mod plates;
 mod ply;
@@ -81,7 +82,8 @@ pub fn write_mesh(path: &Path, mesh: &Mesh, options: &WriteOptions) -> Result<()
 /// rounds to single precision and cuts faces into triangles.
 ///
 /// # Errors
-/// [`IoError::NotForFiles`] for a mesh that would not be read again;
+/// [`IoError::NotForFiles`] for a mesh that would not be read again; [`IoError::NotReadBack`] for a
+/// fault of the OBJ writer, which another reader checks;
 /// [`IoError::TooFarForStl`] when a coordinate does not fit.
 ///
 /// # Example
@@ -102,7 +104,13 @@ pub fn mesh_bytes(
         return Err(IoError::NotForFiles { fault });
     }
     Ok(match format {
-        MeshFormat::Obj => obj::write(mesh, options),
+        MeshFormat::Obj => {
+            let text = obj::write(mesh, options);
+            if !obj_check::says(&text, mesh) {
+                return Err(IoError::NotReadBack);
+            }
+            text
+        }
         MeshFormat::Ply => ply::write(mesh, options),
         MeshFormat::Off => off::write(mesh, options),
         MeshFormat::Stl => stl::write(mesh, options)?,

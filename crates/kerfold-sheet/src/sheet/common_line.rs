@@ -348,7 +348,8 @@ mod tests {
             let turned: Vec<DVec2> =
                 frame.iter().map(|&p| DVec2::from_angle(0.7).rotate(p)).collect();
             let net = net_of(vec![turned, square(20.0)]);
-            let none = SheetParams { kerf: Length::from_mm(0.0), ..SheetParams::default() };
+            let mut none = SheetParams::default();
+            none.stock.kerf = Length::from_mm(0.0);
             for params in [none, params()] {
                 let set = lay_out(&net, &params).expect("both fit");
                 assert_cut_once(&set);

@@ -110,7 +110,7 @@ mod tests {
         let (fewer, _) = simplified(&circle, &[]);
         assert!(fewer.len() < 80, "{}", fewer.len());
         assert!(circle.iter().all(|&p| locate(&fewer, p) != Location::Outside
-            || super::super::super::verify::distance_to_contour(p, &fewer) < 1e-12));
+            || crate::sheet::distance::distance_to_contour(p, &fewer) < 1e-12));
         assert!(signed_area(&fewer) < signed_area(&circle) * 1.01);
         let hole: Vec<DVec2> = circle.iter().rev().copied().collect();
         let (_, holes) = simplified(&circle, &[hole]);

@@ -151,7 +151,7 @@ fn a_sheet_with_an_outline_needs_no_margin() {
     for outline in ["0,0:200,0:200,200:0,200", "0,0:200,0:200,60:60,200:0,200"] {
         for count in 8..12 {
             let mut params = params(200.0, 200.0);
-            params.margin = crate::units::Length::from_mm(0.0);
+            params.stock.margin = crate::units::Length::from_mm(0.0);
             params.nest.sheet_outline = outline.parse().expect("an outline");
             let set = laid(&polygons(count), &params);
             assert!(!set.layout.sheets.is_empty());

@@ -30,7 +30,7 @@ pub(crate) fn draw(
     let features = features(net, stretches)?;
     let by_id: BTreeMap<PieceId, (&Piece, &CutShape)> =
         net.pieces.iter().zip(shapes).map(|(p, s)| (p.id, (p, s))).collect();
-    let score = ScorePlan::of(&params.score, params.stock.kerf.mm())?;
+    let score = ScorePlan::of(&params.score)?;
     let tabs = holding_tabs(params)?;
     let mut report = SheetReport::default();
     let mut drawings = Vec::new();
@@ -41,13 +41,19 @@ pub(crate) fn draw(
             let (piece, shape) = by_id[&placed.piece];
             let here = &features[&placed.piece];
             draw_cuts(&mut drawing, shape, placed, tabs);
-            let cut = jointed.is_some().then_some(piece);
+            // Channels for narrow notches take a little of the folds that end there.
+            let is_widened = shape.widened_notches > 0;
+            let as_cut = is_widened.then(|| as_cut(piece, shape));
+            let cut = as_cut.as_ref().or(jointed.is_some().then_some(piece));
             let hinges = score.hinges(piece, &here.folds);
             draw_folds(&mut drawing, here, (placed, cut), (&score, &hinges), &mut report);
             let flaps = jointed.iter().flat_map(|j| &j.flap_folds).filter(|f| f.piece == piece.id);
-            draw_flap_folds(&mut drawing, flaps, placed, &score);
-            let mut obstacles: Vec<Vec<DVec2>> =
-                if cut_is_no_border { shape.contours().cloned().collect() } else { Vec::new() };
+            draw_flap_folds(&mut drawing, flaps, (placed, as_cut.as_ref()), &score);
+            let mut obstacles: Vec<Vec<DVec2>> = if cut_is_no_border || is_widened {
+                shape.contours().cloned().collect()
+            } else {
+                Vec::new()
+            };
             obstacles.extend(hinges.rows.iter().flat_map(|r| &r.slits).map(|slit| slit.to_vec()));
             let lettering =
                 PieceLettering::new(net, (piece, here, placed), &obstacles, params.letter);
@@ -59,6 +65,11 @@ pub(crate) fn draw(
         drawings.push(drawing);
     }
     Ok((drawings, report))
+}
+
+/// A piece with the contours that are cut instead of its own.
+fn as_cut(piece: &Piece, shape: &CutShape) -> Piece {
+    Piece { outline: shape.outline.clone(), holes: shape.holes.clone(), ..piece.clone() }
 }
 
 /// Number and width in mm of the tabs that hold every part.
@@ -127,7 +138,7 @@ fn draw_folds(
         drawing.add(kind, fold.id.to_string(), Some(placed.piece), strokes);
     }
     for row in &hinges.rows {
-        let slit = |s: &[DVec2; 2]| score.slot(placed.apply(s[0]), placed.apply(s[1]));
+        let slit = |s: &[DVec2; 2]| Stroke { points: placed.apply_all(s), closed: false };
         let id = format!("{}-slits-{}", row.fold, row.number);
         drawing.add(MarkKind::Hinge, id, Some(placed.piece), row.slits.iter().map(slit).collect());
     }
@@ -136,13 +147,15 @@ fn draw_folds(
 fn draw_flap_folds<'a>(
     drawing: &mut Drawing,
     folds: impl Iterator<Item = &'a FlapFold>,
-    placed: &Placed,
+    (placed, cut): (&Placed, Option<&Piece>),
     score: &ScorePlan,
 ) {
+    let kind = if score.is_cut() { MarkKind::Perforation } else { MarkKind::FlapFold };
     for fold in folds {
-        let [a, b] = fold.segment.map(|p| placed.apply(p));
-        let kind = if score.is_cut() { MarkKind::Perforation } else { MarkKind::FlapFold };
-        let strokes = score.strokes(a, b, false);
+        let parts =
+            cut.map_or_else(|| vec![fold.segment], |piece| on_material(piece, fold.segment));
+        let parts = parts.into_iter().map(|part| part.map(|p| placed.apply(p)));
+        let strokes: Vec<Stroke> = parts.flat_map(|[a, b]| score.strokes(a, b, false)).collect();
         if !strokes.is_empty() {
             drawing.add(kind, format!("{}-flap", fold.id), Some(placed.piece), strokes);
         }
@@ -365,7 +378,7 @@ mod tests {
             .iter()
             .map(|m| {
                 (
-                    m.strokes[0].points.iter().map(|p| p.x).sum::<f64>() / 4.0,
+                    m.strokes[0].points[0].x,
                     m.strokes.iter().map(|s| sorted([s.points[0].y, s.points[1].y])).collect(),
                 )
             })

@@ -66,9 +66,6 @@ pub enum ScoreStyle {
     Valleys,
 }
 
-/// Width of the slots of perforations and hinges when there is no kerf, in mm.
-const LEAST_SLOT: f64 = 0.2;
-
 /// Checked numbers for drawing folds, in mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ScorePlan {
@@ -77,7 +74,6 @@ pub(crate) struct ScorePlan {
     gap: Option<f64>,
     inset: f64,
     hinge: Option<f64>,
-    slot: f64,
 }
 
 /// A row of slits of a hinge field.
@@ -101,7 +97,7 @@ impl ScorePlan {
     /// # Errors
     /// [`SheetError::OutOfRange`] for numbers; [`SheetError::ScoreOption`] for lengths of dashes
     /// without dashes.
-    pub fn of(params: &ScoreParams, kerf: f64) -> Result<Self, SheetError> {
+    pub fn of(params: &ScoreParams) -> Result<Self, SheetError> {
         if params.style == ScoreStyle::Solid {
             for (option, is_given) in
                 [("score-dash", params.dash.is_some()), ("score-gap", params.gap.is_some())]
@@ -124,7 +120,6 @@ impl ScorePlan {
             gap: checked("score-gap", params.gap, 0.1)?,
             inset: checked("score-inset", Some(params.inset), 0.0)?.unwrap_or(0.0),
             hinge: checked("hinge", params.hinge, 0.1)?,
-            slot: if kerf > 0.0 { kerf } else { LEAST_SLOT },
         })
     }
 
@@ -156,16 +151,7 @@ impl ScorePlan {
             ScoreStyle::Valleys => is_valley,
         };
         let lines = if is_dashed { dashes(a, b, dash, gap) } else { vec![[a, b]] };
-        let open = |[a, b]: [DVec2; 2]| Stroke { points: vec![a, b], closed: false };
-        let stroke =
-            |[a, b]: [DVec2; 2]| if self.is_cut() { self.slot(a, b) } else { open([a, b]) };
-        lines.into_iter().map(stroke).collect()
-    }
-
-    /// A cut from a to b as a closed path, as wide as the kerf.
-    pub fn slot(&self, a: DVec2, b: DVec2) -> Stroke {
-        let side = (b - a).normalize_or_zero().perp() * (self.slot / 2.0);
-        Stroke { points: vec![a - side, b - side, b + side, a + side], closed: true }
+        lines.into_iter().map(|line| Stroke { points: line.to_vec(), closed: false }).collect()
     }
 
     /// The hinge fields of a piece: every chain of faces narrower than the hinge width, with the
@@ -365,7 +351,7 @@ mod tests {
     use crate::units::Length;
 
     fn plan(params: &ScoreParams) -> ScorePlan {
-        ScorePlan::of(params, 0.0).expect("good numbers")
+        ScorePlan::of(params).expect("good numbers")
     }
 
     fn lengths(strokes: &[Stroke]) -> Vec<f64> {
@@ -389,9 +375,7 @@ mod tests {
             plan(&ScoreParams { style: ScoreStyle::Perforated, ..ScoreParams::default() });
         let cuts = perforated.strokes(DVec2::ZERO, DVec2::new(21.0, 0.0), false);
         assert_eq!((cuts[0].points[0].x, cuts[cuts.len() - 1].points[1].x), (1.0, 20.0));
-        // Every cut is a closed path around a slot of 3 mm as wide as the kerf, at least 0.2 mm.
-        assert!(cuts.iter().all(|c| c.closed && c.points.len() == 4));
-        assert!(lengths(&cuts).iter().all(|l| (l - 6.4).abs() < 1e-9) && cuts.len() == 5);
+        assert_eq!(lengths(&cuts), [3.0; 5]);
         let inset = ScoreParams { inset: Length::from_mm(2.5), ..ScoreParams::default() };
         let solid = plan(&inset).strokes(DVec2::ZERO, DVec2::new(21.0, 0.0), false);
         assert_eq!(lengths(&solid), [16.0]);
@@ -401,15 +385,10 @@ mod tests {
     #[test]
     fn options_that_do_nothing_are_refused() {
         let params = ScoreParams { gap: Some(Length::from_mm(1.0)), ..ScoreParams::default() };
-        assert!(
-            ScorePlan::of(&params, 0.0).expect_err("no dashes").to_string().contains("score-gap")
-        );
+        assert!(ScorePlan::of(&params).expect_err("no dashes").to_string().contains("score-gap"));
         let params = ScoreParams { hinge: Some(Length::from_mm(-1.0)), ..ScoreParams::default() };
         assert!(
-            ScorePlan::of(&params, 0.0)
-                .expect_err("below 0")
-                .to_string()
-                .contains("hinge is -1 mm")
+            ScorePlan::of(&params).expect_err("below 0").to_string().contains("hinge is -1 mm")
         );
     }
 

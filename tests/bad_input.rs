@@ -114,7 +114,7 @@ const TABLE: &[(&str, &str, &[&str])] = &[
     (
         "zero-length-edge.obj",
         ":5: face 0 has an edge of length zero",
-        &["--weld 0", "lines 2 and 3"],
+        &["weld them", "lines 2 and 3"],
     ),
 ];
 

@@ -146,3 +146,19 @@ impl CliError {
 fn did_you_mean(nearest: Option<&str>) -> String {
     nearest.map(|word| format!("did you mean `{word}`? ")).unwrap_or_default()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What the library says in words of its own, the command line says with its options.
+    #[test]
+    fn messages_of_the_library_get_their_options() {
+        let error = CliError::Seam(SeamError::Cancelled);
+        assert_eq!(error.options(), None);
+        let path = std::path::Path::new("fixtures/bad/zero-length-edge.obj");
+        let refused = crate::io::read_mesh(path, &crate::io::ReadOptions::default());
+        let error = CliError::Io(refused.expect_err("an edge of length zero"));
+        assert_eq!(error.options(), Some("--weld 0"));
+    }
+}

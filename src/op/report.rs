@@ -1,6 +1,7 @@
 //! What a chain of cuts made and removed.
 
 use super::cut::{Cutter, Lineage};
+use super::simple::part_rims;
 use crate::code::Code;
 use crate::measure::{CrossingKind, CrossingPair};
 use crate::mesh::{FaceId, Mesh, Renumbering, VertexId};
@@ -212,6 +213,7 @@ impl RoundMarks {
 pub(super) fn finish(mut mesh: Mesh, mut report: CutReport) -> (Mesh, CutReport) {
     let map = report.made.compact(&mut mesh);
     report.origins = report.origins.renumbered(&map, mesh.face_slots());
+    part_rims(&mut mesh, &mut report.made);
     report.not_three_valent = mesh.vertices().filter(|&v| mesh.valence(v) != 3).collect();
     report.components = mesh.components().len();
     (mesh, report)

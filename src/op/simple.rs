@@ -3,7 +3,9 @@
 //! a vertex in between.
 
 use super::OpError;
-use crate::mesh::{EdgeId, FaceId, FileFault, HalfEdgeId, Mesh};
+use crate::mesh::{
+    BuildError, EdgeId, FaceId, FileFault, HalfEdgeId, Mesh, MeshBuilder, VertexId, VertexMap,
+};
 use crate::select::NewElements;
 
 /// Mending one fault may bring another to light: a split edge beside a 2-gon makes a face without
@@ -74,19 +76,110 @@ pub(super) fn keep_simple(
         return Ok(Mended::default());
     }
     let mended = make_simple(result, made);
-    match result.file_faults().first() {
-        Some(&fault) => Err(OpError::NotSimple { fault, advice }),
-        None => Ok(mended),
+    if let Some(&fault) = result.file_faults().first() {
+        return Err(OpError::NotSimple { fault, advice });
     }
+    if has_more_than_files(result) {
+        *result = as_polygons(result, made)
+            .map_err(|_| OpError::NotSimple { fault: FileFault::NoFaces, advice })?;
+    }
+    Ok(mended)
 }
 
 fn is_simple(mesh: &Mesh) -> bool {
-    let is_small = |f: FaceId| mesh.face_half_edges(f).take(3).count() < 3;
-    let is_loop = |e: EdgeId| {
-        let [a, b] = mesh.edge_vertices(e);
-        a == b
+    !has_more_than_files(mesh) && mesh.file_faults().is_empty()
+}
+
+/// Whether a mesh has self-loops, faces with fewer than three different corners, or vertices with
+/// several rims.
+fn has_more_than_files(mesh: &Mesh) -> bool {
+    mesh.edges().any(|e| is_loop(mesh, e))
+        || mesh.faces().any(|f| straight_corners(mesh, f).len() < 3)
+        || has_pinches(mesh)
+}
+
+/// Whether several rims run through one vertex: a file holds a vertex for each of them.
+fn has_pinches(mesh: &Mesh) -> bool {
+    let mut is_met = VertexMap::filled(mesh.vertex_slots(), false);
+    let mut corners = mesh.holes().flat_map(|f| mesh.face_vertices(f));
+    corners.any(|v| std::mem::replace(&mut is_met[v], true))
+}
+
+/// Pulls vertices apart through which several rims run, where nothing else keeps the mesh from
+/// being a file.
+pub(super) fn part_rims(mesh: &mut Mesh, made: &mut NewElements) {
+    let is_file = |mesh: &Mesh| {
+        !mesh.edges().any(|e| is_loop(mesh, e))
+            && mesh.faces().all(|f| straight_corners(mesh, f).len() > 2)
+            && mesh.file_faults().is_empty()
     };
-    !mesh.faces().any(is_small) && !mesh.edges().any(is_loop) && mesh.file_faults().is_empty()
+    if has_pinches(mesh)
+        && is_file(mesh)
+        && let Ok(parted) = as_polygons(mesh, made)
+    {
+        *mesh = parted;
+    }
+}
+
+fn is_loop(mesh: &Mesh, e: EdgeId) -> bool {
+    let [a, b] = mesh.edge_vertices(e);
+    a == b
+}
+
+/// The corners of a face without self-loops; fewer than three when they are not all different.
+fn straight_corners(mesh: &Mesh, f: FaceId) -> Vec<VertexId> {
+    let straight = mesh.face_half_edges(f).filter(|h| !is_loop(mesh, h.edge()));
+    let corners: Vec<VertexId> = straight.map(|h| mesh.origin(h)).collect();
+    let different = corners.iter().skip(2).any(|v| *v != corners[0] && *v != corners[1]);
+    if different { corners } else { Vec::new() }
+}
+
+/// The mesh that a file would hold: without self-loops and small faces, vertices that these held
+/// together pulled apart. Groups, seams and planes stay.
+fn as_polygons(mesh: &Mesh, made: &mut NewElements) -> Result<Mesh, BuildError> {
+    let mut builder = MeshBuilder::new();
+    let mut numbers = VertexMap::filled(mesh.vertex_slots(), VertexId::new(0));
+    for v in mesh.vertices() {
+        numbers[v] = VertexId::new(builder.vertex(mesh.position(v)));
+    }
+    let mut faces: Vec<FaceId> = Vec::with_capacity(mesh.face_count());
+    for f in mesh.faces() {
+        let corners = straight_corners(mesh, f);
+        if !corners.is_empty() {
+            builder.face(corners.into_iter().map(|v| numbers[v].index()));
+            faces.push(f);
+        }
+    }
+    let (mut polygons, splits) = builder.build()?;
+    for (number, &f) in faces.iter().enumerate() {
+        if let Some(name) = mesh.group(f) {
+            polygons.set_group(FaceId::new(number), name);
+        }
+        if let Some(plane) = mesh.carried_plane(f) {
+            polygons.set_plane(FaceId::new(number), plane);
+        }
+    }
+    let old: Vec<VertexId> = mesh.vertices().collect();
+    let parted = splits.iter().map(|split| (split.added, old[split.given.index()]));
+    for (new, v) in old.iter().map(|&v| (numbers[v], v)).chain(parted) {
+        if polygons.has_vertex(new) {
+            polygons.set_position(new, mesh.position(v), mesh.is_given(v));
+        }
+    }
+    let edge = |e: EdgeId| {
+        let [a, b] = mesh.edge_vertices(e).map(|v| numbers[v]);
+        let is_there = polygons.has_vertex(a) && polygons.has_vertex(b);
+        is_there.then(|| polygons.edge_between(a, b)).flatten()
+    };
+    let seams: Vec<EdgeId> = mesh.edges().filter(|&e| mesh.is_seam(e)).filter_map(edge).collect();
+    made.edges = made.edges.iter().copied().filter_map(edge).collect();
+    made.strip = made.strip.iter().copied().filter_map(edge).collect();
+    made.vertices = made.vertices.iter().map(|&v| numbers[v]).collect();
+    let number = |f: &FaceId| faces.binary_search(f).ok().map(FaceId::new);
+    made.faces = made.faces.iter().filter_map(number).collect();
+    seams.into_iter().for_each(|e| polygons.set_seam(e, true));
+    made.compact(&mut polygons);
+    Ok(polygons)
 }
 
 /// Mends what can be mended. Ids stay without gaps, and `made`

@@ -212,6 +212,9 @@ pub(super) fn truncate(
     report.overcut.dedup();
     if let Some(cavities) = cavities {
         report.cavities_gone = cavities.settle(&mut cutter)?;
+        if cutter.mesh().face_count() == 0 {
+            return Err(OpError::NothingLeft { cut: report.cuts, cuts: report.cuts });
+        }
     }
     Ok(finish(cutter.into_mesh(), report))
 }

@@ -32,8 +32,8 @@ pub struct Grid<const D: usize> {
 }
 
 impl<const D: usize> Grid<D> {
-    /// An empty grid whose cells have the given side, more than 0. `low` is a corner of what it will
-    /// hold; it only keeps the numbers of the cells small.
+    /// An empty grid whose cells have the given side, more than 0. `low` is a corner of what it
+    /// will hold; it only keeps the numbers of the cells small.
     pub fn new(low: [f64; D], cell: f64) -> Self {
         Self { low, cell, ends: HashMap::new(), next: Vec::new() }
     }

@@ -14,7 +14,8 @@ use super::work::{LintError, Work};
 /// long.
 const APART: f64 = 4.0;
 
-/// Two directions count as square when they are off by less, in radians: rounding of parallel sides.
+/// Two directions count as square when they are off by less, in radians: parallel sides are
+/// rounded.
 const SQUARE: f64 = 1e-9;
 
 /// Webs between two contours of one part.

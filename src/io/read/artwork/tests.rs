@@ -202,7 +202,10 @@ fn bombs_end_in_an_error_with_the_limit() {
         "{entity}<svg xmlns='http://www.w3.org/2000/svg'><text>{}</text></svg>",
         "&a;".repeat(2000)
     );
-    let far = "<svg xmlns='http://www.w3.org/2000/svg'><path d='M0 0C0 9e9 9e9 0 9e9 9e9'/></svg>";
+    let far = format!(
+        "<svg xmlns='http://www.w3.org/2000/svg'><path d='M0 0{}'/></svg>",
+        "C0 9e6 9e6 0 9e6 9e6".repeat(90)
+    );
     let attributes = "a='' ".repeat(3000);
     let attributes = format!("<svg xmlns='http://www.w3.org/2000/svg' {attributes}/>");
     let block = "0 BLOCK 2 A 0 LINE 10 0 20 0 11 1 21 1 0 ENDBLK";
@@ -218,8 +221,15 @@ fn bombs_end_in_an_error_with_the_limit() {
         "{page} 2 0 obj <</Type/Pages/Kids[4 0 R]>> endobj 5 0 obj <<>> stream {} endstream",
         "q ".repeat(5000)
     );
-    let bombs =
-        [svg.as_str(), &entities, far, &attributes, arrays.as_str(), pages.as_str(), open.as_str()];
+    let bombs = [
+        svg.as_str(),
+        &entities,
+        &far,
+        &attributes,
+        arrays.as_str(),
+        pages.as_str(),
+        open.as_str(),
+    ];
     for bomb in bombs {
         let error = read_artwork(Path::new("x.svg"), bomb.as_bytes()).err();
         assert!(matches!(error, Some(ArtError::TooMuch { .. })), "{error:?}");

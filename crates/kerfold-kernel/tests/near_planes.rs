@@ -4,7 +4,9 @@
 //! `KERFOLD_SETS=100000` tries more sets.
 
 use glam::DVec3;
-use kerfold_kernel::geom::hull::{HalfSpace, Intersect, Numbers, Polytope, intersect_verified};
+use kerfold_kernel::geom::hull::{
+    Form, HalfSpace, Intersect, Numbers, Polytope, intersect_verified,
+};
 use kerfold_kernel::random::Rng;
 use num_bigint::BigInt;
 
@@ -126,9 +128,10 @@ fn set(seed: u64) -> Vec<HalfSpace> {
     let shape = shape(seed, &mut random);
     let (x, z) = (random.on_sphere(), random.on_sphere());
     let y = z.cross(x).normalize();
-    let frame = if seed / 4 % 3 == 0 { [DVec3::X, DVec3::Y, DVec3::Z] } else { [y.cross(x), y, x] };
+    let turned = [y.cross(x), y, x];
+    let frame = [[DVec3::X, DVec3::Y, DVec3::Z], turned, turned][(seed / 4 % 3) as usize];
     let size = 10.0_f64.powf(4.0 * random.signed());
-    let shift = if seed / 12 % 2 == 0 { DVec3::ZERO } else { random.on_sphere() * size * 3.0 };
+    let shift = random.on_sphere() * size * [0.0, 3.0][(seed / 12 % 2) as usize];
     let placed = |h: &HalfSpace| {
         let normal = frame[0] * h.normal.x + frame[1] * h.normal.y + frame[2] * h.normal.z;
         HalfSpace { normal, offset: h.offset * size + normal.dot(shift) }
@@ -137,7 +140,8 @@ fn set(seed: u64) -> Vec<HalfSpace> {
     let first = planes.len();
     let count = 12 + random.below(29);
     // From one ulp to 1e-12, relative.
-    let noise = if seed % 5 == 0 { 0.0 } else { 10.0_f64.powf(-12.0 - 4.0 * random.unit()) };
+    let share = 10.0_f64.powf(-12.0 - 4.0 * random.unit());
+    let noise = [0.0, share, share, share, share][(seed % 5) as usize];
     while planes.len() < count.max(first + 1) {
         let HalfSpace { normal, offset } = planes[random.below(first)];
         let longer = if random.below(3) == 0 { 3.0 } else { 1.0 };
@@ -162,6 +166,24 @@ fn no_vertex_lies_farther_than_the_bound_from_its_planes() {
                 Err(error) => panic!("{what}: {error}"),
             }
         }
+    }
+}
+
+#[test]
+fn a_large_set_given_twice_is_right_too() {
+    let mut random = Rng::new(11);
+    let first: Vec<HalfSpace> =
+        (0..5000).map(|_| HalfSpace { normal: random.on_sphere(), offset: 1.0 }).collect();
+    let mut planes = first.clone();
+    for h in &first {
+        let normal = h.normal.to_array().map(|n| nudged(n, 1e-13, &mut random));
+        planes.push(HalfSpace { normal: DVec3::from_array(normal), ..*h });
+    }
+    for form in [Form::Merged, Form::Simple] {
+        let options = Intersect { form, ..Intersect::default() };
+        let ball = intersect_verified(&planes, &options, &|| true);
+        let ball = ball.unwrap_or_else(|error| panic!("{form:?}: {error}"));
+        assert!(ball.faces.len() > 5000, "{form:?}: {} faces", ball.faces.len());
     }
 }
 

@@ -44,6 +44,8 @@ pub(super) struct Placing<'a> {
     pub centre: DVec3,
     /// What they were stretched by.
     pub scale: DVec3,
+    /// Whether no vertex is taken for right because its facet has a good pole.
+    pub is_thorough: bool,
 }
 
 /// The vertices, placed for a first time, and what they are made of.
@@ -60,7 +62,8 @@ trait Vertices: Sync {
 
 impl Placing<'_> {
     /// Turns the poles of a surface without merged facets and free slots into the vertices of the
-    /// solid.
+    /// solid. Unless asked to be thorough, takes a pole that is good enough to tell sides by
+    /// (`pole`), which holds to 2⁻²⁸ of the distance to any plane.
     pub(super) fn place_poles(&self, surface: &mut Surface<'_>) {
         let doubtful = surface.update_poles(|facet, corners, pole| {
             let triple = corners.map(|v| self.cloud.point(v));
@@ -68,6 +71,9 @@ impl Placing<'_> {
             // A pole that is no number lies on nothing.
             let lies_on = |q: DVec3| (1.0 - q.dot(pole)).abs() <= SETTLED;
             let is_settled = lies_on(triple[0]) & lies_on(triple[1]) & lies_on(triple[2]);
+            if is_settled & !self.is_thorough {
+                return (self.place(pole).to_array(), None);
+            }
             let y = if is_settled { pole } else { meeting_point(triple) };
             (self.place(y).to_array(), self.doubt(facet, triple, y))
         });

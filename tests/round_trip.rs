@@ -229,6 +229,17 @@ fn what_an_operator_makes_is_read_again_as_it_was() {
                 }
             };
             assert!(made.faults().is_empty(), "{what}: {:?}", made.faults().first());
+            // Pyramids of two sides fall flat and meet in points, and the simple form of a dual hull
+            // has several vertices at one point: refused by the writer. All else is mended or
+            // refused by the operator.
+            if !made.file_faults().is_empty() {
+                let is_known =
+                    what.starts_with("2-valent: Sierpinski") || what.contains("simple: true");
+                assert!(is_known, "{what}");
+                assert!(mesh_bytes(MeshFormat::Obj, &made, &WriteOptions::default()).is_err());
+                refused += 1;
+                continue;
+            }
             let (valences, sides, groups) = facts(&made);
             for (format, path) in FORMATS {
                 let bytes = mesh_bytes(format, &made, &WriteOptions::default())

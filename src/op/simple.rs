@@ -265,11 +265,22 @@ pub(super) fn dissolve_lines(mesh: &mut Mesh, faults: &[FileFault]) -> usize {
         };
         let longest = mesh.face_half_edges(f).max_by(|a, b| length(a).total_cmp(&length(b)));
         if let Some(h) = longest.filter(|h| mesh.face(h.twin()) != f) {
+            let sides: Vec<EdgeId> = mesh.face_half_edges(f).map(HalfEdgeId::edge).collect();
             mesh.delete_edge_of(h);
+            delete_between_holes(mesh, &sides);
             count += 1;
         }
     }
     count
+}
+
+/// Deletes those of the edges that have a hole on either side, which hold nothing any more.
+fn delete_between_holes(mesh: &mut Mesh, edges: &[EdgeId]) {
+    for &e in edges {
+        if mesh.has_edge(e) && mesh.edge_faces(e).iter().all(|&f| mesh.is_hole(f)) {
+            mesh.delete_edge_with_cleanup(e);
+        }
+    }
 }
 
 /// Splits all but the first of the edges between two vertices, each at a place of its own.

@@ -58,10 +58,19 @@ fn handles_between_all_pairs(numbers: &[u32]) {
                         assert!(matches!(refused, OpError::NoHandle { .. }));
                         continue;
                     }
+                    if segments == 2 && returns_to_a_corner(mesh, &wanted) {
+                        continue;
+                    }
                     let (made, report) = run(mesh, &wanted);
                     let s = segments as usize;
-                    let expected =
-                        [v + sides * (s - 1), e + sides * (2 * s - 1), f + sides * s - 2];
+                    // A tube of one segment may run along edges of the solid, and is kept apart.
+                    let split = report.mended.split;
+                    assert!(segments == 1 || split == 0, "{from} to {to}, {s} segments");
+                    let expected = [
+                        v + sides * (s - 1) + split,
+                        e + sides * (2 * s - 1) + split,
+                        f + sides * s - 2,
+                    ];
                     assert_eq!(counts(&made), expected, "{from} to {to}, {s} segments");
                     assert_eq!((genus(&made), made.components().len(), report.halved), (1, 1, 0));
                     if segments == 5 {
@@ -75,6 +84,16 @@ fn handles_between_all_pairs(numbers: &[u32]) {
             }
         }
     }
+}
+
+/// Whether two segments would lead from a corner back to it, which no file can hold; said only of
+/// faces that share a corner.
+fn returns_to_a_corner(mesh: &Mesh, wanted: &HandleParams) -> bool {
+    let Err(refused) = handle(mesh, wanted, &OpContext::default()) else { return false };
+    let corners = |f: u32| mesh.face_vertices(FaceId::new(f as usize));
+    assert!(refused.to_string().contains("at least three segments"), "{refused}");
+    corners(wanted.from.face).any(|v| corners(wanted.to.face).any(|w| v == w))
+        || panic!("{refused}")
 }
 
 /// Two opposite faces of a cube.
@@ -148,7 +167,9 @@ fn faces_with_different_numbers_of_sides_are_evened_out() {
     let pentagon = prism.faces().find(|&f| prism.sides(f) == 5).expect("an end").index();
     let square = prism.faces().find(|&f| prism.sides(f) == 4).expect("a side").index();
     for (from, to) in [(pentagon, square), (square, pentagon)] {
-        for segments in [2, 7] {
+        let two = params(&from.to_string(), &to.to_string(), 2);
+        assert!(returns_to_a_corner(&prism, &two));
+        for segments in [3, 7] {
             let (made, report) = run(&prism, &params(&from.to_string(), &to.to_string(), segments));
             assert_eq!((report.halved, genus(&made)), (1, 1));
             let s = segments as usize;

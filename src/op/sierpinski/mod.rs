@@ -180,6 +180,9 @@ fn next_straight(mesh: &Mesh, h: HalfEdgeId) -> HalfEdgeId {
     next
 }
 
+/// Stands for a half-edge that is not made.
+const NOT_MADE: HalfEdgeId = HalfEdgeId(u32::MAX);
+
 /// Half-edges of the fine mesh that stand for half-edges of the coarse one.
 struct Links<'a> {
     coarse: &'a Mesh,
@@ -190,6 +193,38 @@ struct Links<'a> {
     cut: HalfEdgeMap<HalfEdgeId>,
     /// The new loop at the middle of a half-edge, entered from its face.
     ring: HalfEdgeMap<HalfEdgeId>,
+    /// Whether the base that would reach the middle of a half-edge from its face is left out.
+    is_open: HalfEdgeMap<bool>,
+}
+
+/// The half-edges that bases reach which run into the rim. None has a loop at its middle, where no
+/// base would use one of its sides.
+fn open_bases(coarse: &Mesh) -> HalfEdgeMap<bool> {
+    let mut is_open = HalfEdgeMap::filled(coarse.half_edge_slots(), false);
+    if coarse.is_closed() {
+        return is_open;
+    }
+    let mut is_done = HalfEdgeMap::filled(coarse.half_edge_slots(), false);
+    let mut reached = Vec::new();
+    let sides = coarse.faces().flat_map(|f| coarse.face_half_edges(f));
+    for start in sides.filter(|&h| !is_loop(coarse, h)) {
+        reached.clear();
+        let (mut h, mut meets_rim) = (start, false);
+        while !std::mem::replace(&mut is_done[h], true) {
+            let next = next_straight(coarse, h);
+            if coarse.is_rim(next.edge()) {
+                meets_rim = true;
+                h = next;
+            } else {
+                reached.push(next);
+                h = next.twin();
+            }
+        }
+        if meets_rim {
+            reached.iter().for_each(|&next| is_open[next] = true);
+        }
+    }
+    is_open
 }
 
 fn once(coarse: &Mesh, progress: &dyn Progress) -> Result<Mesh, OpError> {
@@ -221,8 +256,9 @@ impl<'a> Links<'a> {
         fine: &mut WalkBuilder,
         progress: &dyn Progress,
     ) -> Result<Self, OpError> {
-        let none = || HalfEdgeMap::filled(coarse.half_edge_slots(), HalfEdgeId(u32::MAX));
-        let mut links = Self { coarse, second: none(), cut: none(), ring: none() };
+        let none = || HalfEdgeMap::filled(coarse.half_edge_slots(), NOT_MADE);
+        let is_open = open_bases(coarse);
+        let mut links = Self { coarse, second: none(), cut: none(), ring: none(), is_open };
         let mut kept = vec![VertexId::new(0); coarse.vertex_slots()];
         coarse.vertices().for_each(|v| kept[v.index()] = fine.vertex(coarse.position(v)));
         let mut middles = vec![None; coarse.edge_slots()];
@@ -262,7 +298,7 @@ impl<'a> Links<'a> {
         let middle = fine.vertex(p.midpoint(q));
         self.second[h] = fine.edge(middle, b);
         self.second[t] = fine.edge(middle, a);
-        if !coarse.is_rim(edge) {
+        if !coarse.is_rim(edge) && !self.is_open[h] && !self.is_open[t] {
             self.ring[h] = fine.edge(middle, middle);
             self.ring[t] = self.ring[h].twin();
         }
@@ -322,7 +358,8 @@ impl<'a> Bases<'a> {
                     is_open = true;
                     next
                 } else {
-                    self.walk.push(self.links.ring[next]);
+                    let ring = self.links.ring[next];
+                    self.walk.extend(Some(ring).filter(|&ring| ring != NOT_MADE));
                     next.twin()
                 };
             }

@@ -88,7 +88,8 @@ fn faults(set: &SheetSet, params: &SheetParams) -> Vec<String> {
     for drawing in &set.drawings {
         let bytes = sheet_bytes(drawing, SheetFormat::Svg, params, "kerfold");
         let (_, pages) = read_artwork(Path::new("sheet.svg"), &bytes).expect("a sheet of our own");
-        let findings = pages.iter().flat_map(|page| lint(page, &limits).expect("a page of ours").findings);
+        let findings =
+            pages.iter().flat_map(|page| lint(page, &limits).expect("a page of ours").findings);
         faults.extend(findings.map(|finding| format!("{finding:?}")));
     }
     faults

@@ -32,11 +32,8 @@ pub(super) fn says(text: &[u8], mesh: &Mesh) -> bool {
 fn faces_of(model: &Model) -> impl Iterator<Item = impl Iterator<Item = DVec3> + '_> + '_ {
     let mesh = &model.mesh;
     // Sides are only listed where not all faces are triangles.
-    let count = if mesh.face_arities.is_empty() {
-        mesh.indices.len() / 3
-    } else {
-        mesh.face_arities.len()
-    };
+    let count =
+        if mesh.face_arities.is_empty() { mesh.indices.len() / 3 } else { mesh.face_arities.len() };
     let sides = |i: usize| mesh.face_arities.get(i).map_or(3, |&sides| sides as usize);
     let mut end = 0;
     let runs = (0..count).map(move |i| {

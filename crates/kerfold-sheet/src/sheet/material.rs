@@ -6,7 +6,7 @@ use super::drawing::{Drawing, LayerKind};
 use super::error::SheetError;
 use super::files::{Colours, Rgb, Style};
 use super::joint::Joint;
-use super::layout::SheetSet;
+use super::lay_out::SheetSet;
 use super::params::SheetParams;
 use crate::units::Length;
 

@@ -22,6 +22,7 @@ mod files;
 mod joint;
 mod kerf;
 mod kerf_coupon;
+mod lay_out;
 mod layout;
 mod letter;
 mod material;
@@ -45,9 +46,8 @@ pub use files::{
 pub use joint::{FlapSide, Joint, JointFallback, JointParams, JointReport, Substitute};
 pub use kerf::CutShape;
 pub use kerf_coupon::kerf_coupon;
-pub use layout::{
-    Layout, Placed, Sheet, SheetId, SheetReport, SheetSet, fits, lay_out, lay_out_watched,
-};
+pub use lay_out::{SheetSet, fits, lay_out, lay_out_watched};
+pub use layout::{Layout, Placed, Sheet, SheetId, SheetReport};
 pub use letter::{Angles, CAPITAL, Labels, LetterParams, Lettering, Stretch, glyph, lettering};
 pub use material::{Hex, Material, MaterialColours, Speeds};
 pub use nest::{

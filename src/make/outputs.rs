@@ -119,6 +119,15 @@ impl Fabrication {
                 "holes are narrower than the kerf and were",
             ) + " left out",
         );
+        let narrow = report.narrow_holes;
+        note(
+            narrow,
+            format!(
+                "{} narrow or less than 1 mm beside another cut: a larger model or other seams \
+                avoid that",
+                counted(narrow, "hole of a piece is", "holes of pieces are")
+            ),
+        );
         let closed = report.closed_notches;
         note(
             closed,

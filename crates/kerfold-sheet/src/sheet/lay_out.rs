@@ -6,6 +6,7 @@ use glam::DVec2;
 
 use super::assembly::{Assembly, assembly};
 use super::bounding_box::{rounded, smallest_box};
+use super::distance::contour_distance;
 use super::draw::draw;
 use super::drawing::{Drawing, MarkKind, Stroke};
 use super::error::{SheetError, TooLarge};
@@ -20,6 +21,7 @@ use super::verify::verify;
 use crate::geom::polygon::bounds;
 use crate::net::{Net, Piece, PieceId};
 use crate::progress::{Progress, Silent};
+use crate::units::Length;
 
 /// Sheets with their drawings, measured and ready to be written.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -102,6 +104,7 @@ pub fn lay_out_watched(
     }
     report.lost_holes = shapes.iter().map(|s| s.lost_holes).sum();
     report.closed_notches = shapes.iter().map(|s| s.closed_notches).sum();
+    report.narrow_holes = bare.pieces.iter().map(|p| narrow_holes(p, params)).sum();
     report.widened_notches = shapes.iter().map(|s| s.widened_notches).sum();
     report.narrow_spacing = params.stock.made_of.as_ref().and_then(|material| {
         let [left, web] = [params.stock.spacing.mm() - params.stock.kerf.mm(), material.web.mm()];
@@ -120,6 +123,29 @@ pub fn lay_out_watched(
         report.uncut_seams = mended.uncut;
     }
     Ok(SheetSet { layout, drawings, assembly, report })
+}
+
+/// Least material that is wanted between two cuts, in mm.
+const LEAST_WEB: f64 = 1.0;
+
+/// Holes narrower than this many thicknesses burn out.
+const LEAST_HOLE: f64 = 1.5;
+
+/// How many holes of a piece are narrower than the thickness wants, or nearer to another contour of
+/// it than a web should be.
+fn narrow_holes(piece: &Piece, params: &SheetParams) -> usize {
+    let of_material = params.stock.made_of.as_ref().map(|m| m.thickness);
+    let thickness = params.joint.thickness.or(of_material).map_or(0.0, Length::mm);
+    let is_narrow = |hole: &[DVec2]| {
+        let least = smallest_box(hole);
+        least.width.min(least.height) < LEAST_HOLE * thickness
+    };
+    let is_near = |hole: &Vec<DVec2>| {
+        let others = std::iter::once(&piece.outline).chain(&piece.holes);
+        let mut others = others.filter(|&other| !std::ptr::eq(other, hole));
+        others.any(|other| contour_distance(hole, other) < LEAST_WEB)
+    };
+    piece.holes.iter().filter(|hole| is_narrow(hole) || is_near(hole)).count()
 }
 
 /// Whether all pieces that the parameters name are there.
@@ -234,12 +260,10 @@ fn draw_sheet(drawing: &mut Drawing, sheet: &Sheet, stock: &StockSheet) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::distance::contour_distance;
     use super::super::layout::Turn;
     use super::super::testing::{ell, net_of, random_convex, ring, square};
     use super::super::{Labels, LetterParams, NestParams, SheetSize, StockParams};
     use super::*;
-    use crate::units::Length;
     use proptest::prelude::*;
 
     #[test]

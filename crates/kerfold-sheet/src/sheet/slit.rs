@@ -29,15 +29,26 @@ const SHORTEST: f64 = 1e-6;
 /// Fold angles up to this, in degrees, are none.
 const FLAT: f64 = 6e-5;
 
+/// Two sides of a seam that are nowhere farther apart than this, in mm, are one line for any
+/// machine: cut, they would be cut twice.
+const ONE_LINE: f64 = 6e-3;
+
+/// The same for small pieces, relative to their size.
+const RELATIVE_LINE: f64 = 4e-5;
+
 /// How far before the mouth of a channel the grown contour may lie, in widths.
 const REACH: f64 = 4.0;
 
 /// Takes the spikes out of a contour: corners whose two edges lie on one another. Gives the rest of
 /// the contour, empty when nothing else is left, and the spikes, each from its tip to its base.
 pub(crate) fn take_spikes(contour: &[DVec2]) -> (Vec<DVec2>, Vec<Vec<DVec2>>) {
+    take_spikes_within(contour, step_of(contour, FILE_STEP, RELATIVE_STEP))
+}
+
+/// As [`take_spikes`] with a distance up to which two points are one.
+fn take_spikes_within(contour: &[DVec2], step: f64) -> (Vec<DVec2>, Vec<Vec<DVec2>>) {
     let mut rest = contour.to_vec();
     let mut spikes: Vec<Vec<DVec2>> = Vec::new();
-    let step = step_of(contour);
     while let Some(i) = spike_at(&rest, step) {
         let n = rest.len();
         let base = rest[(i + n - 1) % n];
@@ -57,10 +68,11 @@ pub(crate) fn take_spikes(contour: &[DVec2]) -> (Vec<DVec2>, Vec<Vec<DVec2>>) {
     (rest, spikes)
 }
 
-/// How near two points of a contour are one.
-fn step_of(contour: &[DVec2]) -> f64 {
+/// How near two points of a contour are one: an absolute distance, for small contours one relative
+/// to their size.
+fn step_of(contour: &[DVec2], absolute: f64, relative: f64) -> f64 {
     let (low, high) = bounds(contour).unwrap_or_default();
-    FILE_STEP.min(RELATIVE_STEP * (high - low).length())
+    absolute.min(relative * (high - low).length())
 }
 
 fn spike_at(contour: &[DVec2], step: f64) -> Option<usize> {
@@ -97,7 +109,7 @@ pub(crate) fn mend(net: &Net) -> Option<Mended> {
     let mut uncut: BTreeSet<usize> = BTreeSet::new();
     for piece in &mut mended.pieces {
         let own = |s: &Seam| s.sides.iter().all(|side| side.piece == piece.id);
-        let step = step_of(&piece.outline);
+        let step = step_of(&piece.outline, ONE_LINE, RELATIVE_LINE);
         let closed: Vec<usize> = (0..net.seams.len())
             .filter(|&s| own(&net.seams[s]) && is_closed(&net.seams[s], step))
             .collect();
@@ -105,7 +117,7 @@ pub(crate) fn mend(net: &Net) -> Option<Mended> {
             continue;
         }
         for contour in std::iter::once(&mut piece.outline).chain(&mut piece.holes) {
-            let (rest, spikes) = take_spikes(contour);
+            let (rest, spikes) = take_spikes_within(contour, step);
             let edges = || spikes.iter().flat_map(|s| s.windows(2)).map(|w| [w[0], w[1]]);
             let seam_of = |edge: Segment| {
                 closed.iter().copied().find(|&s| lies_on(net.seams[s].sides[0].segment, edge, step))

@@ -251,7 +251,7 @@ pub fn planarize(
 /// The needles of a mesh at corners that were none before, in the order of faces.
 fn needles(before: &Mesh, after: &Mesh) -> Vec<Needle> {
     let angle = |mesh: &Mesh, h: HalfEdgeId| corner_angle(mesh, h).map(f64::to_degrees);
-    let is_needle = |degrees: f64| degrees < SHARPEST || degrees > 360.0 - SHARPEST;
+    let is_needle = |degrees: f64| !(SHARPEST..=360.0 - SHARPEST).contains(&degrees);
     let corners = after.faces().flat_map(|f| after.face_half_edges(f));
     corners
         .filter_map(|h| {

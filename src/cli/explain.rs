@@ -167,6 +167,7 @@ mod tests {
             Check::StrayPoint,
             Check::SelfCrossing,
             Check::Crossing,
+            Check::NotFlat,
         ];
         let named = of_check.map(|kind| (kind.code().to_string(), kind.name())).into_iter();
         let named: Vec<_> =

@@ -68,13 +68,12 @@ fn name(panel: &MapPanel) -> Option<Vec<Vec<DVec2>>> {
 /// ```
 /// use kerfold::io::map_files::map_svg;
 /// use kerfold::panel::assembly_map;
-/// use kerfold::panel::{Hardware, PanelParams, plates};
+/// use kerfold::panel::{PanelParams, plates};
 /// use kerfold::prelude::*;
 ///
 /// let cube = kerfold::shape::cube(200.0);
 /// let params = PanelParams::default();
-/// let hardware = Hardware::default();
-/// let made = plates(&cube, Length::from_mm(5.0), (&params, &hardware), &Silent)?;
+/// let made = plates(&cube, Length::from_mm(5.0), &params, &Silent)?;
 /// let map = assembly_map(&made);
 /// assert!(map_svg(&map, "my program").contains("<svg"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -114,13 +113,12 @@ pub fn map_svg(map: &AssemblyMap, command: &str) -> String {
 /// ```
 /// use kerfold::io::map_files::map_pdf;
 /// use kerfold::panel::assembly_map;
-/// use kerfold::panel::{Hardware, PanelParams, plates};
+/// use kerfold::panel::{PanelParams, plates};
 /// use kerfold::prelude::*;
 ///
 /// let cube = kerfold::shape::cube(200.0);
 /// let params = PanelParams::default();
-/// let hardware = Hardware::default();
-/// let made = plates(&cube, Length::from_mm(5.0), (&params, &hardware), &Silent)?;
+/// let made = plates(&cube, Length::from_mm(5.0), &params, &Silent)?;
 /// let map = assembly_map(&made);
 /// assert!(map_pdf(&map, "my program").starts_with(b"%PDF"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())

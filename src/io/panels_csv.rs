@@ -32,14 +32,13 @@ pub(super) fn sheet_of(layout: &Layout) -> BTreeMap<PieceId, String> {
 /// use kerfold::panel::panel_net;
 /// use kerfold::sheet::{SheetParams, lay_out};
 /// use kerfold::panel::schedule;
-/// use kerfold::panel::{Hardware, PanelParams, plates};
+/// use kerfold::panel::{PanelParams, plates};
 /// use kerfold::prelude::*;
 ///
 /// let cube = kerfold::shape::cube(200.0);
 /// let params = PanelParams::default();
-/// let hardware = Hardware::default();
-/// let made = plates(&cube, Length::from_mm(5.0), (&params, &hardware), &Silent)?;
-/// let list = schedule(&cube, &made, &params);
+/// let made = plates(&cube, Length::from_mm(5.0), &params, &Silent)?;
+/// let list = schedule(&cube, &made, &params, &Silent)?;
 /// let net = panel_net(&cube, &made, 1.0, &[]);
 /// let sheets = lay_out(&net, &SheetParams::default())?;
 /// let csv = panels_csv(&list, &made, &sheets.layout, "my program");
@@ -86,14 +85,13 @@ fn panel(row: &PanelRow, plate: &Plate, sheet: &str) -> Vec<String> {
 /// ```
 /// use kerfold::io::panels_csv::edges_csv;
 /// use kerfold::panel::schedule;
-/// use kerfold::panel::{Hardware, PanelParams, plates};
+/// use kerfold::panel::{PanelParams, plates};
 /// use kerfold::prelude::*;
 ///
 /// let cube = kerfold::shape::cube(200.0);
 /// let params = PanelParams::default();
-/// let hardware = Hardware::default();
-/// let made = plates(&cube, Length::from_mm(5.0), (&params, &hardware), &Silent)?;
-/// let list = schedule(&cube, &made, &params);
+/// let made = plates(&cube, Length::from_mm(5.0), &params, &Silent)?;
+/// let list = schedule(&cube, &made, &params, &Silent)?;
 /// assert_eq!(edges_csv(&list, "my program").lines().filter(|l| !l.starts_with('#')).count(), 1 + 12);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -129,14 +127,13 @@ pub fn edges_csv(schedule: &Schedule, command: &str) -> String {
 /// ```
 /// use kerfold::io::panels_csv::nodes_csv;
 /// use kerfold::panel::schedule;
-/// use kerfold::panel::{Hardware, PanelParams, plates};
+/// use kerfold::panel::{PanelParams, plates};
 /// use kerfold::prelude::*;
 ///
 /// let cube = kerfold::shape::cube(200.0);
 /// let params = PanelParams::default();
-/// let hardware = Hardware::default();
-/// let made = plates(&cube, Length::from_mm(5.0), (&params, &hardware), &Silent)?;
-/// let list = schedule(&cube, &made, &params);
+/// let made = plates(&cube, Length::from_mm(5.0), &params, &Silent)?;
+/// let list = schedule(&cube, &made, &params, &Silent)?;
 /// assert_eq!(nodes_csv(&list, "my program").lines().filter(|l| !l.starts_with('#')).count(), 1 + 8);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -165,14 +162,13 @@ fn node(row: &NodeRow) -> Vec<String> {
 /// ```
 /// use kerfold::io::panels_csv::cutting_list_csv;
 /// use kerfold::panel::schedule;
-/// use kerfold::panel::{Hardware, PanelParams, plates};
+/// use kerfold::panel::{PanelParams, plates};
 /// use kerfold::prelude::*;
 ///
 /// let cube = kerfold::shape::cube(200.0);
 /// let params = PanelParams::default();
-/// let hardware = Hardware::default();
-/// let made = plates(&cube, Length::from_mm(5.0), (&params, &hardware), &Silent)?;
-/// let list = schedule(&cube, &made, &params);
+/// let made = plates(&cube, Length::from_mm(5.0), &params, &Silent)?;
+/// let list = schedule(&cube, &made, &params, &Silent)?;
 /// let csv = cutting_list_csv(&list, "my program");
 /// assert!(csv.lines().count() > 1);
 /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -25,14 +25,13 @@ use crate::sheet::Layout;
 /// use kerfold::panel::panel_net;
 /// use kerfold::sheet::{SheetParams, lay_out};
 /// use kerfold::panel::schedule;
-/// use kerfold::panel::{Hardware, PanelParams, plates};
+/// use kerfold::panel::{PanelParams, plates};
 /// use kerfold::prelude::*;
 ///
 /// let cube = kerfold::shape::cube(200.0);
 /// let params = PanelParams::default();
-/// let hardware = Hardware::default();
-/// let made = plates(&cube, Length::from_mm(5.0), (&params, &hardware), &Silent)?;
-/// let list = schedule(&cube, &made, &params);
+/// let made = plates(&cube, Length::from_mm(5.0), &params, &Silent)?;
+/// let list = schedule(&cube, &made, &params, &Silent)?;
 /// let net = panel_net(&cube, &made, 1.0, &[]);
 /// let sheets = lay_out(&net, &SheetParams::default())?;
 /// let json = panels_json(&list, &made, &sheets.layout, &[], "my program");

@@ -87,7 +87,8 @@ fn by_lines(bytes: &[u8]) -> Result<RawMesh, Located> {
 }
 
 /// The mesh when the whole file is one row of numbers without colours, whatever its lines. `None`
-/// when numbers are missing or left over.
+/// when numbers are missing or left over, or when faces read so are none: then a line was short, and
+/// the numbers after it stand in the wrong places.
 fn by_numbers(bytes: &[u8]) -> Option<RawMesh> {
     let mut lines = Lines::new(bytes);
     let mut row: Vec<(usize, &[u8])> = Vec::new();
@@ -113,7 +114,8 @@ fn by_numbers(bytes: &[u8]) -> Option<RawMesh> {
         let sides = integer(sides)? as usize;
         let corners = numbers.by_ref().take(sides).map(|(_, word)| integer(word));
         let corners: Vec<u32> = corners.collect::<Option<_>>()?;
-        if corners.len() != sides {
+        let is_face = sides > 2 && corners.iter().all(|&v| u64::from(v) < u64::from(vertices));
+        if corners.len() != sides || !is_face {
             return None;
         }
         raw.push_face(corners);

@@ -30,15 +30,16 @@ pub struct NamedPlate<'a> {
 /// # Example
 /// ```
 /// use kerfold::io::plates::{NamedPlate, plates_obj};
-/// use kerfold::panel::{Hardware, PanelParams, plates};
+/// use kerfold::panel::{PanelParams, plates, solid};
 /// use kerfold::prelude::*;
 ///
 /// let cube = kerfold::shape::cube(200.0);
 /// let params = PanelParams::default();
-/// let hardware = Hardware::default();
-/// let made = plates(&cube, Length::from_mm(5.0), (&params, &hardware), &Silent)?;
-/// let named = |plate| NamedPlate { name: "side".to_owned(), group: 0, plate };
-/// let parts: Vec<NamedPlate> = made.plates.iter().map(named).collect();
+/// let made = plates(&cube, Length::from_mm(5.0), &params, &Silent)?;
+/// let bodies: Vec<_> = made.plates.iter().map(solid).collect::<Result<_, _>>()?;
+/// let parts = made.plates.iter().zip(&bodies);
+/// let named = |(plate, body)| NamedPlate { name: "side".to_owned(), group: 0, plate, body };
+/// let parts: Vec<NamedPlate> = parts.map(named).collect();
 /// let bytes = plates_obj(&parts, "my program");
 /// assert!(bytes.windows(6).any(|w| w == b"g side"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -88,15 +89,16 @@ const STL_HEADER: usize = 80;
 /// # Example
 /// ```
 /// use kerfold::io::plates::{NamedPlate, plates_stl};
-/// use kerfold::panel::{Hardware, PanelParams, plates};
+/// use kerfold::panel::{PanelParams, plates, solid};
 /// use kerfold::prelude::*;
 ///
 /// let cube = kerfold::shape::cube(200.0);
 /// let params = PanelParams::default();
-/// let hardware = Hardware::default();
-/// let made = plates(&cube, Length::from_mm(5.0), (&params, &hardware), &Silent)?;
-/// let named = |plate| NamedPlate { name: "side".to_owned(), group: 0, plate };
-/// let parts: Vec<NamedPlate> = made.plates.iter().map(named).collect();
+/// let made = plates(&cube, Length::from_mm(5.0), &params, &Silent)?;
+/// let bodies: Vec<_> = made.plates.iter().map(solid).collect::<Result<_, _>>()?;
+/// let parts = made.plates.iter().zip(&bodies);
+/// let named = |(plate, body)| NamedPlate { name: "side".to_owned(), group: 0, plate, body };
+/// let parts: Vec<NamedPlate> = parts.map(named).collect();
 /// let bytes = plates_stl(&parts, "my program")?;
 /// assert!(bytes.len() > 84);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -154,15 +156,16 @@ const COLOURS: [[u8; 3]; 12] = [
 /// # Example
 /// ```
 /// use kerfold::io::plates::{NamedPlate, plates_glb};
-/// use kerfold::panel::{Hardware, PanelParams, plates};
+/// use kerfold::panel::{PanelParams, plates, solid};
 /// use kerfold::prelude::*;
 ///
 /// let cube = kerfold::shape::cube(200.0);
 /// let params = PanelParams::default();
-/// let hardware = Hardware::default();
-/// let made = plates(&cube, Length::from_mm(5.0), (&params, &hardware), &Silent)?;
-/// let named = |plate| NamedPlate { name: "side".to_owned(), group: 0, plate };
-/// let parts: Vec<NamedPlate> = made.plates.iter().map(named).collect();
+/// let made = plates(&cube, Length::from_mm(5.0), &params, &Silent)?;
+/// let bodies: Vec<_> = made.plates.iter().map(solid).collect::<Result<_, _>>()?;
+/// let parts = made.plates.iter().zip(&bodies);
+/// let named = |(plate, body)| NamedPlate { name: "side".to_owned(), group: 0, plate, body };
+/// let parts: Vec<NamedPlate> = parts.map(named).collect();
 /// let bytes = plates_glb(&parts, "my program")?;
 /// assert!(bytes.starts_with(b"glTF"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())

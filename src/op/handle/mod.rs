@@ -127,7 +127,7 @@ impl HandleReport {
 ///     weights: None,
 ///     twist: Default::default(),
 /// };
-/// let (ring, _, _) = handle(&cube, &params, &OpContext::default())?;
+/// let (ring, _) = handle(&cube, &params, &OpContext::default())?;
 /// assert_eq!(kerfold::measure::genus(&ring), 1);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

@@ -205,7 +205,7 @@ impl RindReport {
 ///     peel: None,
 ///     shell: Default::default(),
 /// };
-/// let (shell, _, _) = rind(&cube, &params, &OpContext::default())?;
+/// let (shell, _) = rind(&cube, &params, &OpContext::default())?;
 /// assert!((volume(&shell) - (1000.0 - 512.0)).abs() < 1e-9);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

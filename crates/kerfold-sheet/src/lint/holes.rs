@@ -13,7 +13,7 @@ use crate::geom::polygon::convex_hull;
 const LEAST: f64 = 1.5;
 
 /// A slot takes the edge of a plate: its width in thicknesses, from a press fit to an easy one.
-const SLOT_WIDTH: [f64; 2] = [0.9, 1.3];
+const SLOT_WIDTH: [f64; 2] = [0.9, 1.5];
 
 /// A slot is at least that many times as long as wide.
 const SLOT_LENGTH: f64 = 2.0;

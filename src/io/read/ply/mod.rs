@@ -312,7 +312,7 @@ mod tests {
         let text = format!("ply\nformat ascii 1.0\nMade by hand\n{CORNERS}{faces}{POINTS}");
         let raw = read(format!("{text}3 0 1 2 255\n3 1 2 3 9 9\n").as_bytes()).expect("a PLY");
         assert_eq!(raw.corners, [0, 1, 2, 1, 2, 3]);
-        let extra = ReadNote::ExtraColumns { count: 2, first_line: 14 };
+        let extra = ReadNote::ExtraColumns { count: 2, first_line: 15 };
         let header = ReadNote::PassedOver { count: 1, first_line: 3 };
         assert_eq!(raw.notes, [extra, header]);
         // In a row, whatever the lines.

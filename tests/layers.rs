@@ -142,7 +142,14 @@ const DOORS: &[(&str, &[&str])] = &[
     ("annotate_snippets", &["src/cli/"]),
     ("svg", &["src/io/sheet/svg.rs"]),
     ("sysinfo", &["src/memory.rs"]),
-    ("roxmltree", &["src/io/read/artwork/svg"]),
+    (
+        "roxmltree",
+        &[
+            "src/io/read/artwork/svg.rs",
+            "src/io/read/artwork/svg_page.rs",
+            "src/io/read/artwork/svg_style.rs",
+        ],
+    ),
     ("svgtypes", &["src/io/read/artwork/svg_path.rs"]),
     ("kurbo", &["src/io/read/artwork/curve.rs"]),
     ("krilla", &["src/io/report/pdf/"]),

@@ -12,7 +12,8 @@ use crate::geom::polygon::convex_hull;
 /// Holes narrower than that many thicknesses are findings.
 const LEAST: f64 = 1.5;
 
-/// A slot takes the edge of a plate: its width in thicknesses, from a press fit to an easy one.
+/// A slot takes the edge of a plate: its width in thicknesses, from a press fit to a plate that leans:
+/// at an angle δ between the plates a slot is (1 + |cos δ|) / sin δ thicknesses wide.
 const SLOT_WIDTH: [f64; 2] = [0.9, 1.5];
 
 /// A slot is at least that many times as long as wide.
@@ -119,7 +120,8 @@ mod tests {
             (2.7, 9.0, true),
             (3.9, 9.0, true),
             (2.6, 9.0, false),
-            (4.0, 12.0, false),
+            (4.4, 12.0, true),
+            (4.6, 12.0, false),
             (3.0, 5.0, false),
             (3.0, 3.0, false),
         ] {

@@ -91,7 +91,7 @@ pub struct ConicalNode {
     /// Number of its edges.
     pub valence: usize,
     /// By how many mm per mm of thickness plates miss each other there
-    /// ([`measure::conical_residual`]).
+    /// ([`crate::measure::conical_residual`]).
     pub residual: Option<f64>,
 }
 

@@ -112,7 +112,7 @@ pub fn carve_dform(
 /// What became of some choices of folds at one offset.
 enum Carving {
     /// The first that lies flat in as many pieces as it promised, after some that do not.
-    Whole { passed: usize, carved: CarvedDform },
+    Whole { passed: usize, carved: Box<CarvedDform> },
     /// None does.
     Broken(Box<BrokenPromise>),
     /// None can be carved.
@@ -139,7 +139,9 @@ fn carve_first_whole(
         let promised = piece_count(mesh, folds);
         match carve(mesh, folds, (params, offset), progress) {
             Ok(carved) => match pieces_flat(&carved, progress) {
-                Some(made) if made == promised => return Carving::Whole { passed: i, carved },
+                Some(made) if made == promised => {
+                    return Carving::Whole { passed: i, carved: Box::new(carved) };
+                }
                 made => {
                     let made = made.unwrap_or(carved.mesh.face_count());
                     first = first.or(Some(Box::new(BrokenPromise { promised, made, carved })));
@@ -177,7 +179,7 @@ fn smaller_offset(
         if let Carving::Whole { carved, .. } =
             carve_first_whole(mesh, choices, (params, offset), progress)
         {
-            return Some((offset, carved));
+            return Some((offset, *carved));
         }
     }
     None

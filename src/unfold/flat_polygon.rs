@@ -187,7 +187,11 @@ mod tests {
     fn bent(n: u32, off: f64, uneven: f64) -> Vec<DVec3> {
         let corner = |i: u32| {
             let flat = DVec2::from_angle(f64::from(i) * std::f64::consts::TAU / f64::from(n));
-            (flat * (900.0 + uneven * f64::from(i % 3))).extend(if i % 2 == 0 { off } else { -off })
+            (flat * (900.0 + uneven * f64::from(i % 3))).extend(if i.is_multiple_of(2) {
+                off
+            } else {
+                -off
+            })
         };
         (0..n).map(corner).collect()
     }

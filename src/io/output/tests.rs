@@ -115,7 +115,7 @@ fn a_folder_is_made_and_filled_at_once() {
     assert_eq!(folder.names().collect::<Vec<_>>(), ["a.svg", "b.svg"]);
     assert!(scratch.names().is_empty());
     let written = folder.commit().expect("written");
-    assert_eq!(written.stale, [PathBuf::new(); 0]);
+    assert!(written.stale.is_empty());
     assert_eq!(written.paths, [scratch.path("out/deep/a.svg"), scratch.path("out/deep/b.svg")]);
     assert_eq!(scratch.text("out/deep/a.svg"), "two");
 }

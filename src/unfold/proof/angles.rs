@@ -20,7 +20,9 @@ pub(super) fn check(mesh: &Mesh, net: &Net, size: f64) -> Result<(), ProofError>
         let Some(fold) = Bend::at(mesh, EdgeId::new(edge)) else { continue };
         // An angle is as wrong as the far corner of the smaller face comes off its place.
         let off = fold.differs_by(given).to_radians() * fold.reach;
-        if !(off <= size * (REFOLD + 4.0 * fold.slope)) {
+        let is_right = off <= size * (REFOLD + 4.0 * fold.slope);
+        // An angle that is no number is wrong, too.
+        if !is_right {
             let fault = EdgeFault::Angle { given, angle: fold.degrees };
             return Err(ProofError::Edge { edge, ends, fault });
         }

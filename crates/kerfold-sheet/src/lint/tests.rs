@@ -188,7 +188,8 @@ fn work_grows_with_the_strokes_and_not_faster() {
             let stroke = |k: usize| {
                 let from = along.perp() * (0.05 * k as f64);
                 let points = vec![from, from + along * 400.0];
-                let operation = if k % 2 == 0 { Operation::Engrave } else { Operation::Cut };
+                let operation =
+                    if k.is_multiple_of(2) { Operation::Engrave } else { Operation::Cut };
                 ArtPath { points, closed: false, operation, layer: String::new(), name: None }
             };
             let paths = (0..count).map(stroke).collect();

@@ -1,6 +1,7 @@
 //! The checks: each looks for one kind of fault and lists its findings, ascending by id.
 
 use std::cmp::Ordering;
+use std::collections::BTreeMap;
 
 use super::{CheckFinding, CheckKind, Element, Report, Requirement, Unit, short};
 use crate::geom::RoundingBound;
@@ -21,12 +22,13 @@ pub(super) fn all(mesh: &Mesh, report: &Report) -> Vec<CheckFinding> {
     findings.extend(mesh.faces().filter_map(|f| self_intersection(mesh, f)));
     findings.extend(planarity(report));
     type Check = fn(&Mesh, &Report) -> Vec<CheckFinding>;
-    let on_request: [(Requirement, Check); 5] = [
+    let on_request: [(Requirement, Check); 6] = [
         (Requirement::Valence3, valence),
         (Requirement::Closed, closed),
         (Requirement::Convex, convex),
         (Requirement::Manifold, manifold),
         (Requirement::OneComponent, one_component),
+        (Requirement::Simple, simple),
     ];
     for (requirement, check) in on_request {
         if report.require.contains(&requirement) {
@@ -290,6 +292,33 @@ fn one_component(mesh: &Mesh, report: &Report) -> Vec<CheckFinding> {
     }]
 }
 
+fn simple(_: &Mesh, report: &Report) -> Vec<CheckFinding> {
+    let mut by_face: BTreeMap<FaceId, Vec<FaceId>> = BTreeMap::new();
+    for pair in &report.crossings {
+        by_face.entry(pair.first).or_default().push(pair.second);
+    }
+    let finding = |(face, others): (FaceId, Vec<FaceId>)| {
+        let mut names: Vec<String> = others.iter().take(NAMED).map(FaceId::to_string).collect();
+        if others.len() > NAMED {
+            names.push("...".to_owned());
+        }
+        CheckFinding {
+            check: CheckKind::Simple,
+            element: Element::Face,
+            id: face.index(),
+            measured: others.len() as f64,
+            limit: 0.0,
+            unit: Unit::Faces,
+            message: format!(
+                "face {face} goes through or covers {} {}",
+                if others.len() == 1 { "face" } else { "faces" },
+                names.join(", ")
+            ),
+        }
+    };
+    by_face.into_iter().map(finding).collect()
+}
+
 /// The first few vertices of a list, and whether there are more.
 fn named(vertices: impl Iterator<Item = VertexId>) -> String {
     let mut names: Vec<String> = vertices.take(NAMED + 1).map(|v| v.to_string()).collect();
@@ -318,13 +347,14 @@ mod tests {
         report.findings.iter().map(|f| (f.check, f.element, f.id)).collect()
     }
 
-    const ALL: [Requirement; 6] = [
+    const ALL: [Requirement; 7] = [
         Requirement::Planar,
         Requirement::Valence3,
         Requirement::Closed,
         Requirement::Convex,
         Requirement::Manifold,
         Requirement::OneComponent,
+        Requirement::Simple,
     ];
 
     #[test]
@@ -430,5 +460,26 @@ mod tests {
     fn the_same_mesh_gives_the_same_report() {
         let mesh = torus(7, 5);
         assert_eq!(with(&mesh, &ALL), with(&mesh, &ALL));
+    }
+
+    #[test]
+    fn faces_that_go_through_each_other_are_named_when_asked_for() {
+        // A square pierced by a triangle that stands on it, apart in the file.
+        let points = [
+            (0., 0., 0.),
+            (4., 0., 0.),
+            (4., 4., 0.),
+            (0., 4., 0.),
+            (1., 1., -1.),
+            (3., 1., -1.),
+            (2., 2., 1.),
+        ];
+        let points = points.map(|(x, y, z)| DVec3::new(x, y, z));
+        let mesh = Mesh::from_faces(points, [vec![0, 1, 2, 3], vec![4, 5, 6]]).expect("two faces");
+        let report = with(&mesh, &[Requirement::Simple]);
+        assert_eq!(found(&report), [(CheckKind::Simple, Element::Face, 0)]);
+        assert_eq!(report.findings[0].message, "face 0 goes through or covers face 1");
+        let silent = with(&mesh, &[]);
+        assert!(silent.findings.is_empty() && silent.crossings.len() == 1);
     }
 }

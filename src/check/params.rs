@@ -24,7 +24,8 @@ pub struct CheckParams {
     pub profile: Profile,
 
     /// What else the model must be, separated by commas: `planar` (always checked), `valence3`,
-    /// `closed`, `convex`, `manifold`, `one-component`. What is broken becomes a finding.
+    /// `closed`, `convex`, `manifold`, `one-component`, `simple` (no face goes through another). What
+    /// is broken becomes a finding.
     #[arg(
         long,
         value_enum,
@@ -70,6 +71,8 @@ pub enum Requirement {
     Manifold,
     /// Everything is connected.
     OneComponent,
+    /// No face goes through another or covers it.
+    Simple,
 }
 
 /// Why a model cannot be checked as asked.
@@ -248,7 +251,7 @@ mod tests {
         assert_eq!(
             error.to_string(),
             "`planer` is not a requirement; did you mean `planar`? Known: planar, valence3, \
-            closed, convex, manifold, one-component"
+            closed, convex, manifold, one-component, simple"
         );
         assert!(
             typed(&["--require", "planar,clozed"])

@@ -132,6 +132,8 @@ pub enum Unit {
     Rims,
     /// A number of vertices.
     Vertices,
+    /// A number of faces.
+    Faces,
     /// A number of places where an outline meets itself.
     Contacts,
     /// A number of times that a surface winds around its middle.
@@ -151,6 +153,7 @@ impl Unit {
             Self::Handles => "handles",
             Self::Rims => "rims",
             Self::Vertices => "vertices",
+            Self::Faces => "faces",
             Self::Contacts => "contacts",
             Self::Windings => "windings",
         }

@@ -7,8 +7,11 @@ use glam::DVec3;
 
 use super::{Breach, Limits, Profile, Requirement, Unit};
 use crate::code::codes;
-use crate::measure::{Convexity, Planarity};
+use crate::measure::{Convexity, CrossingPair, Planarity};
 use crate::mesh::{FaceId, VertexId};
+
+/// More pairs of crossing faces than this are not looked for.
+pub const MOST_CROSSINGS: usize = 1000;
 
 /// Everything that a check measured and found.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,6 +41,9 @@ pub struct Report {
     pub concave_ends: Vec<[VertexId; 2]>,
     /// The vertices with more than three edges, ascending, and whether plates meet there.
     pub conical: Vec<ConicalNode>,
+    /// Pairs of faces that go through each other or cover each other, ascending; at most
+    /// [`MOST_CROSSINGS`] of them.
+    pub crossings: Vec<CrossingPair>,
     /// What breaks a limit or a requirement, in the order of [`CheckKind`] and ascending by id.
     pub findings: Vec<CheckFinding>,
 }
@@ -117,6 +123,8 @@ pub enum CheckKind {
     Manifold,
     /// More than one connected part.
     OneComponent,
+    /// Faces that go through each other.
+    Simple,
 }
 
 codes!(finding CheckKind {
@@ -129,6 +137,7 @@ codes!(finding CheckKind {
     Convex = 107,
     Manifold = 108,
     OneComponent = 109,
+    Simple = 110,
 });
 
 /// What a finding is about.
@@ -215,6 +224,7 @@ impl CheckKind {
             Self::Convex => "convex",
             Self::Manifold => "manifold",
             Self::OneComponent => "one-component",
+            Self::Simple => "simple",
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::report::{ConicalNode, FaceReport, ModelCounts, Report, ValenceReport};
+use super::report::{ConicalNode, FaceReport, MOST_CROSSINGS, ModelCounts, Report, ValenceReport};
 use super::{CheckError, CheckParams, Limits, Profile, findings};
 use crate::measure::{self, Planarity, planarity, plane_deviation};
 use crate::mesh::{EdgeId, FaceId, FaceMap, Mesh, VertexId};
@@ -11,8 +11,8 @@ use crate::mesh::{EdgeId, FaceId, FaceMap, Mesh, VertexId};
 ///
 /// Always findings: faces beyond the planarity limits, without area or with an outline that meets
 /// itself, and edges without length (shorter than the rounding bound, 1e-12 of the model). Only
-/// when required: valence, rims, convexity, vertices at one place, several components; these are
-/// still reported as data.
+/// when required: valence, rims, convexity, vertices at one place, several components, faces that go
+/// through each other; these are still reported as data.
 ///
 /// # Errors
 /// [`CheckError::BadLimit`] when a limit is negative or not finite.
@@ -47,6 +47,7 @@ pub fn check(mesh: &Mesh, params: &CheckParams) -> Result<Report, CheckError> {
             .map(|&e: &EdgeId| mesh.edge_vertices(e))
             .collect(),
         conical: conical_nodes(mesh),
+        crossings: measure::crossings(mesh, MOST_CROSSINGS),
         convexity,
         faces,
         findings: Vec::new(),

@@ -153,6 +153,7 @@ mod tests {
             K::Convex,
             K::Manifold,
             K::OneComponent,
+            K::Simple,
         ];
         let of_lint = [
             Check::OpenContour,

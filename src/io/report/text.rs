@@ -60,6 +60,7 @@ pub fn check_text(report: &Report, command: &str) -> String {
     page.row("Valence", &[&format!("{} (edges: vertices)", histogram(&report.valence.histogram))]);
     nodes(&mut page, report);
     page.row("Convex", &[&convexity(report)]);
+    crossings(&mut page, report);
     worst_faces(&mut page, report);
     findings(&mut page, report);
     page.blank();
@@ -143,6 +144,25 @@ fn inwards_in_words(s: &Summary) -> Option<String> {
     (inwards > 0).then(|| {
         format!("{components} with a negative volume: faces look inwards there, or it is a cavity")
     })
+}
+
+/// Faces that go through each other, where there are any.
+fn crossings(page: &mut Page, report: &Report) {
+    /// Pairs that are named.
+    const NAMED: usize = 8;
+    let found = &report.crossings;
+    if found.is_empty() {
+        return;
+    }
+    let pairs = counted(found.len(), "pair", "pairs");
+    let names: Vec<String> =
+        found.iter().take(NAMED).map(|p| format!("{} with {}", p.first, p.second)).collect();
+    let more = if found.len() > NAMED { ", …" } else { "" };
+    page.row(
+        "Crossings",
+        &[&format!("{pairs} of faces go through each other: {}{more}", names.join(", "))],
+    );
+    page.more(&["`--require simple` makes a finding of them"]);
 }
 
 fn nodes(page: &mut Page, report: &Report) {

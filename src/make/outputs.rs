@@ -7,7 +7,7 @@ use crate::io::sheet::files::sheet_files;
 use crate::io::sheet::layout::write_order_layout_json;
 use crate::net::EdgeLabel;
 use crate::picture::{PictureError, Polyline, StrokeLayer, Strokes, render_sheet};
-use crate::sheet::{Drawing, JointFallback, JointReport, LayerKind, SheetParams};
+use crate::sheet::{Drawing, JointFallback, JointReport, LayerKind, SheetParams, SheetReport};
 use crate::units::counted;
 
 /// A file to be written: its name in the folder, and its bytes.
@@ -70,118 +70,110 @@ impl Fabrication {
     /// What the user should know about pieces and sheets.
     pub fn notes(&self) -> Vec<String> {
         let report = &self.sheets.report;
-        let mut notes: Vec<String> =
-            Some(self.seams.to_owned()).into_iter().filter(|s| !s.is_empty()).collect();
-        let mut note = |count: usize, text: String| {
-            if count > 0 {
-                notes.push(text);
-            }
-        };
-        note(
-            self.divided,
-            counted(self.divided, "fold was", "folds were")
-                + " opened so that the pieces fit on the sheet",
-        );
-        let flat = self.flat_seams();
-        let runs = if flat.len() == 1 { "seam runs" } else { "seams run" };
-        note(
-            flat.len(),
-            format!("{} {runs} between faces in one plane: {}", flat.len(), flat.join(", ")),
-        );
-        let unnamed = &report.unnamed_pieces;
-        note(unnamed.len(), format!("no room for the names of pieces {}", piece_list(unnamed)));
-        note(
-            report.unnumbered_sides,
-            format!(
-                "no room for {}",
-                counted(report.unnumbered_sides, "seam number", "seam numbers")
-            ),
-        );
-        note(
-            report.flat_folds,
-            counted(report.flat_folds, "fold is flat and was", "folds are flat and were")
-                + " not scored",
-        );
-        let unscored = report.unscored_folds;
-        note(
-            unscored,
-            counted(
-                unscored,
-                "fold is shorter than what is left out at its ends and was not scored",
-                "folds are shorter than what is left out at their ends and were not scored",
-            ),
-        );
-        note(
-            report.lost_holes,
-            counted(
-                report.lost_holes,
-                "hole is narrower than the kerf and was",
-                "holes are narrower than the kerf and were",
-            ) + " left out",
-        );
-        let narrow = report.narrow_holes;
-        note(
-            narrow,
-            format!(
-                "{} narrow or less than 1 mm beside another cut: a larger model or other seams \
-                avoid that",
-                counted(narrow, "hole of a piece is", "holes of pieces are")
-            ),
-        );
-        let closed = report.closed_notches;
-        note(
-            closed,
-            format!(
-                "{} narrower than the kerf and not cut: flaps are connected there",
-                counted(closed, "notch is", "notches are")
-            ),
-        );
-        let widened = report.widened_notches;
-        note(
-            widened,
-            format!(
-                "{} too narrow for a closed cut and cut wider",
-                counted(widened, "slit or notch is", "slits and notches are")
-            ),
-        );
-        let uncut = &report.uncut_seams;
-        note(
-            uncut.len(),
-            format!(
-                "{} left uncut, as both sides lie on one another: {}",
-                counted(uncut.len(), "seam is", "seams are"),
-                edge_list(uncut)
-            ),
-        );
-        note(
-            usize::from(report.is_stopped),
-            "the search was stopped; this is the best layout so far".to_owned(),
-        );
-        if let Some([left, web]) = report.narrow_spacing {
-            let left = (left * 1000.0).round() / 1000.0;
-            note(
-                1,
-                format!(
-                    "only {left} mm are left between parts, less than the {web} mm that the \
-                    material wants: raise the spacing"
-                ),
-            );
-        }
-        let shared = (report.shared_length * 10.0).round() / 10.0;
-        note(
-            usize::from(shared > 0.0),
-            format!("{shared} mm of cuts are shared by two parts and cut once"),
-        );
-        note(
-            report.unmarked_angles,
-            format!(
-                "no room for the angles of {}",
-                counted(report.unmarked_angles, "fold", "folds")
-            ),
-        );
+        let mut notes = self.piece_notes();
+        notes.extend(lettering_notes(report));
+        notes.extend(fold_notes(report));
+        notes.extend(contour_notes(report));
+        notes.extend(layout_notes(report));
         notes.extend(joint_notes(&report.joints));
         notes
     }
+
+    fn piece_notes(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        if !self.seams.is_empty() {
+            notes.push(self.seams.to_owned());
+        }
+        if self.divided > 0 {
+            let folds = counted(self.divided, "fold was", "folds were");
+            notes.push(folds + " opened so that the pieces fit on the sheet");
+        }
+        let flat = self.flat_seams();
+        if !flat.is_empty() {
+            let seams = counted(flat.len(), "seam runs", "seams run");
+            notes.push(format!("{seams} between faces in one plane: {}", flat.join(", ")));
+        }
+        notes
+    }
+}
+
+/// A note on something, where there is any of it.
+fn note(count: usize, text: impl FnOnce() -> String) -> Option<String> {
+    (count > 0).then(text)
+}
+
+fn lettering_notes(report: &SheetReport) -> impl Iterator<Item = String> {
+    let (unnamed, sides) = (&report.unnamed_pieces, report.unnumbered_sides);
+    let names =
+        note(unnamed.len(), || format!("no room for the names of pieces {}", piece_list(unnamed)));
+    let numbers =
+        note(sides, || format!("no room for {}", counted(sides, "seam number", "seam numbers")));
+    let angles = note(report.unmarked_angles, || {
+        let folds = counted(report.unmarked_angles, "fold", "folds");
+        format!("no room for the angles of {folds}")
+    });
+    [names, numbers, angles].into_iter().flatten()
+}
+
+fn fold_notes(report: &SheetReport) -> impl Iterator<Item = String> {
+    let flat = note(report.flat_folds, || {
+        counted(report.flat_folds, "fold is flat and was", "folds are flat and were")
+            + " not scored"
+    });
+    let unscored = note(report.unscored_folds, || {
+        counted(
+            report.unscored_folds,
+            "fold is shorter than what is left out at its ends and was not scored",
+            "folds are shorter than what is left out at their ends and were not scored",
+        )
+    });
+    [flat, unscored].into_iter().flatten()
+}
+
+fn contour_notes(report: &SheetReport) -> impl Iterator<Item = String> {
+    let lost = note(report.lost_holes, || {
+        counted(
+            report.lost_holes,
+            "hole is narrower than the kerf and was",
+            "holes are narrower than the kerf and were",
+        ) + " left out"
+    });
+    let narrow = note(report.narrow_holes, || {
+        counted(report.narrow_holes, "hole of a piece is", "holes of pieces are")
+            + " narrow or less than 1 mm beside another cut: a larger model or other seams avoid that"
+    });
+    let closed = note(report.closed_notches, || {
+        counted(report.closed_notches, "notch is", "notches are")
+            + " narrower than the kerf and not cut: flaps are connected there"
+    });
+    let widened = note(report.widened_notches, || {
+        counted(report.widened_notches, "slit or notch is", "slits and notches are")
+            + " too narrow for a closed cut and cut wider"
+    });
+    let uncut = note(report.uncut_seams.len(), || {
+        let seams = counted(report.uncut_seams.len(), "seam is", "seams are");
+        let list = edge_list(&report.uncut_seams);
+        format!("{seams} left uncut, as both sides lie on one another: {list}")
+    });
+    [lost, narrow, closed, widened, uncut].into_iter().flatten()
+}
+
+fn layout_notes(report: &SheetReport) -> impl Iterator<Item = String> {
+    let stopped = note(usize::from(report.is_stopped), || {
+        "the search was stopped; this is the best layout so far".to_owned()
+    });
+    let spacing = report.narrow_spacing.map(|[left, web]| {
+        let left = (left * 1000.0).round() / 1000.0;
+        format!(
+            "only {left} mm are left between parts, less than the {web} mm that the material \
+            wants: raise the spacing"
+        )
+    });
+    let shared = (report.shared_length * 10.0).round() / 10.0;
+    let shared = note(usize::from(shared > 0.0), || {
+        format!("{shared} mm of cuts are shared by two parts and cut once")
+    });
+    [stopped, spacing, shared].into_iter().flatten()
 }
 
 /// What became of the joints, in words for the user.

@@ -185,7 +185,7 @@ mod tests {
         let all = pages();
         for (typed, near) in [
             ("E999", Some("E831")),
-            ("f150", Some("F109")),
+            ("f150", Some("F110")),
             ("E130", Some("E131")),
             ("planarty", Some("planarity")),
             ("X301", Some("E301")),

@@ -3,7 +3,7 @@
 use super::dform::DformError;
 use super::materials::MaterialError;
 use super::nest_error::NestError;
-use super::panels::PanelOptionError;
+use super::panel_error::PanelOptionError;
 use crate::check::CheckError;
 use crate::code::codes;
 use crate::io::IoError;

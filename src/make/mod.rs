@@ -16,6 +16,7 @@ mod nest;
 mod nest_error;
 mod operate;
 mod outputs;
+mod panel_error;
 mod panels;
 mod planes;
 mod report_pictures;
@@ -31,9 +32,8 @@ pub use nest::{NestStep, nest_files};
 pub use nest_error::NestError;
 pub use operate::operate;
 pub use outputs::{Output, fabrication_outputs, sheet_picture};
-pub use panels::{
-    PanelFiles, PanelJob, PanelOptionError, Panelled, SolidFile, panel_model, panel_outputs,
-};
+pub use panel_error::PanelOptionError;
+pub use panels::{PanelFiles, PanelJob, Panelled, SolidFile, panel_model, panel_outputs};
 pub use planes::{PlanesStep, solid_of_planes};
 pub use report_pictures::report_pictures;
 pub use seam_choice::SeamChoice;

@@ -4,9 +4,9 @@ use clap::ValueEnum;
 use serde::Deserialize;
 
 use super::outputs::Output;
+use super::panel_error::PanelOptionError;
 use super::{Fabrication, MakeError, fabrication_outputs};
 use crate::check::short;
-use crate::code::codes;
 use crate::io::map_files::{map_pdf, map_svg};
 use crate::io::panels_csv::{cutting_list_csv, edges_csv, nodes_csv, panels_csv};
 use crate::io::panels_json::panels_json;
@@ -92,34 +92,6 @@ pub struct Panelled {
     /// What 3D files are wanted.
     pub files: PanelFiles,
 }
-
-/// Why panels cannot be made as asked.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum PanelOptionError {
-    /// No thickness.
-    #[error("panels need a thickness; give it, for example thickness 10mm, or a material")]
-    NoThickness,
-    /// A joint of the sheets instead of one of the panels.
-    #[error(
-        "panels do not take joint; say what their edges are with edges, for example edges finger"
-    )]
-    Joint,
-    /// An option that nothing uses.
-    #[error("{option} is used by no edge; leave it out, or let edges be {by}")]
-    Unused {
-        /// The option.
-        option: &'static str,
-        /// What would use it.
-        by: &'static str,
-    },
-}
-
-codes!(error PanelOptionError {
-    NoThickness = 741,
-    Joint = 742,
-    Unused = 743,
-});
 
 /// Makes the plates of a mesh in millimetres, lists them and lays them out on sheets. Without a
 /// thickness in the sheet's parameters that of the material is taken.

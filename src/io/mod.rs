@@ -27,7 +27,7 @@ pub(crate) use number::xml as escaped;
 pub use read::artwork;
 pub use read::{
     MeshUnit, ReadMesh, ReadNote, ReadOptions, decode_text, read_mesh, read_mesh_bytes,
-    read_points, read_seams, read_text,
+    read_points, read_points_bytes, read_seams, read_seams_bytes, read_text,
 };
 pub use write::glb;
 pub use write::plates;

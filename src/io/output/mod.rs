@@ -31,11 +31,7 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), IoError> {
         return written.map_err(|source| unwritable(path, source));
     }
     check_parent(path)?;
-    let target = Target::of(path)?;
-    if target.is_device() {
-        return fs::write(path, bytes).map_err(|source| unwritable(path, source));
-    }
-    publish_all(vec![Staged::write(target, bytes)?])
+    write_all(std::iter::once((path.to_owned(), bytes)))
 }
 
 /// Writes several files, each to its path: all of them, or none, as [`OutputFolder::commit`] does
@@ -44,12 +40,28 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), IoError> {
 /// # Errors
 /// As [`write_file`].
 pub fn write_files(files: &[(PathBuf, Vec<u8>)]) -> Result<(), IoError> {
-    let mut staged = Vec::with_capacity(files.len());
-    for (path, bytes) in files {
+    for (path, _) in files {
         check_parent(path)?;
-        staged.push(Staged::write(Target::of(path)?, bytes)?);
     }
-    publish_all(staged)
+    write_all(files.iter().map(|(path, bytes)| (path.clone(), bytes.as_slice())))
+}
+
+/// Writes files into folders that exist. Devices and pipes come last, as they are: what went into
+/// them cannot be taken back.
+fn write_all<'a>(files: impl Iterator<Item = (PathBuf, &'a [u8])>) -> Result<(), IoError> {
+    let (mut staged, mut devices) = (Vec::new(), Vec::new());
+    for (path, bytes) in files {
+        let target = Target::of(&path)?;
+        if target.is_device() {
+            devices.push((path, bytes));
+        } else {
+            staged.push(Staged::write(target, bytes)?);
+        }
+    }
+    publish_all(staged)?;
+    devices.into_iter().try_for_each(|(path, bytes)| {
+        fs::write(&path, bytes).map_err(|source| unwritable(&path, source))
+    })
 }
 
 /// What [`OutputFolder::commit`] has done.
@@ -121,11 +133,8 @@ impl OutputFolder {
     /// as before.
     pub fn commit(self) -> Result<Written, IoError> {
         let made = MadeFolders::make(&self.folder)?;
-        let mut staged = Vec::with_capacity(self.files.len());
-        for (name, bytes) in &self.files {
-            staged.push(Staged::write(Target::of(&self.folder.join(name))?, bytes)?);
-        }
-        publish_all(staged)?;
+        let files = self.files.iter();
+        write_all(files.map(|(name, bytes)| (self.folder.join(name), bytes.as_slice())))?;
         made.keep();
         let names: Vec<&str> = self.names().collect();
         Ok(Written {

@@ -17,6 +17,9 @@ const MOST_CORNERS: usize = 10_000;
 
 /// Whether a vertex comes twice.
 pub(super) fn visits_twice(face: &[u32]) -> bool {
+    if face.len() <= 16 {
+        return (1..face.len()).any(|i| face[..i].contains(&face[i]));
+    }
     let mut sorted = face.to_vec();
     sorted.sort_unstable();
     sorted.windows(2).any(|pair| pair[0] == pair[1])

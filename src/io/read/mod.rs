@@ -26,8 +26,8 @@ mod weld;
 
 pub use decode::{decode_text, read_text};
 pub(super) use off::begins_off;
-pub use points::read_points;
-pub use seams::read_seams;
+pub use points::{read_points, read_points_bytes};
+pub use seams::{read_seams, read_seams_bytes};
 pub(super) use stl::is_binary as is_binary_stl;
 
 /// How a mesh file is taken.

@@ -87,20 +87,26 @@ fn by_lines(bytes: &[u8]) -> Result<RawMesh, Located> {
 }
 
 /// The mesh when the whole file is one row of numbers without colours, whatever its lines. `None`
-/// when numbers are missing or left over, or when faces read so are none: then a line was short, and
-/// the numbers after it stand in the wrong places.
+/// when numbers are missing or left over, or when each element has a line of its own: numbers that
+/// are missing in one of those are not to be taken from the next.
 fn by_numbers(bytes: &[u8]) -> Option<RawMesh> {
     let mut lines = Lines::new(bytes);
     let mut row: Vec<(usize, &[u8])> = Vec::new();
+    let mut line_count = 0;
     while let Some((line, text)) = lines.next_content() {
-        let is_first = row.is_empty() && number_of_words(text) > 0;
-        let text = if is_first { keyword(text).unwrap_or(text) } else { text };
+        let text = if row.is_empty() { keyword(text).unwrap_or(text) } else { text };
         row.extend(words(text).map(|word| (line, word)));
+        line_count += 1;
     }
     let mut numbers = row.into_iter();
     let mut count = || numbers.next().and_then(|(_, word)| integer(word));
     // The number of edges is not needed.
     let (vertices, faces, _) = (count()?, count()?, count()?);
+    let elements = u64::from(vertices) + u64::from(faces);
+    // The keyword and the counts stand in one line, or in two.
+    if [elements + 1, elements + 2].contains(&line_count) {
+        return None;
+    }
     let mut raw = RawMesh::default();
     let mut commas = Commas::default();
     for _ in 0..vertices {

@@ -29,9 +29,18 @@ use crate::io::error::{ContentFault, IoError, Place, excerpt};
 /// ```
 pub fn read_points(path: &Path) -> Result<Vec<DVec3>, IoError> {
     let bytes = std::fs::read(path).map_err(|source| IoError::reading(path, source))?;
+    read_points_bytes(path, &bytes)
+}
+
+/// Reads the points of a polyline from the content of a file; `path` tells the format and is named
+/// in messages.
+///
+/// # Errors
+/// As [`read_points`].
+pub fn read_points_bytes(path: &Path, bytes: &[u8]) -> Result<Vec<DVec3>, IoError> {
     let is_obj = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("obj"));
     let (mut points, mut order) = (Vec::new(), Vec::new());
-    let text = as_utf8(&bytes);
+    let text = as_utf8(bytes);
     let mut lines = Lines::new(&text);
     while let Some((line, text)) = lines.next_content() {
         let at = |fault| IoError::Content {

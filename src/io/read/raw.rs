@@ -101,6 +101,8 @@ impl RawMesh {
     }
 
     fn drop_repeated_corners(&mut self) {
+        let numbers = self.face_numbers.clone();
+        let in_file = |face: usize| numbers.as_ref().map_or(face, |n| n[face] as usize);
         let mut repeated = None;
         let mut at = 0;
         let dropped = self.change_faces(|face| {
@@ -110,7 +112,7 @@ impl RawMesh {
                 face.pop();
             }
             if face.len() < before {
-                let (count, first) = repeated.unwrap_or((0, at));
+                let (count, first) = repeated.unwrap_or((0, in_file(at)));
                 repeated = Some((count + 1, first));
             }
             at += 1;

@@ -35,10 +35,24 @@ pub fn read_seams(
     splits: &[SplitVertex],
 ) -> Result<Vec<EdgeId>, IoError> {
     let bytes = std::fs::read(path).map_err(|source| IoError::reading(path, source))?;
+    read_seams_bytes(path, &bytes, mesh, splits)
+}
+
+/// Reads the edges that the content of a seam file names; `path` tells the format and is named in
+/// messages.
+///
+/// # Errors
+/// As [`read_seams`].
+pub fn read_seams_bytes(
+    path: &Path,
+    bytes: &[u8],
+    mesh: &Mesh,
+    splits: &[SplitVertex],
+) -> Result<Vec<EdgeId>, IoError> {
     let is_obj = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("obj"));
     let given = mesh.vertex_slots() - splits.len();
     let mut edges = Vec::new();
-    let text = as_utf8(&bytes);
+    let text = as_utf8(bytes);
     let mut lines = Lines::new(&text);
     while let Some((line, text)) = lines.next_content() {
         let place = || Place { path: path.to_owned(), line: Some(line) };

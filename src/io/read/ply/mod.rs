@@ -27,10 +27,16 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawMesh, Located> {
     Ok(raw)
 }
 
-/// Numbers in any lines, as long as they come out to the last; or else elements in lines of their
-/// own that may have more numbers than the header says.
+/// Elements in lines of their own where there are as many lines as elements; each line then has at
+/// least the numbers that the header says. Else numbers in any lines, as long as they come out to
+/// the last.
 fn text(header: &Header, body: &[u8], body_line: usize) -> Result<RawMesh, Located> {
     let is_left_over = |raw: &RawMesh| raw.notes.iter().any(|n| matches!(n, ReadNote::Rest { .. }));
+    let has_values = |element: &&Element| !element.properties.is_empty();
+    let count = header.elements.iter().filter(has_values).map(|e| e.count);
+    if count.fold(0, u64::saturating_add) == lines_with_text(body) {
+        return elements(header, Text::by_lines(body, body_line));
+    }
     let in_a_row = elements(header, Text::new(body, body_line));
     if in_a_row.as_ref().is_ok_and(|raw| !is_left_over(raw)) {
         return in_a_row;
@@ -39,6 +45,11 @@ fn text(header: &Header, body: &[u8], body_line: usize) -> Result<RawMesh, Locat
         Ok(by_lines) if in_a_row.is_err() || !is_left_over(&by_lines) => Ok(by_lines),
         _ => in_a_row,
     }
+}
+
+fn lines_with_text(body: &[u8]) -> u64 {
+    let lines = body.split(|&b| b == b'\n' || b == b'\r');
+    lines.filter(|line| !line.trim_ascii().is_empty()).count() as u64
 }
 
 fn elements(header: &Header, mut values: impl Values) -> Result<RawMesh, Located> {
@@ -318,6 +329,9 @@ mod tests {
         // In a row, whatever the lines.
         let raw = read(format!("{text}3 0\n1 2 3 1 2\n3 \n").as_bytes()).expect("a PLY");
         assert_eq!((raw.corners, raw.notes), (vec![0, 1, 2, 1, 2, 3], vec![header]));
+        // A line that is short takes nothing from the next one.
+        let short = read(format!("{text}3 0 1\n3 2 1 0\n").as_bytes()).expect_err("short");
+        assert_eq!(short.line, Some(15));
         // A statement that is misspelt is none of this.
         for line in ["propertee float x", "element face", "format"] {
             let bad = text.replace("Made by hand", line);

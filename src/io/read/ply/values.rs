@@ -57,6 +57,7 @@ pub(super) struct Text<'a> {
     commas: Commas,
     /// Whether each element has a line of its own, of which what is left over is passed over.
     is_by_lines: bool,
+    is_line_begun: bool,
     extra: Option<(usize, usize)>,
 }
 
@@ -64,7 +65,14 @@ impl<'a> Text<'a> {
     /// The words of `rest`, which begins after `lines_before` lines.
     pub fn new(rest: &'a [u8], lines_before: usize) -> Self {
         let commas = Commas::default();
-        Self { rest, line: lines_before + 1, commas, is_by_lines: false, extra: None }
+        Self {
+            rest,
+            line: lines_before + 1,
+            commas,
+            is_by_lines: false,
+            is_line_begun: false,
+            extra: None,
+        }
     }
 
     /// The same where each element has a line of its own, which may have more numbers than the
@@ -78,6 +86,10 @@ impl Values for Text<'_> {
     fn next(&mut self, _kind: Scalar) -> Result<f64, Missing> {
         let start = self.rest.iter().position(|b| !b.is_ascii_whitespace()).ok_or(Missing::End)?;
         let (space, from_word) = self.rest.split_at(start);
+        let has_end = space.iter().any(|&b| b == b'\n' || b == b'\r');
+        if self.is_by_lines && std::mem::replace(&mut self.is_line_begun, true) && has_end {
+            return Err(Missing::NotANumber { text: "end of the line".into(), line: self.line });
+        }
         // CR LF is one end, and so is CR alone.
         let ends = (0..space.len()).filter(|&i| {
             space[i] == b'\n' || space[i] == b'\r' && space.get(i + 1) != Some(&b'\n')
@@ -95,6 +107,7 @@ impl Values for Text<'_> {
         if !self.is_by_lines {
             return;
         }
+        self.is_line_begun = false;
         let is_end = |&b: &u8| b == b'\n' || b == b'\r';
         let end = self.rest.iter().position(is_end).unwrap_or(self.rest.len());
         let (extra, rest) = self.rest.split_at(end);

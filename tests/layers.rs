@@ -57,14 +57,15 @@ const ROOMS: &[Room] = &[
     room(1, SHEET, "net", &[]),
     room(2, KERNEL, "measure", &["geom", "mesh"]),
     room(2, KERNEL, "shape", &["geom", "units", "random", "mesh"]),
+    room(2, TOP, "mend", &["geom", "units", "mesh", "measure"]),
     room(2, TOP, "seam", &["mesh", "measure", "progress"]),
     room(2, TOP, "select", &["geom", "units", "mesh", "measure", "seam", "progress"]),
-    room(3, TOP, "check", &["geom", "units", "mesh", "measure"]),
+    room(3, TOP, "check", &["geom", "units", "mesh", "measure", "mend"]),
     room(
         3,
         TOP,
         "op",
-        &["memory", "geom", "units", "mesh", "measure", "select", "check", "progress"],
+        &["memory", "geom", "units", "mesh", "measure", "mend", "select", "check", "progress"],
     ),
     room(
         3,
@@ -80,7 +81,10 @@ const ROOMS: &[Room] = &[
         4,
         TOP,
         "io",
-        &["geom", "units", "mesh", "net", "measure", "check", "panel", "sheet", "lint", "bloom"],
+        &[
+            "geom", "units", "mesh", "net", "measure", "mend", "select", "check", "panel", "sheet",
+            "lint", "bloom",
+        ],
     ),
     room(4, TOP, "picture", &["geom", "units", "mesh", "measure", "sheet"]),
     room(
@@ -157,6 +161,7 @@ const DOORS: &[(&str, &[&str])] = &[
     ("miniz_oxide", &["src/io/read/artwork/decode.rs", "src/io/read/artwork/pdf_unpack.rs"]),
     ("tiny_skia", &["src/picture/"]),
     ("serde_json", &["src/io/", "src/cli/"]),
+    ("meshopt", &["src/op/simplify/"]),
     ("toml", &["src/recipe/", "src/make/materials.rs"]),
     ("clap_complete", &["src/cli/"]),
     ("clap_mangen", &["src/cli/"]),

@@ -83,6 +83,8 @@ pub(super) enum CliError {
     Stdout(io::Error),
     #[error("`{word}` is no code and no finding; {}`kerfold explain` lists all", did_you_mean(nearest.as_deref()))]
     NoSuchCode { word: String, nearest: Option<String> },
+    #[error("`{word}` is no verb; {}`kerfold help` lists all", did_you_mean(nearest.as_deref()))]
+    NoSuchVerb { word: String, nearest: Option<String> },
 }
 
 codes!(error CliError {
@@ -100,6 +102,7 @@ codes!(error CliError {
     UnknownRecipe = 12,
     Gallery = 13,
     Stopped = 14,
+    NoSuchVerb = 16,
 } through {
     Io.0,
     Shape.0,

@@ -6,10 +6,10 @@
 //! at most six decimals.
 
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
 
 use glam::{DVec2, DVec3};
 
+use super::csv_cell::cell;
 use crate::mesh::EdgeId;
 use crate::net::{EdgeLabel, PieceId};
 use crate::panel::{GroupRow, NodeRow, PanelRow, Plate, Plates, Schedule};
@@ -217,19 +217,11 @@ impl Table {
 
     fn row(&mut self, fields: &[String]) {
         for field in fields {
-            quote_into(&mut self.text, field);
+            self.text += &cell(field);
             self.text.push(',');
         }
-        quote_into(&mut self.text, &self.command.take().unwrap_or_default());
+        self.text += &cell(&self.command.take().unwrap_or_default());
         self.text += "\r\n";
-    }
-}
-
-fn quote_into(text: &mut String, field: &str) {
-    if field.contains([',', '"', '\r', '\n']) {
-        let _ = write!(text, "\"{}\"", field.replace('"', "\"\""));
-    } else {
-        *text += field;
     }
 }
 

@@ -8,6 +8,7 @@ mod error;
 mod job;
 mod keys;
 mod outputs;
+mod parameters;
 mod parse;
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 //!
 //! Which steps there are and which keys they take is said in [`super::keys`].
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use clap::Args;
@@ -11,6 +12,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::error::{Position, RecipeError};
 use super::keys::{StepKind, cuts, field_names, steps, verbs};
+use super::parameters::{Parameters, is_name};
 use super::{Recipe, Step};
 use crate::units::nearest_word;
 
@@ -20,9 +22,35 @@ impl Recipe {
     /// # Errors
     /// [`RecipeError`] with line and column, and the nearest known name for an unknown one.
     pub fn parse(text: &str) -> Result<Self, RecipeError> {
+        Self::parse_with(text, &[])
+    }
+
+    /// Reads a recipe with other values than its own for some of its parameters, as names and
+    /// values (`size`, `200mm`).
+    ///
+    /// # Errors
+    /// As [`Self::parse`]; [`RecipeError::NoSuchParameter`] for a name that the recipe does not
+    /// have.
+    ///
+    /// # Example
+    /// ```
+    /// use kerfold::recipe::Recipe;
+    ///
+    /// let text = "[parameters]\nsize = \"80mm\"\n[[step]]\nsolid = \"cube\"\nsize = \"{size}\"\n";
+    /// assert!(Recipe::parse_with(text, &[("size".into(), "200mm".into())]).is_ok());
+    /// assert!(Recipe::parse_with(text, &[("sise".into(), "200mm".into())]).is_err());
+    /// ```
+    pub fn parse_with(text: &str, set: &[(String, String)]) -> Result<Self, RecipeError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let source = RecipeText { text };
+        let mut source = RecipeText { text, parameters: Parameters::default() };
         let table = DeTable::parse(text).map_err(|e| source.syntax(&e))?;
+        source.parameters = source.read_parameters(table.get_ref())?;
+        for (name, value) in set {
+            if !source.parameters.set(name, value) {
+                let message = source.parameters.unknown(name);
+                return Err(RecipeError::NoSuchParameter { message });
+            }
+        }
         let mut recipe = Self { name: None, steps: Vec::new() };
         for (key, value) in table.get_ref().iter() {
             match (key.get_ref().as_ref(), value.get_ref()) {
@@ -32,6 +60,7 @@ impl Recipe {
                         source.bad(value.span(), "the name of a recipe is a text, in quotes")
                     );
                 }
+                ("parameters", _) => {}
                 ("step", DeValue::Array(steps)) => {
                     for step in steps.iter() {
                         recipe.steps.push(source.step(step)?);
@@ -47,7 +76,7 @@ impl Recipe {
                         key.span(),
                         key.get_ref(),
                         "in a recipe",
-                        &["name", "step"],
+                        &["name", "parameters", "step"],
                     ));
                 }
             }
@@ -58,6 +87,7 @@ impl Recipe {
 
 struct RecipeText<'a> {
     text: &'a str,
+    parameters: Parameters,
 }
 
 /// A key of a step with its value as it stands in the text.
@@ -80,6 +110,33 @@ impl RecipeText<'_> {
             line: before.matches('\n').count() + 1,
             column: before[line_start..].chars().count() + 1,
         }
+    }
+
+    fn read_parameters(&self, table: &DeTable<'_>) -> Result<Parameters, RecipeError> {
+        let mut parameters = Parameters::default();
+        let Some((_, value)) = table.iter().find(|(key, _)| key.get_ref() == "parameters") else {
+            return Ok(parameters);
+        };
+        let DeValue::Table(entries) = value.get_ref() else {
+            return Err(self.bad(value.span(), "parameters are a table: [parameters]"));
+        };
+        for (key, value) in entries.iter() {
+            let name = key.get_ref().as_ref();
+            if !is_name(name) {
+                let message = "a parameter is called by letters, digits, - and _";
+                return Err(self.bad(key.span(), message));
+            }
+            let text = match value.get_ref() {
+                DeValue::String(text) => text.to_string(),
+                DeValue::Integer(_) | DeValue::Float(_) => self.text[value.span()].to_owned(),
+                _ => {
+                    let message = "a parameter is a number or a text, such as \"180mm\"";
+                    return Err(self.bad(value.span(), message));
+                }
+            };
+            parameters.add(name.to_owned(), text);
+        }
+        Ok(parameters)
     }
 
     fn syntax(&self, error: &toml::de::Error) -> RecipeError {
@@ -200,7 +257,7 @@ impl StepFields<'_> {
 
     /// The value as it stands in the text. A key with a dot and a table with a header of its own
     /// have no such place, and no step takes them.
-    fn value_text<'t>(&'t self, entry: &Entry<'_>) -> Result<&'t str, RecipeError> {
+    fn value_text<'t>(&'t self, entry: &Entry<'_>) -> Result<Cow<'t, str>, RecipeError> {
         let opening = match entry.value.get_ref() {
             DeValue::Table(_) => "{",
             DeValue::Array(_) => "[",
@@ -216,8 +273,11 @@ impl StepFields<'_> {
             return Err(self.source.bad(entry.key_span.clone(), &message));
         };
         let words = if entry.key == self.verb.key { self.step.words } else { &[] };
-        let word = words.iter().find(|(word, _)| *word == text);
-        Ok(word.map_or(text, |(_, switch)| switch))
+        if let Some((_, switch)) = words.iter().find(|(word, _)| *word == text) {
+            return Ok(Cow::Borrowed(switch));
+        }
+        let filled = self.source.parameters.fill(text);
+        filled.map_err(|message| self.source.bad(entry.value.span(), &message))
     }
 
     /// Reads one parameter struct from those entries that are its fields. Each value is read from

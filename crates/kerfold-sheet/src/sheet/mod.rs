@@ -55,7 +55,7 @@ pub use nest::{
     StockList,
 };
 pub use params::{PieceKind, SheetParams, SheetSize, StockParams};
-pub use score::{ScoreParams, ScoreStyle};
+pub use score::{FoldWay, ScoreParams, ScoreStyle};
 pub use verify::{clearance, verify};
 
 #[cfg(test)]

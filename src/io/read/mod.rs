@@ -11,6 +11,7 @@ use crate::units::{Length, counted};
 use raw::RawMesh;
 
 pub mod artwork;
+mod content;
 mod decode;
 mod keyhole;
 mod obj;
@@ -25,10 +26,8 @@ mod text;
 mod weld;
 
 pub use decode::{decode_text, read_text};
-pub(super) use off::begins_off;
 pub use points::{read_points, read_points_bytes};
 pub use seams::{read_seams, read_seams_bytes};
-pub(super) use stl::is_binary as is_binary_stl;
 
 /// How a mesh file is taken.
 #[derive(Debug, Clone, Default, clap::Args, serde::Deserialize)]

@@ -15,7 +15,8 @@ use glam::DVec3;
 
 use super::super::cut::{Cutter, Reach, SlicingPlane};
 use super::super::{Capping, OpError};
-use super::merge::{Bundle, merged};
+use super::bundle::{Bundle, PartPoint};
+use super::merge::merged;
 use crate::geom::Plane;
 use crate::measure::{concave_edges, fold_angle, volume};
 use crate::mesh::{Component, EdgeId, FaceId, Mesh, MeshBuilder, VertexId};
@@ -29,9 +30,6 @@ const MOST_FACES: usize = 20_000_000;
 const VOLUME_KEPT: f64 = 1e-6;
 /// A cut that takes less than this share off the hulls of a piece is not used.
 const LEAST_GAIN: f64 = 1e-6;
-
-/// A point, and whether it came with the input.
-pub(super) type PartPoint = (DVec3, bool);
 
 /// How many cuts there may be for so many parts.
 fn most_cuts(parts: usize) -> usize {
@@ -67,19 +65,19 @@ pub(super) fn convex_parts(
     let mut held: HashSet<[u64; 3]> = HashSet::new();
     let mut bundles = Vec::new();
     for piece in &pieces {
-        let points: Vec<PartPoint> = piece
-            .mesh
-            .vertices()
-            .map(|v| (piece.mesh.position(v), piece.mesh.is_given(v)))
-            .collect();
-        held.extend(points.iter().map(|p| key(p.0)));
+        let points = part_points(&piece.mesh, piece.mesh.vertices());
+        held.extend(points.iter().map(|p| key(p.position)));
         bundles.push(Bundle::of(points));
     }
     // What no piece holds, such as a vertex without a face, goes to the nearest.
     let left = mesh.vertices().filter(|&v| !held.contains(&key(mesh.position(v))));
-    let left: Vec<PartPoint> = left.map(|v| (mesh.position(v), mesh.is_given(v))).collect();
-    let bundles = merged(bundles, left, most, progress)?;
+    let bundles = merged(bundles, part_points(mesh, left), most, progress)?;
     Ok(bundles.into_iter().map(Bundle::into_points).collect())
+}
+
+fn part_points(mesh: &Mesh, vertices: impl Iterator<Item = VertexId>) -> Vec<PartPoint> {
+    let point = |v| PartPoint { position: mesh.position(v), is_given: mesh.is_given(v) };
+    vertices.map(point).collect()
 }
 
 /// A position as a key; adding zero makes −0 and 0 one.
@@ -98,8 +96,7 @@ struct Piece {
 
 impl Piece {
     fn of(mesh: Mesh) -> Self {
-        let points = mesh.vertices().map(|v| (mesh.position(v), mesh.is_given(v))).collect();
-        let hull_volume = Bundle::of(points).volume();
+        let hull_volume = Bundle::of(part_points(&mesh, mesh.vertices())).volume;
         Self { volume: volume(&mesh), hull_volume, is_done: false, mesh }
     }
 
@@ -335,7 +332,7 @@ mod tests {
             let parts = convex_parts(&mesh, most, 0.01, &Silent).expect("parts");
             assert_eq!(parts.len(), most);
             let held: HashSet<[u64; 3]> =
-                parts.iter().flatten().map(|point| key(point.0)).collect();
+                parts.iter().flatten().map(|point| key(point.position)).collect();
             assert!(most < 300 || held.len() > 2000, "{}", held.len());
         }
     }

@@ -13,6 +13,7 @@
 //! the vertices of three edges lie apart. Points that span no volume are an error that says so.
 
 mod build;
+mod bundle;
 mod decompose;
 mod dual;
 mod merge;

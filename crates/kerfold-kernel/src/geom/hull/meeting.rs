@@ -3,9 +3,9 @@
 
 use glam::DVec3;
 
-use super::cloud::inverse_power_of_two;
 use super::determinant::determinant_of_three;
 use super::half_space::HalfSpace;
+use super::scale::inverse_power_of_two;
 
 /// By number the first point, the one farthest from it, and the one farthest from the line of the
 /// two; counter-clockwise order is not kept.

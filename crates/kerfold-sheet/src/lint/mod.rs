@@ -7,6 +7,7 @@
 mod artwork;
 mod colours;
 mod contours;
+mod distance;
 mod features;
 mod hinges;
 mod holes;

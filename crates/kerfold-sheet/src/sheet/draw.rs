@@ -10,9 +10,11 @@ use super::features::{Features, features};
 use super::joint::{FlapFold, Jointed, on_material};
 use super::kerf::CutShape;
 use super::layout::{Layout, Placed, SheetReport};
-use super::letter::{PieceLettering, Stretch, lettering};
-use super::params::{PieceKind, SheetParams, Stock};
+use super::letter::{PieceLettering, lettering};
+use super::params::{PieceKind, SheetParams};
 use super::score::{Hinges, ScorePlan, with_holding_tabs};
+use super::stock::Stock;
+use super::stretch::Stretch;
 use crate::geom::polygon::bounds;
 use crate::net::{FoldKind, Net, Piece, PieceId};
 

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::joint::Joint;
+use super::joint_kind::Joint;
 use super::layout::SheetId;
 use crate::code::codes;
 use crate::net::PieceId;

@@ -5,18 +5,20 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::DVec2;
 
 use super::assembly::{Assembly, assembly};
+use super::boundary::Boundaries;
 use super::bounding_box::{rounded, smallest_box};
 use super::distance::contour_distance;
 use super::draw::draw;
 use super::drawing::{Drawing, MarkKind, Stroke};
 use super::error::{SheetError, TooLarge};
-use super::joint::{Boundaries, join};
+use super::joint::join;
 use super::kerf::CutShape;
 use super::layout::{Layout, Placed, Sheet, SheetId, SheetReport};
-use super::letter::stretches;
 use super::nest::{CommonLine, Laid, StockSheet, candidates, lay, offcut};
-use super::params::{SheetParams, Stock};
+use super::params::SheetParams;
 use super::slit::mend;
+use super::stock::Stock;
+use super::stretch::stretches;
 use super::verify::verify;
 use crate::geom::polygon::bounds;
 use crate::net::{Net, Piece, PieceId};
@@ -36,6 +38,19 @@ pub struct SheetSet {
     pub report: SheetReport,
 }
 
+impl SheetSet {
+    /// Length of the travel moves of all sheets, in mm.
+    pub fn travel_length(&self) -> f64 {
+        self.drawings.iter().map(Drawing::travel_length).sum()
+    }
+
+    /// Estimated seconds on the machine for all sheets, where a material has speeds.
+    pub fn seconds(&self, params: &SheetParams) -> Option<f64> {
+        let speeds = params.stock.made_of.as_ref()?.speed;
+        Some(self.drawings.iter().map(|d| speeds.seconds(d)).sum())
+    }
+}
+
 /// Whether a piece, kerf included, fits on an empty sheet at an angle that is allowed. Every piece
 /// fits on `sheet = none`.
 ///
@@ -44,7 +59,9 @@ pub struct SheetSet {
 pub fn fits(piece: &Piece, params: &SheetParams) -> Result<bool, SheetError> {
     let Some(sheets) = params.sheets()? else { return Ok(true) };
     let shapes = [CutShape::of_piece(piece, params.stock.kerf.mm())?];
-    Ok(candidates(&shapes, &sheets, params).iter().all(|c| c.poses.iter().any(Option::is_some)))
+    Ok(candidates(&shapes, &sheets, &params.nest)
+        .iter()
+        .all(|c| c.poses.iter().any(Option::is_some)))
 }
 
 /// Places, letters, draws and measures all pieces of a net. For `sheet = none` everything is empty.
@@ -78,7 +95,7 @@ pub fn lay_out_watched(
     let net = mended.as_ref().map_or(net, |m| &m.net);
     let boundaries = Boundaries::new(net);
     let stretches = stretches(net, &boundaries);
-    let jointed = join(net, params)?;
+    let jointed = join(net, &params.joint, &params.stock)?;
     let bare = net;
     let net = jointed.as_ref().map_or(net, |j| &j.net);
     let shapes = net
@@ -167,7 +184,7 @@ fn place_all(
     (params, sheets): (&SheetParams, &[StockSheet]),
     progress: &dyn Progress,
 ) -> Result<Layout, SheetError> {
-    let candidates = candidates(shapes, sheets, params);
+    let candidates = candidates(shapes, sheets, &params.nest);
     let too_large: Vec<TooLarge> = net
         .pieces
         .iter()
@@ -195,7 +212,7 @@ fn place_all(
     if shapes.is_empty() {
         return Ok(Layout::default());
     }
-    let laid = lay(&candidates, sheets, params, progress).map_err(|no_place| {
+    let laid = lay(&candidates, sheets, &params.nest, progress).map_err(|no_place| {
         SheetError::NoPlace { pieces: no_place.pieces.iter().map(|&i| shapes[i].piece).collect() }
     })?;
     Ok(layout_of(shapes, &laid, sheets))

@@ -9,8 +9,8 @@ use std::f64::consts::TAU;
 
 use glam::DVec2;
 
+use super::super::boundary::{Boundaries, Place, segment_distance};
 use super::behind::{Behind, Partner};
-use super::boundary::{Boundaries, Place, segment_distance};
 use super::params::{Flap, FlapSide};
 use super::{FlapFold, JointReport};
 use crate::geom::polygon::bounds;

@@ -15,8 +15,8 @@
 
 use glam::DVec2;
 
+use super::super::boundary::{Boundaries, Contour, Place, segment_distance};
 use super::super::distance::edges;
-use super::boundary::{Boundaries, Contour, Place, segment_distance};
 use super::fingers::{corner, depths};
 use super::params::{FlapSide, Tabs, WEB};
 use super::webs::in_the_way;
@@ -27,10 +27,6 @@ use crate::net::{Net, Segment};
 /// Trials of a seam, in order: the side by the rule (0) or its partner (1), and the free part at
 /// both ends in multiples of the least one.
 const TRIALS: [(usize, f64); 4] = [(0, 1.0), (0, 2.0), (1, 1.0), (1, 2.0)];
-
-/// How far a lip may stand out besides its web, in thicknesses: the lean of a slot at the flattest
-/// angle, 1.19.
-pub(super) const FARTHEST_LEAN: f64 = 1.2;
 
 /// Length of a slot relative to its width, unless tabs are asked for that are narrower.
 const SLOT_LENGTH: f64 = 2.05;

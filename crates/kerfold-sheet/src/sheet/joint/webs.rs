@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 
+use super::super::boundary::{Boundaries, Contour, segment_distance};
 use super::super::distance::nearest_on_segment;
-use super::boundary::{Boundaries, Contour, segment_distance};
 use super::params::WEB;
 use crate::geom::polygon::{Location, locate, segments_meet, signed_area};
 use crate::net::Segment;

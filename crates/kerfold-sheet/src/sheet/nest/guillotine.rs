@@ -6,7 +6,7 @@
 
 use glam::DVec2;
 
-use super::super::params::Stock;
+use super::super::stock::Stock;
 use super::stock::StockSheet;
 use super::{Axis, Effort, NoPlace};
 use crate::progress::Progress;

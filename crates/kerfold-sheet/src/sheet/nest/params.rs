@@ -9,7 +9,7 @@ use clap::ValueEnum;
 use glam::DVec2;
 use serde::{Deserialize, Deserializer};
 
-use super::super::params::SheetSize;
+use super::super::stock::SheetSize;
 use crate::net::PieceId;
 use crate::units::{Length, UnitError, parse_number};
 

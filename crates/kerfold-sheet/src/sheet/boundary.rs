@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec2;
 
-use super::super::distance::distance_to_segment;
+use super::distance::distance_to_segment;
 use crate::geom::polygon::segments_meet;
 use crate::net::{FlatFace, Net, Segment};
 

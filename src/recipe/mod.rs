@@ -5,6 +5,7 @@
 //! [`Job`]: the mesh as it is by then, what the last step made, and the results that are written at the end.
 
 mod error;
+mod fields;
 mod job;
 mod keys;
 mod outputs;

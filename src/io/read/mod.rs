@@ -15,6 +15,7 @@ mod decode;
 mod keyhole;
 mod obj;
 mod off;
+mod plain;
 mod ply;
 mod points;
 mod raw;
@@ -26,6 +27,7 @@ mod weld;
 
 pub use decode::{decode_text, read_text};
 pub(super) use off::begins_off;
+pub(super) use plain::polygons_in;
 pub use points::{read_points, read_points_bytes};
 pub use seams::{read_seams, read_seams_bytes};
 pub(super) use stl::is_binary as is_binary_stl;

@@ -31,6 +31,8 @@ impl SheetParams {
     pub(crate) fn sheets(&self) -> Result<Option<Vec<StockSheet>>, SheetError> {
         let Some(usual) = self.stock.checked()? else { return Ok(None) };
         let nest = &self.nest;
+        let sizes = nest.stock.0.iter().filter_map(|(size, _)| size.mm()).chain([usual.size]);
+        sizes.into_iter().try_for_each(|size| self.check_tiles(size))?;
         let outline = sound("sheet-outline", &nest.sheet_outline.0, usual.size)?;
         let usual = StockSheet { stock: usual, outline, defects: Vec::new() };
         let mut sheets = Vec::new();
@@ -73,7 +75,29 @@ impl SheetParams {
     }
 }
 
+/// The most pages of paper that one sheet may be printed on.
+const MOST_TILES: f64 = 10_000.0;
+
 impl SheetParams {
+    /// Refuses sheets of impossible numbers, for callers that work long before they lay out.
+    ///
+    /// # Errors
+    /// As [`super::super::lay_out`] for its parameters alone.
+    pub fn check_sheets(&self) -> Result<(), SheetError> {
+        self.sheets().map(drop)
+    }
+
+    /// Refuses a sheet that would be printed on far too many pages, before any work is done.
+    fn check_tiles(&self, size: DVec2) -> Result<(), SheetError> {
+        let Some(paper) = self.files.tile else { return Ok(()) };
+        let pages = (size / paper.mm()).ceil().element_product();
+        if pages > MOST_TILES {
+            let (width, height) = (size.x, size.y);
+            return Err(SheetError::TooManyTiles { width, height, pages, most: MOST_TILES });
+        }
+        Ok(())
+    }
+
     fn check_common_line(&self) -> Result<(), SheetError> {
         if self.nest.common_line == CommonLine::Off {
             return Ok(());
@@ -143,7 +167,7 @@ impl StockSheet {
             let (l, h) = (least - by, most + by);
             let frame = [l, DVec2::new(h.x, l.y), h, DVec2::new(l.x, h.y)];
             let inside: Vec<DVec2> = self.outline.iter().rev().copied().collect();
-            let parts = convex_parts(&frame, &[inside]);
+            let parts = convex_parts(&frame, &[inside]).expect("sound outlines do not cross");
             obstacles.extend(
                 parts
                     .into_iter()

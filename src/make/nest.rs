@@ -47,8 +47,8 @@ fn one_or_many<'de, D: serde::Deserializer<'de>>(
     })
 }
 
-/// What the pieces of files are, which the files do not say: plates are cut otherwise than along the
-/// border of their only face.
+/// What the pieces of files are, which the files do not say: plates are cut otherwise than along
+/// the border of their only face.
 fn kind_of(net: &Net) -> PieceKind {
     let is_plate = |piece: &Piece| match piece.faces.as_slice() {
         [face] => piece.outline != face.polygon || !piece.holes.is_empty(),

@@ -127,8 +127,8 @@ struct Tried {
 
 /// The layout with the fewest pieces that the search finds: attempts from other starts, at most one
 /// more than there are steps of effort, until there are as few pieces as can be or the budget is
-/// spent; then seams of its own choice are made shorter. The first attempt keeps flat edges together
-/// as far as can be, and later ones open them only for fewer pieces.
+/// spent; then seams of its own choice are made shorter. The first attempt keeps flat edges
+/// together as far as can be, and later ones open them only for fewer pieces.
 fn fewest<'a>(
     [dual, loose]: [&'a Dual; 2],
     mesh: &Mesh,

@@ -124,8 +124,8 @@ impl OutputFolder {
         self.files.iter().map(|(name, _)| name.as_str())
     }
 
-    /// Writes all files, making the folder and its parents when they are missing. Other files in the
-    /// folder stay as they are; those of an earlier run are named in the result.
+    /// Writes all files, making the folder and its parents when they are missing. Other files in
+    /// the folder stay as they are; those of an earlier run are named in the result.
     ///
     /// # Errors
     /// When the folder cannot be made, a folder stands where a file should go, or the system

@@ -22,7 +22,12 @@ pub struct NestStep {
     pub pieces: Vec<PathBuf>,
     /// How often everything is made, 1 to 10000; a file may give a quantity for each of its pieces,
     /// too
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 1,
+        value_parser = clap::value_parser!(u32).range(1..=10_000)
+    )]
     #[serde(default = "once")]
     pub quantity: u32,
 }

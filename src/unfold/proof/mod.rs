@@ -131,7 +131,11 @@ pub enum ProofError {
         limit: f64,
     },
     /// Two faces of a piece share area.
-    #[error("faces {} and {} overlap in piece {piece} ({pairs} overlapping pairs in all)", faces[0], faces[1])]
+    #[error(
+        "faces {} and {} overlap in piece {piece} ({pairs} overlapping pairs in all)",
+        faces[0],
+        faces[1]
+    )]
     Overlap {
         /// The piece, counted from 1 as in its name.
         piece: usize,
@@ -191,7 +195,11 @@ pub enum EdgeFault {
     #[error("it is listed twice; it must be listed exactly once among folds, seams and rims")]
     Times,
     /// Not listed.
-    #[error("it is neither fold nor seam nor rim; it must be listed, it parts the faces {} and {}", faces[0], faces[1])]
+    #[error(
+        "it is neither fold nor seam nor rim; it must be listed, it parts the faces {} and {}",
+        faces[0],
+        faces[1]
+    )]
     Missing {
         /// The faces beside it (of a rim, the hole is one).
         faces: [usize; 2],

@@ -60,7 +60,7 @@ const ROOMS: &[Room] = &[
     room(1, SHEET, "net", &[]),
     room(2, KERNEL, "measure", &["geom", "mesh"]),
     room(2, KERNEL, "shape", &["geom", "units", "random", "mesh"]),
-    room(2, TOP, "seam", &["mesh", "measure", "progress"]),
+    room(2, TOP, "seam", &["units", "mesh", "measure", "progress"]),
     room(2, TOP, "select", &["geom", "units", "mesh", "measure", "seam", "progress"]),
     room(3, TOP, "check", &["geom", "units", "mesh", "measure"]),
     room(

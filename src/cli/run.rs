@@ -37,7 +37,7 @@ pub(super) fn run(args: &RunArgs, console: &Console) -> Result<Outcome, CliError
     finish(&job, recipe.name, (&args.output, args.clean), console)
 }
 
-/// Writes everything that a job has made into a folder and tells about it.
+/// Writes everything that a job has made into a folder and reports it.
 pub(super) fn finish(
     job: &Job,
     name: Option<String>,

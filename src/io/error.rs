@@ -61,7 +61,7 @@ pub enum IoError {
         /// What the system says.
         source: std::io::Error,
     },
-    /// Neither the name nor the content tells the format.
+    /// Neither the name nor the content shows the format.
     #[error(
         "{}: unknown mesh format; use a name that ends in .obj, .ply, .stl or .off",
         path.display()

@@ -110,7 +110,7 @@ impl<'a> FoldGraph<'a> {
     }
 
     /// A tree over the faces of a part, breadth first from the first one; but what lies in one
-    /// plane hangs together by flat folds.
+    /// plane is connected by flat folds.
     fn tree(&self, part: &[usize]) -> Vec<Branch> {
         let members: HashSet<usize> = part.iter().copied().collect();
         let mut seen = HashSet::new();

@@ -32,7 +32,7 @@ pub fn read_points(path: &Path) -> Result<Vec<DVec3>, IoError> {
     read_points_bytes(path, &bytes)
 }
 
-/// Reads the points of a polyline from the content of a file; `path` tells the format and is named
+/// Reads the points of a polyline from the content of a file; `path` shows the format and is named
 /// in messages.
 ///
 /// # Errors

@@ -38,7 +38,7 @@ pub fn read_seams(
     read_seams_bytes(path, &bytes, mesh, splits)
 }
 
-/// Reads the edges that the content of a seam file names; `path` tells the format and is named in
+/// Reads the edges that the content of a seam file names; `path` shows the format and is named in
 /// messages.
 ///
 /// # Errors

@@ -1,4 +1,4 @@
-//! A coupon that tells the kerf of a material on a machine, and the slot that holds it.
+//! A coupon that shows the kerf of a material on a machine, and the slot that holds it.
 //!
 //! Above, a bar of ten blocks cut apart by single lines in a window: pushed to one side they leave
 //! a gap of eleven kerfs (eleven cuts lie side by side). Below, a comb with slots around the

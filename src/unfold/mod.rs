@@ -80,6 +80,17 @@ const REPAIR_SHARE: u64 = 3;
 ///
 /// # Errors
 /// See [`UnfoldError`]. A net that does not pass [`prove`] is never returned.
+///
+/// # Example
+/// ```
+/// use kerfold::prelude::*;
+///
+/// let cube = kerfold::shape::cube(40.0);
+/// let source = MeshSource { scale: 1.0, split_vertices: &[] };
+/// let net = unfold(&cube, &Seams::Free, &UnfoldParams::default(), &source, &Silent)?;
+/// assert_eq!((net.pieces.len(), net.folds.len(), net.seams.len()), (1, 5, 7));
+/// # Ok::<(), kerfold::unfold::UnfoldError>(())
+/// ```
 pub fn unfold(
     mesh: &Mesh,
     seams: &Seams,

@@ -43,6 +43,17 @@ pub fn read_seams(
 ///
 /// # Errors
 /// As [`read_seams`].
+///
+/// # Example
+/// ```
+/// use std::path::Path;
+///
+/// let cube = kerfold::shape::cube(10.0);
+/// let text = b"0 1  # two vertices of an edge\n";
+/// let seams = kerfold::io::read_seams_bytes(Path::new("seams.txt"), text, &cube, &[])?;
+/// assert_eq!(seams.len(), 1);
+/// # Ok::<(), kerfold::io::IoError>(())
+/// ```
 pub fn read_seams_bytes(
     path: &Path,
     bytes: &[u8],

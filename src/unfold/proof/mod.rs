@@ -258,6 +258,19 @@ codes!(finding EdgeFault {
 /// # Errors
 /// The first fault, in the order structure, congruence, overlap, refold, angles;
 /// see [`ProofError`].
+///
+/// # Example
+/// ```
+/// use kerfold::prelude::*;
+///
+/// let cube = kerfold::shape::cube(40.0);
+/// let source = MeshSource { scale: 1.0, split_vertices: &[] };
+/// let mut net = unfold(&cube, &Seams::Free, &UnfoldParams::default(), &source, &Silent)?;
+/// assert_eq!(prove(&cube, &net)?.overlaps, 0);
+/// net.pieces[0].faces[0].polygon[0].x += 1.0;
+/// assert!(prove(&cube, &net).is_err());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn prove(mesh: &Mesh, net: &Net) -> Result<Proof, ProofError> {
     let size = size(mesh);
     structure::check(mesh, net, size)?;

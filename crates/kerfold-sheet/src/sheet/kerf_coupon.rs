@@ -32,6 +32,13 @@ const LETTERS: f64 = 2.5;
 ///
 /// # Errors
 /// [`SheetError::OutOfRange`] for a thickness that is not at least 0.3 mm, the narrowest slot.
+///
+/// # Example
+/// ```
+/// let coupon = kerfold_sheet::sheet::kerf_coupon(3.0, "birch 3 mm")?;
+/// assert!(coupon.width > 0.0 && coupon.height > 0.0);
+/// # Ok::<(), kerfold_sheet::sheet::SheetError>(())
+/// ```
 pub fn kerf_coupon(thickness: f64, title: &str) -> Result<Drawing, SheetError> {
     if !(0.3..=100.0).contains(&thickness) {
         return Err(SheetError::OutOfRange { name: "thickness", value: thickness, least: 0.3 });

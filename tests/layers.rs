@@ -10,12 +10,15 @@ use std::collections::BTreeSet;
 use std::fmt;
 
 use circles::House;
+use size::size_faults;
 use source::{Source, read, root, sources};
 
 #[path = "layers/circles.rs"]
 mod circles;
 #[path = "layers/page.rs"]
 mod page;
+#[path = "layers/size.rs"]
+mod size;
 #[path = "layers/source.rs"]
 mod source;
 
@@ -60,7 +63,7 @@ const ROOMS: &[Room] = &[
     room(1, SHEET, "net", &[]),
     room(2, KERNEL, "measure", &["geom", "mesh"]),
     room(2, KERNEL, "shape", &["geom", "units", "random", "mesh"]),
-    room(2, TOP, "seam", &["mesh", "measure", "progress"]),
+    room(2, TOP, "seam", &["units", "mesh", "measure", "progress"]),
     room(2, TOP, "select", &["geom", "units", "mesh", "measure", "seam", "progress"]),
     room(3, TOP, "check", &["geom", "units", "mesh", "measure"]),
     room(
@@ -294,6 +297,11 @@ fn the_library_does_not_print_exit_or_unwrap() {
 }
 
 #[test]
+fn functions_and_files_are_short() {
+    hold(size_faults);
+}
+
+#[test]
 fn planted_circles_are_found() {
     let circles = |files: &[(&str, &str)]| {
         let sources: Vec<Source> = files.iter().map(|(p, text)| Source::new(p, text)).collect();
@@ -409,6 +417,16 @@ fn planted_violations_are_found() {
     );
     assert_eq!(habit("src/cli/mod.rs", "println!(\"x\");").len(), 0);
     assert_eq!(habit("src/cli/mod.rs", "x.unwrap();").len(), 1);
+
+    let size = |text: &str| faults_of(size_faults, "src/op/slice.rs", text);
+    let body = |lines: usize| format!("fn f() -> [u8; 2] {{{}}}", "\n".repeat(lines - 1));
+    assert_eq!((size(&body(80)).len(), size(&body(81)).len()), (0, 1));
+    let fields = "fn f() -> S { S { a: 1, #[cfg(test)] b: v(1, 2), #[cfg(test)] c: 3 } }\n\n";
+    assert_eq!(size(&fields.repeat(41)).len(), 0);
+    let seven = "fn f<F: Fn(A) -> B>(&self, a: A<B, C>, b: (B, B), c: C, d: D, e: E, f: F,) {}";
+    assert_eq!(size(seven).len(), 0);
+    assert_eq!(size(&seven.replace("&self", "&self, g: G")).len(), 1);
+    assert_eq!(size(&format!("{}const A: u8 = 1;", "\n".repeat(600))), ["src/op/slice.rs:601"]);
 }
 
 // ---- the rules ----------------------------------------------------------------------------------

@@ -185,8 +185,8 @@ fn operators(mesh: &Mesh) -> Vec<Box<dyn Operate>> {
     all
 }
 
-/// What must survive: counts, valences, sides and groups. Files hold neither self-loops nor vertices
-/// that hang on them, so a mesh with loops is compared by its faces alone.
+/// What must survive: counts, valences, sides and groups. Files hold neither self-loops nor
+/// vertices that hang on them, so a mesh with loops is compared by its faces alone.
 fn facts(mesh: &Mesh) -> (Vec<usize>, Vec<usize>, Vec<Option<String>>) {
     let has_loops = mesh.edges().any(|e| {
         let [a, b] = mesh.edge_vertices(e);
@@ -254,8 +254,8 @@ fn what_an_operator_makes_is_read_again_as_it_was() {
                 }
             };
             assert!(made.faults().is_empty(), "{what}: {:?}", made.faults().first());
-            // Pyramids of two sides fall flat and meet in points, and the simple form of a dual hull
-            // has several vertices at one point: refused by the writer. All else is mended or
+            // Pyramids of two sides fall flat and meet in points, and the simple form of a dual
+            // hull has several vertices at one point: refused by the writer. All else is mended or
             // refused by the operator.
             if !made.file_faults().is_empty() {
                 let is_known =

@@ -62,8 +62,11 @@ pub enum IoError {
         /// What the system says.
         source: std::io::Error,
     },
-    /// Neither the name nor the content tells the format.
-    #[error("{}: unknown mesh format; use a name that ends in .obj, .ply, .stl or .off", path.display())]
+    /// Neither the name nor the content shows the format.
+    #[error(
+        "{}: unknown mesh format; use a name that ends in .obj, .ply, .stl or .off",
+        path.display()
+    )]
     UnknownFormat {
         /// The file.
         path: PathBuf,
@@ -164,7 +167,11 @@ pub enum IoError {
         mm: f64,
     },
     /// The folder to write into does not exist.
-    #[error("cannot write {}: there is no folder {}; make it first", path.display(), folder.display())]
+    #[error(
+        "cannot write {}: there is no folder {}; make it first",
+        path.display(),
+        folder.display()
+    )]
     NoFolder {
         /// The file.
         path: PathBuf,
@@ -172,7 +179,11 @@ pub enum IoError {
         folder: PathBuf,
     },
     /// Something else than a folder stands where a folder is needed.
-    #[error("cannot write into {}: {} is a file, not a folder; choose another place", path.display(), file.display())]
+    #[error(
+        "cannot write into {}: {} is a file, not a folder; choose another place",
+        path.display(),
+        file.display()
+    )]
     NotAFolder {
         /// What was to be written, or made.
         path: PathBuf,
@@ -186,7 +197,10 @@ pub enum IoError {
         path: PathBuf,
     },
     /// The system refuses to write.
-    #[error("cannot write {} ({source}); check that you may write there and that the disk has room", path.display())]
+    #[error(
+        "cannot write {} ({source}); check that you may write there and that the disk has room",
+        path.display()
+    )]
     Unwritable {
         /// The file or folder.
         path: PathBuf,

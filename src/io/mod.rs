@@ -1,7 +1,7 @@
 //! Files in and out, one direction of one format per file.
 //!
-//! [`read_mesh`] reads OBJ, PLY, STL and OFF, [`write_mesh`] writes them; `-` is standard output and
-//! means OBJ. Everything that kerfold writes goes through [`output`], so that a file is
+//! [`read_mesh`] reads OBJ, PLY, STL and OFF, [`write_mesh`] writes them; `-` is standard output
+//! and means OBJ. Everything that kerfold writes goes through [`output`], so that a file is
 //! whole or not there.
 
 mod base64;

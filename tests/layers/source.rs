@@ -183,7 +183,7 @@ impl Source {
         paths
     }
 
-    fn is_word(&self, i: usize) -> bool {
+    pub fn is_word(&self, i: usize) -> bool {
         self.tokens
             .get(i)
             .is_some_and(|t| t.text.starts_with(|c: char| c.is_alphabetic() || c == '_'))
@@ -249,11 +249,16 @@ fn reads(tokens: &[Token], at: usize, wanted: &[&str]) -> bool {
 }
 
 /// The place after the item that begins at `start`: after its closing brace, or after its
-/// semicolon.
+/// semicolon; of a field after its comma, or before the brace that closes the others in.
 fn end_of_item(tokens: &[Token], start: usize) -> usize {
+    let is_field = is_field(tokens, start);
     let mut depth = 0_usize;
     for (i, token) in tokens.iter().enumerate().skip(start) {
         match token.text.as_str() {
+            "}" if is_field && depth == 0 => return i,
+            "," if is_field && depth == 0 => return i + 1,
+            "{" | "(" | "[" | "<" if is_field => depth += 1,
+            "}" | ")" | "]" | ">" if is_field => depth -= 1,
             "{" | "(" | "[" => depth += 1,
             "}" if depth <= 1 => return i + 1,
             "}" | ")" | "]" => depth = depth.saturating_sub(1),
@@ -262,6 +267,18 @@ fn end_of_item(tokens: &[Token], start: usize) -> usize {
         }
     }
     tokens.len()
+}
+
+/// Whether a field begins at `start`, of a struct or of a value: a word and a colon.
+fn is_field(tokens: &[Token], start: usize) -> bool {
+    let mut i = start;
+    if reads(tokens, i, &["pub"]) {
+        i += 1;
+        if reads(tokens, i, &["("]) {
+            i += tokens[i..].iter().take_while(|token| token.text != ")").count() + 1;
+        }
+    }
+    reads(tokens, i + 1, &[":"])
 }
 
 /// Divides a text into words, `::` and single signs; comments, strings, characters and lifetimes

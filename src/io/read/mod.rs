@@ -98,7 +98,7 @@ pub struct ReadMesh {
 
 /// Reads a mesh from a file.
 ///
-/// The format is told by the extension, or else by the content.
+/// The format is shown by the extension, or else by the content.
 ///
 /// # Errors
 /// When the file cannot be read or is not a mesh; every message names the place and what to do.
@@ -120,7 +120,7 @@ pub fn read_mesh(path: &Path, options: &ReadOptions) -> Result<ReadMesh, IoError
     read_mesh_bytes(path, &bytes, options)
 }
 
-/// Reads a mesh from the content of a file; `path` tells the format and is named in messages.
+/// Reads a mesh from the content of a file; `path` shows the format and is named in messages.
 ///
 /// # Errors
 /// As [`read_mesh`].

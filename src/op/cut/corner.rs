@@ -29,7 +29,7 @@ impl Cutter {
         is_simple
     }
 
-    /// Collects the edges, planes and new places; tells whether the corner is the simple case.
+    /// Collects the edges, planes and new places; says whether the corner is the simple case.
     fn look_at_corner(
         &mut self,
         plane: &Plane,

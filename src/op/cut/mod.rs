@@ -1,5 +1,5 @@
-//! The one cutting operator, behind one door: what stands outside this room sees [`Cutter`] and what
-//! its methods take and give, and none of its tables.
+//! The one cutting operator, behind one door: what stands outside this room sees [`Cutter`] and
+//! what its methods take and give, and none of its tables.
 //!
 //! The workspace (`cutter`), one cut from the plane to the caps (`reach`), its short ways for one
 //! corner (`corner`) and for a whole mesh (`sweep`), dividing faces (`divide`), faces that lie in

@@ -3,8 +3,8 @@
 //! The most concave piece is cut first. Its plane passes through one of its sharpest concave edges:
 //! that of one of the faces there, or the one that halves the angle (Chazelle 1984, "Convex
 //! partitions of polyhedra", cuts through all such edges; here few parts are wanted, so that of a
-//! few planes the one is taken that leaves the hulls of the pieces smallest). Then pieces are joined
-//! again until few enough are left (`merge.rs`).
+//! few planes the one is taken that leaves the hulls of the pieces smallest). Then pieces are
+//! joined again until few enough are left (`merge.rs`).
 //!
 //! The work is bounded: [`most_cuts`] cuts, and trial cuts of [`MOST_FACES`] faces in all. The
 //! pieces cover the model exactly wherever it ends, so together the parts always hold all vertices.

@@ -11,8 +11,8 @@ const MOST_COMPARED: usize = 256;
 /// Boxes nearer than this share of the size touch.
 const NEAR: f64 = 1e-6;
 
-/// Joins bundles until at most `most` are left. The points of those that span no volume, and `left`,
-/// go to the nearest of the others. Empty when none spans a volume.
+/// Joins bundles until at most `most` are left. The points of those that span no volume, and
+/// `left`, go to the nearest of the others. Empty when none spans a volume.
 ///
 /// # Errors
 /// [`OpError::Cancelled`].

@@ -7,10 +7,11 @@
 //! divided first into clusters, each with its own hull and component.
 //!
 //! Changes: everything; the result is a new mesh. n planes in general position: n faces, 3n − 6
-//! edges, 2n − 4 vertices, all of valence 3. Every result contains the points that it was made of, but for planes moved.
-//! Degenerate: where more than three planes meet the vertex has a higher valence, unless the simple
-//! form is asked for: then planes there are moved inwards by less than 1/32 768 of the size, so that
-//! the vertices of three edges lie apart. Points that span no volume are an error that says so.
+//! edges, 2n − 4 vertices, all of valence 3. Every result contains the points that it was made of,
+//! but for planes moved. Degenerate: where more than three planes meet the vertex has a higher
+//! valence, unless the simple form is asked for: then planes there are moved inwards by less than
+//! 1/32 768 of the size, so that the vertices of three edges lie apart. Points that span no volume
+//! are an error that says so.
 
 mod build;
 mod bundle;
@@ -95,8 +96,8 @@ pub struct HullPart {
     /// touch. Numbered from 0: as given, or the corners of the hull in the order of their vertices,
     /// then the six sides of the box.
     pub without_face: Vec<usize>,
-    /// How many half-spaces were moved inwards a little, so that the vertices of the simple form lie
-    /// apart.
+    /// How many half-spaces were moved inwards a little, so that the vertices of the simple form
+    /// lie apart.
     pub moved: usize,
     /// Number of faces.
     pub faces: usize,

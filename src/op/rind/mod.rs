@@ -2,8 +2,8 @@
 //!
 //! The second skin has the links of the first, turned inside out; each of its vertices lies where
 //! the planes of its faces meet after each was moved by the thickness: exactly with three planes,
-//! in the least-squares sense with more, with the residual told. A punched face is joined to its
-//! partner by a pipe, a quad for each side. Peeling also takes away the walls without thickness
+//! in the least-squares sense with more, with the residual reported. A punched face is joined to
+//! its partner by a pipe, a quad for each side. Peeling also takes away the walls without thickness
 //! between neighbouring openings, the vertices in the midst of peeled faces, and the 2-gons that
 //! would be left over. Rims are openings, too, so a sheet becomes a slab.
 //!

@@ -19,8 +19,8 @@
 //! Needs: nothing. Keeps: components, positions of old vertices, groups (the triangles at the
 //! corners of a face inherit its group). Planarity: corner triangles are planar, bases of pyramids
 //! are for valence 3, others by luck. Degenerate cases: at the rim of an open mesh no loop is made,
-//! and the pyramids of rim vertices have no base, so that the rim runs through their openings; faces
-//! of loops only stay.
+//! and the pyramids of rim vertices have no base, so that the rim runs through their openings;
+//! faces of loops only stay.
 
 mod vertex_kind;
 

@@ -53,8 +53,8 @@ impl Contour {
             .collect()
     }
 
-    /// All that is cut around it, with the edges that it belongs to: the corner before an edge, then
-    /// the edge.
+    /// All that is cut around it, with the edges that it belongs to: the corner before an edge,
+    /// then the edge.
     pub fn cuts(&self) -> impl Iterator<Item = (usize, Segment)> + '_ {
         (0..self.len()).flat_map(|i| {
             let corner = segments(&self.cut_corners[i]);

@@ -144,7 +144,10 @@ pub enum SheetError {
         most: f64,
     },
     /// A parameter names a piece that is not there.
-    #[error("{name} names piece {piece}, but there are only {pieces} pieces, P01 to {}", PieceId(pieces.saturating_sub(1)))]
+    #[error(
+        "{name} names piece {piece}, but there are only {pieces} pieces, P01 to {}",
+        PieceId(pieces.saturating_sub(1))
+    )]
     NoSuchPiece {
         /// The parameter.
         name: &'static str,

@@ -1,4 +1,4 @@
-//! A coupon that tells the kerf of a material on a machine, and the slot that holds it.
+//! A coupon that shows the kerf of a material on a machine, and the slot that holds it.
 //!
 //! Above, a bar of ten blocks cut apart by single lines in a window: pushed to one side they leave
 //! a gap of eleven kerfs (eleven cuts lie side by side). Below, a comb with slots around the
@@ -32,6 +32,13 @@ const LETTERS: f64 = 2.5;
 ///
 /// # Errors
 /// [`SheetError::OutOfRange`] for a thickness that is not at least 0.3 mm, the narrowest slot.
+///
+/// # Example
+/// ```
+/// let coupon = kerfold_sheet::sheet::kerf_coupon(3.0, "birch 3 mm")?;
+/// assert!(coupon.width > 0.0 && coupon.height > 0.0);
+/// # Ok::<(), kerfold_sheet::sheet::SheetError>(())
+/// ```
 pub fn kerf_coupon(thickness: f64, title: &str) -> Result<Drawing, SheetError> {
     if !(0.3..=100.0).contains(&thickness) {
         return Err(SheetError::OutOfRange { name: "thickness", value: thickness, least: 0.3 });

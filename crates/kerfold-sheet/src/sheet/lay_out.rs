@@ -73,6 +73,27 @@ pub fn fits(piece: &Piece, params: &SheetParams) -> Result<bool, SheetError> {
 /// fit at no angle, so that they can be split; [`SheetError::NoPlace`] for pieces that outlines,
 /// defects and groups leave no place for; [`SheetError::BadContour`], [`SheetError::KerfSplit`] and
 /// [`SheetError::UnknownPiece`] for a broken net; what [`verify`] finds, for a bug of ours.
+///
+/// # Example
+/// ```
+/// use glam::DVec2;
+/// use kerfold_sheet::net::{MeshCounts, Net, Piece, PieceId, Proof};
+/// use kerfold_sheet::sheet::{SheetParams, lay_out};
+///
+/// let outline = [[0.0, 0.0], [80.0, 0.0], [80.0, 50.0]].map(DVec2::from).to_vec();
+/// let net = Net {
+///     scale: 1.0,
+///     counts: MeshCounts { vertices: 0, edges: 0, faces: 0 },
+///     pieces: vec![Piece { id: PieceId(0), outline, holes: vec![], faces: vec![] }],
+///     folds: vec![],
+///     seams: vec![],
+///     rims: vec![],
+///     proof: Proof { congruence_mm: 0.0, refold_mm: 0.0, overlaps: 0 },
+/// };
+/// let sheets = lay_out(&net, &SheetParams::default())?;
+/// assert_eq!(sheets.layout.sheets[0].placed.len(), 1);
+/// # Ok::<(), kerfold_sheet::sheet::SheetError>(())
+/// ```
 pub fn lay_out(net: &Net, params: &SheetParams) -> Result<SheetSet, SheetError> {
     lay_out_watched(net, params, &Silent)
 }

@@ -112,8 +112,8 @@ pub struct SheetReport {
     pub widened_notches: usize,
     /// Seams whose two sides lie on one another: they are left uncut and fold.
     pub uncut_seams: Vec<EdgeLabel>,
-    /// Holes that pieces have of their own, not for joints, and that are narrow for the thickness or
-    /// near another cut.
+    /// Holes that pieces have of their own, not for joints, and that are narrow for the thickness
+    /// or near another cut.
     pub narrow_holes: usize,
     /// Folds without room for their angle, where angles were asked for.
     pub unmarked_angles: usize,

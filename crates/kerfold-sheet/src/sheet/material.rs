@@ -88,8 +88,8 @@ impl Speeds {
         }
     }
 
-    /// Estimated seconds on the machine: all lines at their speeds, and the travel moves between them;
-    /// without acceleration.
+    /// Estimated seconds on the machine: all lines at their speeds, and the travel moves between
+    /// them; without acceleration.
     pub fn seconds(&self, drawing: &Drawing) -> f64 {
         let layers = drawing.layers.iter().filter_map(|l| self.of(l.kind).map(|speed| (l, speed)));
         let lines: f64 = layers.map(|(l, speed)| l.length() / speed).sum();

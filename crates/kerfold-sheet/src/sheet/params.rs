@@ -132,7 +132,7 @@ impl SheetParams {
         }
     }
 
-    /// The speed of an operation in mm/s, where a material tells it.
+    /// The speed of an operation in mm/s, where a material says .
     pub fn speed(&self, layer: LayerKind) -> Option<f64> {
         self.stock.made_of.as_ref().and_then(|m| m.speed.of(layer))
     }

@@ -261,7 +261,7 @@ impl<'a> Insertion<'a> {
         }
     }
 
-    /// What is done on a layer, as far as it tells.
+    /// What is done on a layer, as far as it says.
     fn operation(&mut self, layer: &str, known: Layer) -> Option<Operation> {
         let told = Operation::of_name(layer);
         if known.is_plotted || told == Some(Operation::Info) {

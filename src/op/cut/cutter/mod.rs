@@ -1,8 +1,8 @@
 //! The workspace of cuts: the mesh with what each of its elements is to the cut at hand.
 //!
-//! It lives through a whole chain of cuts: its tables are stamped with the number of the cut instead
-//! of being cleared, so that a local cut costs time in proportion to what it removes. How a cut goes
-//! is said in `reach.rs`.
+//! It lives through a whole chain of cuts: its tables are stamped with the number of the cut
+//! instead of being cleared, so that a local cut costs time in proportion to what it removes. How a
+//! cut goes is said in `reach.rs`.
 
 mod asked;
 mod crossing;

@@ -135,8 +135,8 @@ impl Cutter {
 }
 
 /// How near a given vertex may be to a given plane before the points where its edges cross the
-/// plane can no longer be told from it: cutting there would make edges of no length, or swap points
-/// that lie an ulp apart.
+/// plane can no longer be distinguished from it: cutting there would make edges of no length, or
+/// swap points that lie an ulp apart.
 fn indistinct(x: DVec3, point: DVec3) -> f64 {
     64.0 * f64::EPSILON * x.abs().max(point.abs()).max_element()
 }

@@ -25,7 +25,7 @@ pub(super) fn widest_triple(points: &[DVec3]) -> [usize; 3] {
 pub(super) const SETTLED: f64 = 2.0 * f64::EPSILON;
 
 /// Where q·y = 1 for three dual points, with the residuals solved for again: y lies on the planes
-/// to rounding unless they meet too flat for that; [`uncertainty`] tells.
+/// to rounding unless they meet too flat for that; [`uncertainty`] says how much.
 #[inline(never)]
 pub(super) fn meeting_point([a, b, c]: [DVec3; 3]) -> DVec3 {
     let (ab, ac) = (b - a, c - a);

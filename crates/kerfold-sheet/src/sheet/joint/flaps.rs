@@ -1,9 +1,9 @@
 //! Flaps: a trapezoid on one side of every seam, that overlaps nothing.
 //!
 //! A flap must keep a gap to everything else on its piece, and folded over it must lie behind its
-//! partner ([`Behind`]), so that it sticks out nowhere. Its ends become as steep as that wants. When
-//! it still cannot, it is narrowed; before it gets narrower than half it moves to the partner side;
-//! where neither has room for a third of it, the seam stays bare.
+//! partner ([`Behind`]), so that it sticks out nowhere. Its ends become as steep as that wants.
+//! When it still cannot, it is narrowed; before it gets narrower than half it moves to the partner
+//! side; where neither has room for a third of it, the seam stays bare.
 
 use std::f64::consts::TAU;
 

@@ -59,6 +59,7 @@ pub(super) fn run(args: &UnfoldArgs, console: &Console) -> Result<Outcome, CliEr
         &command,
     )?);
     let written = console.write_folder(&args.output, outputs, args.clean)?;
+    let narrow = fabrication.narrow_strips(&sheet);
     let stopped = progress
         .is_cancelled()
         .then(|| "stopped on request; the files hold the best net so far".to_owned());
@@ -67,6 +68,7 @@ pub(super) fn run(args: &UnfoldArgs, console: &Console) -> Result<Outcome, CliEr
         .iter()
         .map(ToString::to_string)
         .chain(fabrication.notes())
+        .chain(narrow.clone())
         .chain(stopped)
         .collect();
     if console.json {
@@ -83,7 +85,7 @@ pub(super) fn run(args: &UnfoldArgs, console: &Console) -> Result<Outcome, CliEr
             summary_text(&fabrication, &sheet)
         ))?;
     }
-    Ok(Outcome::Clean)
+    Ok(if narrow.is_some() { Outcome::Findings } else { Outcome::Clean })
 }
 
 /// What a net consists of, in one line.

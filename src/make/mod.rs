@@ -5,6 +5,7 @@
 //! names and bytes. Nothing is printed or written. Verbs, recipes and the gallery call it, and so
 //! can any program.
 
+mod candidates;
 mod carve;
 mod dform;
 mod divide;
@@ -12,6 +13,7 @@ mod error;
 mod fabricate;
 mod flat_folds;
 mod materials;
+mod narrow_strips;
 mod nest;
 mod nest_error;
 mod operate;
@@ -28,9 +30,10 @@ pub use dform::{DformError, DformParams, MatchingChoice, MatchingChoiceError};
 pub use error::MakeError;
 pub use fabricate::{FabricateParams, FabricateSettings, Fabrication, fabricate};
 pub use materials::{MaterialError, material, with_material};
+pub use narrow_strips::MakeFinding;
 pub use nest::{NestStep, nest_files};
 pub use nest_error::NestError;
-pub use operate::operate;
+pub use operate::{operate, promised_pieces};
 pub use outputs::{Output, fabrication_outputs, sheet_picture};
 pub use panel_error::PanelOptionError;
 pub use panels::{PanelFiles, PanelJob, Panelled, SolidFile, panel_model, panel_outputs};

@@ -1,5 +1,6 @@
 //! What a caller of an operator can mend.
 
+use super::roll::RollError;
 use crate::code::codes;
 use crate::geom::hull::{HalfSpaceError, HullError};
 use crate::mesh::{BuildError, EdgeId, FaceId, FileFault, VertexId};
@@ -12,6 +13,9 @@ pub enum OpError {
     /// The selection could not be read on this mesh.
     #[error(transparent)]
     Select(#[from] SelectError),
+    /// Edges that cannot be rolled as asked.
+    #[error(transparent)]
+    Roll(#[from] RollError),
     /// The offset is not in (0, 2].
     #[error(
         "the offset is {offset}, but it must be above 0 (the element itself) and at most 2 (1 is \
@@ -332,6 +336,7 @@ codes!(error OpError {
     CavityLaidOpen = 332,
 } through {
     Select.0,
+    Roll.0,
     NoHull.reason,
     HalfSpaces.reason,
     Build.0,

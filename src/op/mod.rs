@@ -12,6 +12,7 @@ mod planarize;
 mod report;
 mod resolve;
 mod rind;
+mod roll;
 mod sierpinski;
 mod simple;
 mod size;
@@ -39,6 +40,10 @@ pub use planarize::{Needle, PlanarizeParams, PlanarizeReport, RimRule, planarize
 pub use report::{CutReport, Origins, ShrunkOffset};
 pub use resolve::{ResolveParams, ResolveReport, resolve};
 pub use rind::{GroupThickness, RindParams, RindReport, ShellSource, rind};
+pub use roll::{
+    Place, Roll, RollError, RollLimit, RollParams, RollWordError, RolledEdge, StripSize,
+    StripWordError, largest_roll,
+};
 pub use sierpinski::{
     SierpinskiParams, SierpinskiReport, VertexKind, sierpinski, sierpinski_preview, vertex_kind,
 };

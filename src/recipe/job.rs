@@ -7,9 +7,9 @@ use super::{OperatorStep, Recipe, Step, StepError};
 use crate::check::{CheckParams, Report, check};
 use crate::io::{ReadMesh, read_mesh};
 use crate::make::{
-    DformParams, FabricateParams, FabricateSettings, Fabrication, MakeError, PanelFiles, PanelJob,
-    Panelled, ShowParams, carve_dform, fabricate, nest_files, operate, panel_model,
-    solid_of_planes, with_material,
+    DformError, DformParams, FabricateParams, FabricateSettings, Fabrication, MakeError,
+    PanelFiles, PanelJob, Panelled, ShowParams, carve_dform, fabricate, nest_files, operate,
+    panel_model, promised_pieces, solid_of_planes, with_material,
 };
 use crate::mesh::{Mesh, SplitVertex};
 use crate::op::{HullParams, HullStep, OpContext, OpError, hull};
@@ -19,7 +19,7 @@ use crate::progress::Progress;
 use crate::select::{NewElements, Selection};
 use crate::shape::solid;
 use crate::sheet::SheetParams;
-use crate::unfold::{MeshSource, UnfoldParams};
+use crate::unfold::{MeshSource, PiecesMode, UnfoldParams};
 
 /// An operator of a recipe that did not reach what was asked for; the notes say what is missing.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -41,6 +41,8 @@ impl fmt::Display for StepWithFindings {
 pub struct Job {
     mesh: Option<Mesh>,
     made: Option<NewElements>,
+    /// Into how many pieces the strips of the last cut come apart, as the edges promised.
+    promised: Option<usize>,
     /// What the user should know, in order.
     pub notes: Vec<String>,
     /// Operators that did not reach what was asked for, as far as no later step mends it.
@@ -154,6 +156,8 @@ impl Job {
                 if !output.is_clean {
                     self.with_findings.push(StepWithFindings { step: number, verb });
                 }
+                let cut = (&output.cut_edges[..], self.made.as_ref());
+                self.promised = promised_pieces(self.mesh()?, cut, self.promised);
                 (self.mesh, self.made) = (Some(output.mesh), output.made);
             }
             Step::Hull(params) => {
@@ -163,17 +167,19 @@ impl Job {
                 self.hull_steps = report.steps;
                 // The hull is a solid of its own, whatever its corners came from.
                 self.with_findings.clear();
-                (self.mesh, self.made) = (Some(mesh), None);
+                (self.mesh, self.made, self.promised) = (Some(mesh), None, None);
             }
             Step::Check(params) => (self.check, self.is_check_asked) = (params.clone(), true),
             Step::Render(params) => self.render = params.clone(),
             Step::Dform { dform, sheet, show } => {
                 self.show = show.clone();
                 self.dform(dform, &with_material(sheet, folder)?, progress)?;
+                self.judge_strips(number, "dform");
             }
             Step::Unfold { unfold, fabricate, sheet, show } => {
                 self.show = show.clone();
                 self.unfold(unfold, fabricate, &with_material(sheet, folder)?, folder, progress)?;
+                self.judge_strips(number, "unfold");
             }
             Step::Panels { panels, files, sheet } => {
                 self.panels(panels, files, &with_material(sheet, folder)?, progress)?
@@ -209,7 +215,7 @@ impl Job {
             folds: Selection::of_edges(carved.folds.iter().copied()),
             ..FabricateParams::default()
         };
-        self.made = Some(carved.made);
+        (self.made, self.promised) = (Some(carved.made), None);
         self.unfold(&UnfoldParams::default(), &folds, sheet, Path::new(""), progress)
     }
 
@@ -251,8 +257,26 @@ impl Job {
             &source,
             progress,
         )?;
+        let made = fabrication.net.pieces.len();
+        if let Some(promised) = self.promised.filter(|&promised| promised != made)
+            && choice.is_of_strips()
+            && unfold.pieces == PiecesMode::Auto
+            && fabrication.divided == 0
+            && fabrication.is_of_given_folds()
+        {
+            return Err(DformError::BrokenPromise { promised, made }.into());
+        }
         self.notes.extend(fabrication.notes());
         (self.fabrication, self.panelled) = (Some((fabrication, sheet.clone())), None);
         Ok(())
+    }
+
+    /// Strips that the material is too thick for are findings.
+    fn judge_strips(&mut self, step: usize, verb: &'static str) {
+        let found = self.fabrication.as_ref().and_then(|(made, sheet)| made.narrow_strips(sheet));
+        if let Some(note) = found {
+            self.notes.push(note);
+            self.with_findings.push(StepWithFindings { step, verb });
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! Which mesh format a file has.
 
+use std::fmt;
 use std::path::Path;
 
 /// A format of mesh files.
@@ -14,6 +15,17 @@ pub enum MeshFormat {
     Stl,
     /// Object File Format: polygons, text.
     Off,
+}
+
+impl fmt::Display for MeshFormat {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Obj => "OBJ",
+            Self::Ply => "PLY",
+            Self::Stl => "STL",
+            Self::Off => "OFF",
+        })
+    }
 }
 
 impl MeshFormat {

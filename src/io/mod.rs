@@ -32,4 +32,4 @@ pub use read::{
 pub use write::glb;
 pub use write::plates;
 pub use write::step;
-pub use write::{PlyEncoding, WriteOptions, mesh_bytes, write_mesh};
+pub use write::{PlyEncoding, WriteOptions, file_note, mesh_bytes, write_mesh};

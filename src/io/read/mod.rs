@@ -16,6 +16,7 @@ mod keyhole;
 mod note;
 mod obj;
 mod off;
+mod plain;
 mod ply;
 mod points;
 mod raw;
@@ -31,6 +32,7 @@ mod tests;
 
 pub use decode::{decode_text, read_text};
 pub use note::ReadNote;
+pub(super) use plain::polygons_in;
 pub use points::{read_points, read_points_bytes};
 pub use seams::{read_seams, read_seams_bytes};
 

@@ -14,6 +14,7 @@ use std::collections::HashSet;
 use glam::DVec3;
 
 use super::super::cut::{Cutter, Reach, SlicingPlane};
+use super::super::size::check_size;
 use super::super::{Capping, OpError};
 use super::bundle::{Bundle, PartPoint};
 use super::merge::merged;
@@ -61,6 +62,7 @@ pub(super) fn convex_parts(
         let holes = mesh.hole_count();
         return Err(OpError::NotClosed { what: "a division into convex parts", holes });
     }
+    check_parts(mesh, most)?;
     let pieces = pieces(mesh, most, concavity, progress)?;
     let mut held: HashSet<[u64; 3]> = HashSet::new();
     let mut bundles = Vec::new();
@@ -78,6 +80,15 @@ pub(super) fn convex_parts(
 fn part_points(mesh: &Mesh, vertices: impl Iterator<Item = VertexId>) -> Vec<PartPoint> {
     let point = |v| PartPoint { position: mesh.position(v), is_given: mesh.is_given(v) };
     vertices.map(point).collect()
+}
+
+/// Refuses pieces that memory would not hold. A cut adds an edge for each edge that it divides, and
+/// two for each face; on an even mesh it divides about 4√E of them.
+fn check_parts(mesh: &Mesh, most: usize) -> Result<(), OpError> {
+    let edges = mesh.edge_count() as f64;
+    let of_cuts = 12.0 * edges.sqrt();
+    let asked = u32::try_from(most).unwrap_or(u32::MAX);
+    check_size("parts", asked, |parts| edges + of_cuts * most_cuts(parts as usize) as f64)
 }
 
 /// A position as a key; adding zero makes −0 and 0 one.

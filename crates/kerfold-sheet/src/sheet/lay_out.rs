@@ -124,7 +124,7 @@ pub fn lay_out_watched(
         .iter()
         .map(|p| CutShape::of_piece(p, params.stock.kerf.mm()))
         .collect::<Result<Vec<_>, _>>()?;
-    let mut layout = place_all(net, &shapes, (params, &sheets), progress)?;
+    let (mut layout, widened) = place_all(net, &shapes, (params, &sheets), progress)?;
     let usual = &sheets[sheets.len() - 1].stock;
     let (mut drawings, mut report) =
         draw(net, &shapes, &layout, usual, (params, &stretches, jointed.as_ref()))?;
@@ -140,6 +140,7 @@ pub fn lay_out_watched(
         }
         draw_sheet(drawing, sheet, &sheets[sheet.stock]);
     }
+    report.widened_pieces = widened;
     report.lost_holes = shapes.iter().map(|s| s.lost_holes).sum();
     report.closed_notches = shapes.iter().map(|s| s.closed_notches).sum();
     report.narrow_holes = bare.pieces.iter().map(|p| narrow_holes(p, params)).sum();
@@ -204,7 +205,7 @@ fn place_all(
     shapes: &[CutShape],
     (params, sheets): (&SheetParams, &[StockSheet]),
     progress: &dyn Progress,
-) -> Result<Layout, SheetError> {
+) -> Result<(Layout, Vec<PieceId>), SheetError> {
     let candidates = candidates(shapes, sheets, &params.nest);
     let too_large: Vec<TooLarge> = net
         .pieces
@@ -231,12 +232,12 @@ fn place_all(
         return Err(SheetError::PiecesTooLarge { pieces: too_large, width, height, margin });
     }
     if shapes.is_empty() {
-        return Ok(Layout::default());
+        return Ok((Layout::default(), Vec::new()));
     }
     let laid = lay(&candidates, sheets, &params.nest, progress).map_err(|no_place| {
         SheetError::NoPlace { pieces: no_place.pieces.iter().map(|&i| shapes[i].piece).collect() }
     })?;
-    Ok(layout_of(shapes, &laid, sheets))
+    Ok((layout_of(shapes, &laid, sheets), laid.widened))
 }
 
 fn layout_of(shapes: &[CutShape], laid: &Laid, stock: &[StockSheet]) -> Layout {

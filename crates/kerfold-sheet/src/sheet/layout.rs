@@ -122,6 +122,8 @@ pub struct SheetReport {
     /// What is left between two parts and the least that the material wants, in mm, when that is
     /// more.
     pub narrow_spacing: Option<[f64; 2]>,
+    /// Pieces whose lines cross, which nesting took for larger than they are.
+    pub widened_pieces: Vec<PieceId>,
     /// Whether the search was stopped before its effort was used up.
     pub is_stopped: bool,
     /// What became of the joints.

@@ -1,6 +1,7 @@
 //! How sheets are laid out and drawn: one definition for the library, the command line and the
 //! recipe.
 
+use glam::DVec2;
 use serde::Deserialize;
 
 use super::drawing::LayerKind;
@@ -13,6 +14,9 @@ use super::material::{Hex, Material, MaterialColours};
 use super::nest::{NestParams, StockSheet, stock_sheets};
 use super::score::ScoreParams;
 use super::stock::StockParams;
+
+/// The most pages of paper that one sheet may be printed on.
+const MOST_TILES: f64 = 10_000.0;
 
 /// How pieces are placed on sheets, joined, lettered and drawn.
 #[derive(Debug, Clone, PartialEq, Default, clap::Args, Deserialize)]
@@ -72,7 +76,28 @@ impl SheetParams {
     /// Numbers out of range, polygons that cross themselves, a margin that leaves nothing of a
     /// sheet.
     pub(crate) fn sheets(&self) -> Result<Option<Vec<StockSheet>>, SheetError> {
-        stock_sheets(&self.nest, &self.stock)
+        let sheets = stock_sheets(&self.nest, &self.stock)?;
+        sheets.iter().flatten().try_for_each(|sheet| self.check_tiles(sheet.stock.size))?;
+        Ok(sheets)
+    }
+
+    /// Refuses sheets of impossible numbers, for callers that work long before they lay out.
+    ///
+    /// # Errors
+    /// As [`super::lay_out`] for its parameters alone.
+    pub fn check_sheets(&self) -> Result<(), SheetError> {
+        self.sheets().map(drop)
+    }
+
+    /// Refuses a sheet that would be printed on far too many pages, before any work is done.
+    fn check_tiles(&self, size: DVec2) -> Result<(), SheetError> {
+        let Some(paper) = self.files.tile else { return Ok(()) };
+        let pages = (size / paper.mm()).ceil().element_product();
+        if pages > MOST_TILES {
+            let (width, height) = (size.x, size.y);
+            return Err(SheetError::TooManyTiles { width, height, pages, most: MOST_TILES });
+        }
+        Ok(())
     }
 
     /// The same with everything that the material decides: its kerf where none is given, its

@@ -30,6 +30,8 @@ const MOST_BOXES: usize = 500;
 pub(crate) struct Laid {
     pub lying: Vec<Lying>,
     pub cuts: Vec<Vec<[DVec2; 2]>>,
+    /// Pieces that were taken for larger than they are, as their lines cross.
+    pub widened: Vec<PieceId>,
 }
 
 /// A piece with its hull and what is allowed.
@@ -93,7 +95,7 @@ pub(crate) fn lay(
     let is_plain =
         sheets.len() == 1 && sheets[0].bin().obstacles.is_empty() && params.together.0.is_empty();
     if is_plain && params.nest_effort == 0 && params.common_line == CommonLine::Off {
-        return Ok(Laid { lying: boxes(candidates, &sheets[0], pack_rows), cuts: Vec::new() });
+        return Ok(Laid { lying: boxes(candidates, &sheets[0], pack_rows), ..Laid::default() });
     }
     let group =
         |piece: PieceId| params.together.0.iter().position(|g| g.len() > 1 && g.contains(&piece));
@@ -117,7 +119,10 @@ pub(crate) fn lay(
     };
     let start =
         (is_plain && candidates.len() <= MOST_BOXES).then(|| boxes(candidates, &sheets[0], pack));
-    Ok(Laid { lying: nest(&problem, start, effort, progress)?, cuts: Vec::new() })
+    let lies_wide = |(_, piece): &(&Candidate<'_>, &Piece)| !piece.shape.is_exact;
+    let widened = candidates.iter().zip(&problem.pieces).filter(lies_wide);
+    let widened = widened.map(|(c, _)| c.shape.piece).collect();
+    Ok(Laid { lying: nest(&problem, start, effort, progress)?, widened, ..Laid::default() })
 }
 
 /// What a hole must have at least, or no piece can lie in it.
@@ -217,7 +222,7 @@ fn by_guillotine(
         let angle = rounded(place.angle.rem_euclid(360.0));
         Lying { bin: place.bin, angle, at: put_low(&c.shape.outline, angle, place.low) }
     });
-    Ok(Laid { lying: lying.collect(), cuts })
+    Ok(Laid { lying: lying.collect(), cuts, ..Laid::default() })
 }
 
 /// The part of the last sheet that is left whole: from the furthest cut and the spacing on to the

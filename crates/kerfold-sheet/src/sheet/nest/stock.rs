@@ -139,7 +139,7 @@ impl StockSheet {
             let (l, h) = (least - by, most + by);
             let frame = [l, DVec2::new(h.x, l.y), h, DVec2::new(l.x, h.y)];
             let inside: Vec<DVec2> = self.outline.iter().rev().copied().collect();
-            let parts = convex_parts(&frame, &[inside]);
+            let parts = convex_parts(&frame, &[inside]).expect("sound outlines do not cross");
             obstacles.extend(
                 parts
                     .into_iter()

@@ -142,14 +142,7 @@ fn as_polygons(mesh: &Mesh, made: &mut NewElements) -> Result<Mesh, BuildError> 
         }
     }
     let (mut polygons, splits) = builder.build()?;
-    for (number, &f) in faces.iter().enumerate() {
-        if let Some(name) = mesh.group(f) {
-            polygons.set_group(FaceId::new(number), name);
-        }
-        if let Some(plane) = mesh.carried_plane(f) {
-            polygons.set_plane(FaceId::new(number), plane);
-        }
-    }
+    dress_faces(mesh, &faces, &mut polygons);
     let old: Vec<VertexId> = mesh.vertices().collect();
     let parted = splits.iter().map(|split| (split.added, old[split.given.index()]));
     for (new, v) in old.iter().map(|&v| (numbers[v], v)).chain(parted) {
@@ -171,6 +164,18 @@ fn as_polygons(mesh: &Mesh, made: &mut NewElements) -> Result<Mesh, BuildError> 
     seams.into_iter().for_each(|e| polygons.set_seam(e, true));
     made.compact(&mut polygons);
     Ok(polygons)
+}
+
+/// Gives faces, in their order, the groups and planes of those that they were.
+fn dress_faces(mesh: &Mesh, faces: &[FaceId], polygons: &mut Mesh) {
+    for (number, &f) in faces.iter().enumerate() {
+        if let Some(name) = mesh.group(f) {
+            polygons.set_group(FaceId::new(number), name);
+        }
+        if let Some(plane) = mesh.carried_plane(f) {
+            polygons.set_plane(FaceId::new(number), plane);
+        }
+    }
 }
 
 /// Mends what can be mended. Ids stay without gaps, and `made`

@@ -80,7 +80,7 @@ fn strips_too_narrow_for_the_material_are_a_finding() {
             &out,
         ])
     };
-    let narrow = with("60");
+    let narrow = with("90");
     assert!(narrow.code == Some(1) && narrow.err.contains("F507"), "{}{}", narrow.out, narrow.err);
     let wide = with("4");
     assert!(wide.code == Some(0) && !wide.err.contains("F507"), "{}", wide.err);

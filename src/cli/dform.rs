@@ -2,23 +2,25 @@
 
 use std::path::{Path, PathBuf};
 
+use serde_json::json;
+
 use super::error::CliError;
 use super::input::read_model;
-use super::output::Clean;
+use super::output::{Clean, command_line, model_text};
 use super::run::finish;
 use super::terminal::Terminal;
-use super::{Console, Outcome};
+use super::{Console, Outcome, seams};
 use crate::io::{ReadMesh, ReadOptions};
 use crate::make::{DformParams, ShowParams};
 use crate::recipe::{Job, Recipe, Step};
 use crate::shape::{SolidName, SolidParams, solid};
 use crate::sheet::SheetParams;
 
-/// Make a D-form of a solid: choose the folds, carve them into smooth strips, unfold, and lay the
+/// Make a D-form of a solid: choose the folds, roll them into even strips, unfold, and lay the
 /// pieces out
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Example: kerfold dform dodecahedron --size 180mm --rounds 4 --offset 0.3 -o out"
+    after_help = "Example: kerfold dform dodecahedron --size 180mm --roll max --strips 9 -o out"
 )]
 pub(super) struct DformArgs {
     /// A solid by name, or a closed 3-valent mesh: OBJ, PLY, STL or OFF; `-` reads OBJ from
@@ -33,6 +35,10 @@ pub(super) struct DformArgs {
     sheet: SheetParams,
     #[command(flatten)]
     show: ShowParams,
+    /// Only list the choices of folds: the table of `kerfold seams`, and choices.png in the folder with
+    /// the body and the pieces of each
+    #[arg(long)]
+    list: bool,
     /// The folder for model, picture, report, pieces and sheets; made if it is missing
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
@@ -41,6 +47,9 @@ pub(super) struct DformArgs {
 }
 
 pub(super) fn run(args: &DformArgs, console: &Console) -> Result<Outcome, CliError> {
+    if args.list {
+        return list(args, console);
+    }
     let dform = Step::Dform {
         dform: args.dform.clone(),
         sheet: args.sheet.clone(),
@@ -52,6 +61,27 @@ pub(super) fn run(args: &DformArgs, console: &Console) -> Result<Outcome, CliErr
         .carry_on(&recipe, Path::new(""), &Terminal::new(console.quiet))
         .map_err(|error| *error.cause)?;
     finish(&job, None, (&args.output, args.clean), console)
+}
+
+/// The choices as a table and as pictures.
+fn list(args: &DformArgs, console: &Console) -> Result<Outcome, CliError> {
+    let job = args.start()?;
+    let (mesh, progress) = (job.mesh()?, Terminal::new(console.quiet));
+    let (rows, why) = seams::rows(mesh, seams::LIMIT, &progress)?;
+    let picture = seams::picture(mesh, &rows, &progress)?;
+    let outputs = vec![("choices.png".to_owned(), picture)];
+    let written = console.write_folder(&args.output, outputs, args.clean)?;
+    let notes: Vec<String> = job.notes.iter().cloned().chain(why).collect();
+    if console.json {
+        let rows: Vec<_> = rows.iter().map(seams::row_json).collect();
+        let told = json!({ "command": command_line(), "matchings": rows, "notes": notes, "written": written });
+        console.result(&format!("{told:#}\n"))?;
+    } else {
+        console.notes(&notes);
+        let wrote: String = written.iter().map(|path| format!("wrote {path}\n")).collect();
+        console.result(&format!("{}\n{}{wrote}", model_text(mesh), seams::table_text(&rows)))?;
+    }
+    Ok(Outcome::Clean)
 }
 
 impl DformArgs {

@@ -4,8 +4,8 @@ use super::dform::MatchingChoice;
 use crate::mesh::{EdgeId, Mesh};
 use crate::progress::Progress;
 use crate::seam::{
-    MATCHING_LIMIT, SeamError, flattest_matching, hamiltonian_folds, is_perfect_matching,
-    least_matching, matching, one_piece_folds, piece_count, table,
+    MATCHING_LIMIT, SeamError, flattest_matching, fold_sum, hamiltonian_folds, is_perfect_matching,
+    least_matching, matching, one_piece_folds, piece_count, table, two_piece_bound,
 };
 use crate::unfold::{MeshSource, PiecesMode, Seams, UnfoldParams, unfold};
 
@@ -34,7 +34,10 @@ pub(super) fn candidates(
             Ok(Candidates { folds: one_piece_folds(mesh, progress)?, notes: Vec::new() })
         }
         MatchingChoice::TwoPieces => match hamiltonian_folds(mesh, progress) {
-            Ok(folds) => Ok(two_pieces(mesh, folds, progress)),
+            Ok(folds) => {
+                let (folds, note) = judged(mesh, folds, progress)?;
+                Ok(Candidates { notes: vec![note], ..two_pieces(mesh, folds, progress) })
+            }
             Err(
                 why @ (SeamError::NoHamiltonian { .. }
                 | SeamError::SearchStopped { .. }
@@ -46,6 +49,27 @@ pub(super) fn candidates(
             Err(error) => Err(error),
         },
     }
+}
+
+/// The folds of a two-piece seam, or better ones, and how good they are in words.
+fn judged(
+    mesh: &Mesh,
+    folds: Vec<EdgeId>,
+    progress: &dyn Progress,
+) -> Result<(Vec<EdgeId>, String), SeamError> {
+    let bound = two_piece_bound(mesh, &folds, progress)?;
+    if let Some(best) = bound.best {
+        let is_known = fold_sum(mesh, &best) >= fold_sum(mesh, &folds) * (1.0 - 1e-9);
+        let folds = if is_known { folds } else { best };
+        return Ok((folds, "no two-piece seam has a smaller fold sum".to_owned()));
+    }
+    let above = 100.0 * (fold_sum(mesh, &folds) / bound.lower - 1.0);
+    let note = format!(
+        "no two-piece seam has a fold sum below {:.2} rad·mm: this one is at most {above:.1} % above \
+        the least",
+        bound.lower
+    );
+    Ok((folds, note))
 }
 
 /// The best two-piece seam first, then all others of a small mesh; of a large one another that the

@@ -41,6 +41,12 @@ pub struct CarvedDform {
 }
 
 impl CarvedDform {
+    /// The mesh as it is, with its folds.
+    pub(super) fn uncarved(mesh: &Mesh, folds: &[EdgeId]) -> Self {
+        let made = NewElements { strip: folds.to_vec(), ..NewElements::default() };
+        Self { mesh: mesh.clone(), made, folds: folds.to_vec(), notes: Vec::new() }
+    }
+
     /// With notes on how it was chosen before its own.
     fn after(mut self, mut notes: Vec<String>) -> Self {
         notes.append(&mut self.notes);
@@ -69,8 +75,20 @@ pub fn carve_dform(
     params: &DformParams,
     progress: &dyn Progress,
 ) -> Result<CarvedDform, MakeError> {
+    params.carving()?;
+    let Candidates { folds, notes } = candidates(mesh, params.matching, progress)?;
+    Ok(carve_folds(mesh, folds, params, progress)?.after(notes))
+}
+
+/// Carves the first of these choices that keeps its promise, as [`carve_dform`].
+pub(super) fn carve_folds(
+    mesh: &Mesh,
+    folds: Vec<Vec<EdgeId>>,
+    params: &DformParams,
+    progress: &dyn Progress,
+) -> Result<CarvedDform, MakeError> {
     let carving = params.carving()?;
-    let Candidates { folds, mut notes } = candidates(mesh, params.matching, progress)?;
+    let mut notes = Vec::new();
     let broken = match carve_first_whole(mesh, &folds[..folds.len().min(TRIED)], carving, progress)
     {
         Tried::Whole { passed, carved } => {
@@ -275,12 +293,7 @@ fn carve(
         counted(piece_count(mesh, folds), "piece", "pieces")
     )];
     let (round, sharp) = rollable(mesh, folds);
-    let uncarved = |notes| CarvedDform {
-        mesh: mesh.clone(),
-        made: NewElements { strip: folds.to_vec(), ..NewElements::default() },
-        folds: folds.to_vec(),
-        notes,
-    };
+    let uncarved = |notes| CarvedDform { notes, ..CarvedDform::uncarved(mesh, folds) };
     if carving == Carving::Nothing {
         return Ok(uncarved(notes));
     }

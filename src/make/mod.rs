@@ -7,6 +7,7 @@
 
 mod candidates;
 mod carve;
+mod choices;
 mod dform;
 mod divide;
 mod error;
@@ -26,6 +27,7 @@ mod seam_choice;
 mod show;
 
 pub use carve::{CarvedDform, carve_dform};
+pub use choices::{FoldChoice, MOST_CHOICES, choices_picture};
 pub use dform::{DformError, DformParams, MatchingChoice, MatchingChoiceError};
 pub use error::MakeError;
 pub use fabricate::{FabricateParams, FabricateSettings, Fabrication, fabricate};
@@ -33,7 +35,7 @@ pub use materials::{MaterialError, material, with_material};
 pub use narrow_strips::MakeFinding;
 pub use nest::{NestStep, nest_files};
 pub use nest_error::NestError;
-pub use operate::{operate, promised_pieces};
+pub use operate::{PiecePromise, operate};
 pub use outputs::{Output, fabrication_outputs, sheet_picture};
 pub use panel_error::PanelOptionError;
 pub use panels::{PanelFiles, PanelJob, Panelled, SolidFile, panel_model, panel_outputs};

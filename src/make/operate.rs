@@ -27,21 +27,34 @@ pub fn operate(
     Ok(with_points.as_deref().unwrap_or(params).operate(mesh, context)?)
 }
 
-/// How many pieces edges promise that were cut off one by one: those that all other edges of the mesh
-/// before leave. Cutting the strips of the last cut again keeps its promise. Nothing is promised where
-/// two of the edges meet, since the faces around that vertex need not lie flat, and on an open mesh.
-pub fn promised_pieces(
-    before: &Mesh,
-    (cut, made): (&[EdgeId], Option<&NewElements>),
-    promised: Option<usize>,
-) -> Option<usize> {
-    let mut folds = VertexMap::filled(before.vertex_slots(), 0_u8);
-    let apart = cut.iter().flat_map(|&e| before.edge_vertices(e)).all(|v| {
-        folds[v] = folds[v].saturating_add(1);
-        folds[v] == 1
-    });
-    if made.is_some_and(|made| made.strip == cut) && promised.is_some() {
-        return promised;
+/// Into how many pieces the strips of edges come apart that were cut off one by one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PiecePromise {
+    /// The pieces that all other edges of the mesh before leave.
+    pub pieces: usize,
+    /// Whether every vertex had one of the edges: the mesh is a D-form, and nothing else.
+    pub is_perfect: bool,
+}
+
+impl PiecePromise {
+    /// What edges promise that were cut. Cutting the strips of the last cut again keeps its promise.
+    /// Nothing is promised where two of the edges meet, since the faces around that vertex need not
+    /// lie flat, and on an open mesh.
+    pub fn of(
+        before: &Mesh,
+        (cut, made): (&[EdgeId], Option<&NewElements>),
+        earlier: Option<Self>,
+    ) -> Option<Self> {
+        if earlier.is_some() && made.is_some_and(|made| made.strip == cut) {
+            return earlier;
+        }
+        let mut folds = VertexMap::filled(before.vertex_slots(), 0_u8);
+        let apart = cut.iter().flat_map(|&e| before.edge_vertices(e)).all(|v| {
+            folds[v] = folds[v].saturating_add(1);
+            folds[v] == 1
+        });
+        let is_perfect = before.vertices().all(|v| before.valence(v) == 3 && folds[v] == 1);
+        (apart && !cut.is_empty() && before.is_closed())
+            .then(|| Self { pieces: piece_count(before, cut), is_perfect })
     }
-    (apart && !cut.is_empty() && before.is_closed()).then(|| piece_count(before, cut))
 }

@@ -175,8 +175,12 @@ fn roll_notes(rolled: &[RolledEdge], limit: Option<&RollLimit>) -> Vec<String> {
     )];
     notes.extend(limit.map(|limit| {
         let edges: Vec<String> = limit.edges.iter().map(ToString::to_string).collect();
+        let (rolls, take) = match edges.len() {
+            1 => ("roll of edge", "takes"),
+            _ => ("rolls of edges", "take"),
+        };
         format!(
-            "the radius {:.2} mm is the largest: {} limits it (the roll of {} takes {:.1} % of it)",
+            "the radius {:.2} mm is the largest: of {} the {rolls} {} {take} {:.1} %",
             limit.radius,
             limit.place,
             edges.join(" and "),

@@ -8,8 +8,8 @@ use crate::check::{CheckParams, Report, check};
 use crate::io::{ReadMesh, read_mesh};
 use crate::make::{
     DformError, DformParams, FabricateParams, FabricateSettings, Fabrication, MakeError,
-    PanelFiles, PanelJob, Panelled, ShowParams, carve_dform, fabricate, nest_files, operate,
-    panel_model, promised_pieces, solid_of_planes, with_material,
+    PanelFiles, PanelJob, Panelled, PiecePromise, ShowParams, carve_dform, fabricate, nest_files,
+    operate, panel_model, solid_of_planes, with_material,
 };
 use crate::mesh::{Mesh, SplitVertex};
 use crate::op::{HullParams, HullStep, OpContext, OpError, hull};
@@ -42,7 +42,7 @@ pub struct Job {
     mesh: Option<Mesh>,
     made: Option<NewElements>,
     /// Into how many pieces the strips of the last cut come apart, as the edges promised.
-    promised: Option<usize>,
+    promised: Option<PiecePromise>,
     /// What the user should know, in order.
     pub notes: Vec<String>,
     /// Operators that did not reach what was asked for, as far as no later step mends it.
@@ -157,7 +157,7 @@ impl Job {
                     self.with_findings.push(StepWithFindings { step: number, verb });
                 }
                 let cut = (&output.cut_edges[..], self.made.as_ref());
-                self.promised = promised_pieces(self.mesh()?, cut, self.promised);
+                self.promised = PiecePromise::of(self.mesh()?, cut, self.promised);
                 (self.mesh, self.made) = (Some(output.mesh), output.made);
             }
             Step::Hull(params) => {
@@ -258,11 +258,12 @@ impl Job {
             progress,
         )?;
         let made = fabrication.net.pieces.len();
-        if let Some(promised) = self.promised.filter(|&promised| promised != made)
-            && choice.is_of_strips()
-            && unfold.pieces == PiecesMode::Auto
+        let is_meant = choice.is_of_strips() && unfold.pieces == PiecesMode::Auto;
+        if let Some(PiecePromise { pieces: promised, is_perfect }) = self.promised
+            && promised != made
+            && is_meant
             && fabrication.divided == 0
-            && fabrication.is_of_given_folds()
+            && (is_perfect || fabrication.is_of_given_folds())
         {
             return Err(DformError::BrokenPromise { promised, made }.into());
         }

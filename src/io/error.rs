@@ -221,6 +221,12 @@ pub enum IoError {
         /// The name of the node that holds it.
         name: String,
     },
+    /// A table that no workbook can hold.
+    #[error("schedule.xlsx cannot be written: {fault}; the CSV files hold the same tables")]
+    Workbook {
+        /// What the format does not take.
+        fault: String,
+    },
 }
 
 codes!(error IoError {
@@ -244,6 +250,7 @@ codes!(error IoError {
     TooFarForGlb = 118,
     NotForFiles = 119,
     NotReadBack = 120,
+    Workbook = 128,
 } through {
     Content.fault,
     Mesh.fault,

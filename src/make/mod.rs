@@ -5,6 +5,7 @@
 //! names and bytes. Nothing is printed or written. Verbs, recipes and the gallery call it, and so
 //! can any program.
 
+mod assembly_text;
 mod carve;
 mod dform;
 mod divide;
@@ -18,6 +19,7 @@ mod operate;
 mod outputs;
 mod panel_error;
 mod panels;
+mod picture;
 mod planes;
 mod report_pictures;
 mod seam_choice;
@@ -33,7 +35,9 @@ pub use nest_error::NestError;
 pub use operate::operate;
 pub use outputs::{Output, fabrication_outputs, sheet_picture};
 pub use panel_error::PanelOptionError;
-pub use panels::{PanelFiles, PanelJob, Panelled, SolidFile, panel_model, panel_outputs};
+pub use panels::{PaneFile, PanelFiles, PanelJob, Panelled, SolidFile, panel_model, panel_outputs};
+pub use picture::PointOut;
+pub(crate) use picture::{before_and_sections, x_ray};
 pub use planes::{PlanesStep, solid_of_planes};
 pub use report_pictures::report_pictures;
 pub use seam_choice::SeamChoice;

@@ -224,7 +224,9 @@ pub enum SheetError {
         piece: PieceId,
     },
     /// A character without a glyph.
-    #[error("no glyph for {character:?} in {text:?}; use A-Z, 0-9, space and - . / # + : _ ° %")]
+    #[error(
+        "no glyph for {character:?} in {text:?}; use A-Z, 0-9, space and - . / # + : _ ° % , ( ) = × Ø <"
+    )]
     NoGlyph {
         /// The character.
         character: char,
@@ -268,6 +270,16 @@ pub enum SheetError {
         /// What it must be.
         spacing: f64,
     },
+    /// A line of the info layer on a part.
+    #[error("{mark} lies on piece {piece} on sheet {sheet}; please report this bug")]
+    InfoOnPart {
+        /// The name of the mark.
+        mark: String,
+        /// The piece.
+        piece: PieceId,
+        /// The sheet.
+        sheet: SheetId,
+    },
 }
 
 codes!(error SheetError {
@@ -298,6 +310,7 @@ codes!(error SheetError {
     TooClose = 525,
     CommonLineKerf = 526,
     CommonLineOption = 527,
+    InfoOnPart = 531,
 });
 
 /// A piece that fits on no sheet.

@@ -19,6 +19,7 @@ mod drawing;
 mod error;
 mod features;
 mod files;
+mod info;
 mod joint;
 mod kerf;
 mod kerf_coupon;
@@ -32,22 +33,23 @@ mod params;
 mod part;
 mod place;
 mod score;
+mod score_gap;
 mod slit;
 mod verify;
 
 pub use assembly::{Assembly, AssemblyStep, assembly_of};
 pub use bounding_box::{OrientedBox, smallest_box};
-pub use drawing::{Drawing, Layer, LayerKind, Mark, MarkKind, Stroke};
+pub use drawing::{Drawing, Layer, LayerKind, Mark, MarkKind, PlateSide, Stroke};
 pub use error::{SheetError, TooLarge};
 pub use files::{
-    Colours, FileParams, Formats, FormatsError, Paper, PartFiles, Pen, Preset, Rgb, SheetFormat,
-    Style,
+    Colours, FileParams, Formats, FormatsError, Paper, PartFiles, Pen, Preset, Reference, Rgb,
+    SheetFormat, Style,
 };
 pub use joint::{FlapSide, Joint, JointFallback, JointParams, JointReport, Substitute};
 pub use kerf::CutShape;
-pub use kerf_coupon::kerf_coupon;
+pub use kerf_coupon::{cuts_of_bar, has_comb, kerf_coupon};
 pub use lay_out::{SheetSet, fits, lay_out, lay_out_watched};
-pub use layout::{Layout, Placed, Sheet, SheetId, SheetReport};
+pub use layout::{Layout, NearScores, Placed, Sheet, SheetFinding, SheetId, SheetReport};
 pub use letter::{Angles, CAPITAL, Labels, LetterParams, Lettering, Stretch, glyph, lettering};
 pub use material::{Hex, Material, MaterialColours, Speeds};
 pub use nest::{

@@ -156,7 +156,7 @@ impl<'a> Band<'a> {
         let light = self.scene.light(id as usize, x, y);
         match self.layers.get(sample) {
             // Every surface on the way takes a little of the light.
-            Some(&layers) => paper.lerp(light, 0.45) * 0.90_f32.powi(i32::from(layers.min(24))),
+            Some(&layers) => paper.lerp(light, 0.55) * 0.94_f32.powi(i32::from(layers.min(24))),
             None => light,
         }
     }

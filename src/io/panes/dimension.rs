@@ -79,7 +79,9 @@ fn angles(row: &PanelRow, corners: &[DVec2]) -> Vec<Shape> {
         let inwards = if turns_in != is_turned { bisector } else { -bisector };
         // Sharp corners have no room at their tip.
         let half = (row.angles.get(i).copied().unwrap_or(90.0) / 2.0).to_radians();
-        let depth = (2.2 * FIGURES / half.sin().max(0.15)).min(8.0 * FIGURES);
+        // The words lie level, about six times as long as high.
+        let room = FIGURES * (2.6 * inwards.x.abs() + 0.8 * inwards.y.abs());
+        let depth = ((0.6 * FIGURES + room) / half.sin().max(0.2)).min(10.0 * FIGURES);
         let text = format!("{:.1}°", row.angles.get(i).copied().unwrap_or_default());
         words(&text, here + inwards * depth, DVec2::X, 0.8 * FIGURES)
     };

@@ -161,6 +161,7 @@ const DOORS: &[(&str, &[&str])] = &[
     ("krilla", &["src/io/report/pdf/"]),
     ("skrifa", &["src/io/report/pdf/font.rs"]),
     ("miniz_oxide", &["src/io/read/artwork/decode.rs", "src/io/read/artwork/pdf_unpack.rs"]),
+    ("rust_xlsxwriter", &["src/io/panels_xlsx.rs"]),
     ("tiny_skia", &["src/picture/"]),
     ("serde_json", &["src/io/", "src/cli/"]),
     ("toml", &["src/recipe/", "src/make/materials.rs"]),

@@ -65,7 +65,7 @@ pub(super) enum CliError {
     Scale { path: PathBuf, scale: f64 },
     #[error("{}: this must be text in UTF-8, but byte {at} is not", path.display())]
     NotText { path: PathBuf, at: usize },
-    #[error("{}: pictures are written as PNG; name the file something.png", path.display())]
+    #[error("{}: pictures are written as PNG, SVG or PDF; name the file something.png, .svg or .pdf", path.display())]
     NotPng { path: PathBuf },
     #[error("{}: reports are written as HTML, PDF, JSON or CSV; name the file something.html, \
     .pdf, .json or .csv", path.display())]

@@ -47,12 +47,13 @@ pub(super) struct PanelsArgs {
 pub(super) fn run(args: &PanelsArgs, console: &Console) -> Result<Outcome, CliError> {
     let read = args.input.read()?;
     let sheet = with_material(&args.sheet, Path::new("")).map_err(MakeError::from)?;
+    let sheet = args.input.titled(sheet);
     let progress = Terminal::new(console.quiet);
     let source = MeshSource { scale: read.scale, split_vertices: &read.splits };
     let job = PanelJob { panels: &args.panels, files: &args.files, sheet: &sheet };
     let panelled = panel_model(&read.mesh, job, &source, &progress)?;
     let command = command_line();
-    let outputs = panel_outputs(&panelled, &sheet, &command)?;
+    let outputs = panel_outputs(&panelled, &read.mesh, &sheet, &command)?;
     let written = console.write_folder(&args.output, outputs, args.clean)?;
     let notes: Vec<String> =
         read.notes.iter().map(ToString::to_string).chain(panelled.notes()).collect();

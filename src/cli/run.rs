@@ -83,7 +83,9 @@ pub(super) fn finish(
     let has_panel_findings = panelled.is_some_and(|p| !p.findings.is_empty());
     let is_unclean =
         has_findings && job.is_check_asked || has_panel_findings || !job.with_findings.is_empty();
-    Ok(if is_unclean { Outcome::Findings } else { Outcome::Clean })
+    let has_sheet_findings =
+        job.fabrication.as_ref().is_some_and(|(f, _)| !f.findings().is_empty());
+    Ok(if is_unclean || has_sheet_findings { Outcome::Findings } else { Outcome::Clean })
 }
 
 /// Tells about a job that had pieces and no model.

@@ -260,6 +260,12 @@ pub enum IoError {
         /// The name of the node that holds it.
         name: String,
     },
+    /// A table that no workbook can hold.
+    #[error("schedule.xlsx cannot be written: {fault}; the CSV files hold the same tables")]
+    Workbook {
+        /// What the format does not take.
+        fault: String,
+    },
 }
 
 codes!(error IoError {
@@ -285,6 +291,7 @@ codes!(error IoError {
     NotReadBack = 120,
     ReadAsOther = 121,
     NotForStl = 122,
+    Workbook = 128,
 } through {
     Content.fault,
     Mesh.fault,

@@ -14,6 +14,8 @@ pub mod order_json;
 pub mod output;
 pub mod panels_csv;
 pub mod panels_json;
+pub mod panels_xlsx;
+pub mod panes;
 pub mod pieces_json;
 pub mod planes_csv;
 mod read;

@@ -10,8 +10,8 @@ use serde::de::DeserializeOwned;
 use super::error::RecipeError;
 use super::fields::{KnownKeys, StepFields};
 use super::{
-    DformParams, FabricateParams, NestStep, OperatorStep, PanelFiles, PlanesStep, ReadStep,
-    ShowParams, Step,
+    DformParams, FabricateParams, NestStep, OperatorStep, PanelFiles, PlanesStep, PointOut,
+    ReadStep, ShowParams, Step, StoryParams,
 };
 use crate::check::CheckParams;
 use crate::op::{
@@ -133,7 +133,12 @@ const STEPS: &[StepKind] = &[
     step("nest", "pieces", &[NestStep::augment_args, SheetParams::augment_args], |s| {
         Ok(Step::Nest { nest: s.read()?, sheet: s.read()? })
     }),
-    step("render", "view", &[RenderParams::augment_args], |s| Ok(Step::Render(s.read()?))),
+    step(
+        "render",
+        "view",
+        &[RenderParams::augment_args, PointOut::augment_args, StoryParams::augment_args],
+        |s| Ok(Step::Render { render: s.read()?, point_out: s.read()?, story: s.read()? }),
+    ),
 ];
 
 const fn step(

@@ -5,5 +5,6 @@ pub mod dxf;
 pub mod files;
 pub mod layout;
 pub mod lbrn2;
+pub mod page;
 pub mod pdf;
 pub mod svg;

@@ -242,7 +242,9 @@ pub enum SheetError {
         piece: PieceId,
     },
     /// A character without a glyph.
-    #[error("no glyph for {character:?} in {text:?}; use A-Z, 0-9, space and - . / # + : _ ° %")]
+    #[error(
+        "no glyph for {character:?} in {text:?}; use A-Z, 0-9, space and - . / # + : _ ° % , ( ) = × Ø <"
+    )]
     NoGlyph {
         /// The character.
         character: char,
@@ -286,6 +288,16 @@ pub enum SheetError {
         /// What it must be.
         spacing: f64,
     },
+    /// A line of the info layer on a part.
+    #[error("{mark} lies on piece {piece} on sheet {sheet}; please report this bug")]
+    InfoOnPart {
+        /// The name of the mark.
+        mark: String,
+        /// The piece.
+        piece: PieceId,
+        /// The sheet.
+        sheet: SheetId,
+    },
 }
 
 codes!(error SheetError {
@@ -317,6 +329,7 @@ codes!(error SheetError {
     CommonLineKerf = 526,
     CommonLineOption = 527,
     TooManyTiles = 528,
+    InfoOnPart = 531,
 });
 
 /// A piece that fits on no sheet.

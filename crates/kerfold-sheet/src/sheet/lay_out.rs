@@ -9,13 +9,15 @@ use super::boundary::Boundaries;
 use super::bounding_box::{rounded, smallest_box};
 use super::distance::contour_distance;
 use super::draw::draw;
-use super::drawing::{Drawing, MarkKind, Stroke};
+use super::drawing::Drawing;
 use super::error::{SheetError, TooLarge};
+use super::info::{draw_info, verify_info};
 use super::joint::join;
 use super::kerf::CutShape;
 use super::layout::{Layout, Placed, Sheet, SheetId, SheetReport};
 use super::nest::{CommonLine, Laid, StockSheet, candidates, lay, offcut};
 use super::params::SheetParams;
+use super::score_gap::near_scores;
 use super::slit::mend;
 use super::stock::Stock;
 use super::stretch::stretches;
@@ -125,9 +127,8 @@ pub fn lay_out_watched(
         .map(|p| CutShape::of_piece(p, params.stock.kerf.mm()))
         .collect::<Result<Vec<_>, _>>()?;
     let (mut layout, widened) = place_all(net, &shapes, (params, &sheets), progress)?;
-    let usual = &sheets[sheets.len() - 1].stock;
     let (mut drawings, mut report) =
-        draw(net, &shapes, &layout, usual, (params, &stretches, jointed.as_ref()))?;
+        draw(net, &shapes, &layout, (params, &stretches, jointed.as_ref()))?;
     for (drawing, sheet) in drawings.iter_mut().zip(&layout.sheets) {
         let tolerance = 6.0 * sheets[sheet.stock].stock.rounding();
         // With a kerf, lines of one part that meet have become one.
@@ -138,8 +139,9 @@ pub fn lay_out_watched(
         if meets_itself || params.nest.common_line == CommonLine::On {
             drawing.arrange();
         }
-        draw_sheet(drawing, sheet, &sheets[sheet.stock]);
     }
+    draw_info(&mut drawings, (net, &shapes), (&layout, &sheets), params, &mut report)?;
+    report.near_scores = near_scores(net, &drawings, params);
     report.widened_pieces = widened;
     report.lost_holes = shapes.iter().map(|s| s.lost_holes).sum();
     report.closed_notches = shapes.iter().map(|s| s.closed_notches).sum();
@@ -153,6 +155,7 @@ pub fn lay_out_watched(
     layout.cut_length = drawings.iter().map(Drawing::cut_length).sum();
     layout.score_length = drawings.iter().map(Drawing::score_length).sum();
     verify(&shapes, &layout, params)?;
+    verify_info(&drawings, &shapes, &layout)?;
     report.joints = jointed.map(|j| j.report).unwrap_or_default();
     let mut assembly = assembly(bare, stretches);
     if let Some(mended) = mended {
@@ -274,27 +277,6 @@ fn layout_of(shapes: &[CutShape], laid: &Laid, stock: &[StockSheet]) -> Layout {
     let all: f64 = sheets.iter().map(|s| s.width * s.height).sum();
     let density = if sheets.is_empty() { 0.0 } else { area / all };
     Layout { sheets, density, cut_length: 0.0, score_length: 0.0 }
-}
-
-/// What the sheet itself is like, on the layer that is never machined: its outline, its defects,
-/// the cuts from edge to edge and where the offcut begins.
-fn draw_sheet(drawing: &mut Drawing, sheet: &Sheet, stock: &StockSheet) {
-    let mut note = |id: String, points: Vec<DVec2>, closed| {
-        drawing.add(MarkKind::Note, id, None, vec![Stroke { points, closed }]);
-    };
-    if !stock.outline.is_empty() {
-        note("sheet-outline".to_owned(), stock.outline.clone(), true);
-    }
-    for (i, defect) in stock.defects.iter().enumerate() {
-        note(format!("defect-{}", i + 1), defect.clone(), true);
-    }
-    for (i, cut) in sheet.cuts.iter().enumerate() {
-        note(format!("guillotine-{}", i + 1), cut.to_vec(), false);
-    }
-    if let Some([low, high]) = sheet.offcut {
-        let edge = if low.x > 0.0 { DVec2::new(low.x, high.y) } else { DVec2::new(high.x, low.y) };
-        note("offcut".to_owned(), vec![low, edge], false);
-    }
 }
 
 #[cfg(test)]

@@ -20,6 +20,7 @@ mod drawing;
 mod error;
 mod features;
 mod files;
+mod info;
 mod joint;
 mod joint_kind;
 mod kerf;
@@ -34,6 +35,7 @@ mod params;
 mod part;
 mod place;
 mod score;
+mod score_gap;
 mod slit;
 mod stock;
 mod stretch;
@@ -41,18 +43,18 @@ mod verify;
 
 pub use assembly::{Assembly, AssemblyStep, assembly_of};
 pub use bounding_box::{OrientedBox, smallest_box};
-pub use drawing::{Drawing, Layer, LayerKind, Mark, MarkKind, Stroke};
+pub use drawing::{Drawing, Layer, LayerKind, Mark, MarkKind, PlateSide, Stroke};
 pub use error::{SheetError, TooLarge};
 pub use files::{
-    Colours, FileParams, Formats, FormatsError, Paper, PartFiles, Pen, Preset, Rgb, SheetFormat,
-    Style,
+    Colours, FileParams, Formats, FormatsError, Paper, PartFiles, Pen, Preset, Reference, Rgb,
+    SheetFormat, Style,
 };
 pub use joint::{FlapSide, JointFallback, JointParams, JointReport, Substitute};
 pub use joint_kind::Joint;
 pub use kerf::CutShape;
-pub use kerf_coupon::kerf_coupon;
+pub use kerf_coupon::{cuts_of_bar, has_comb, kerf_coupon};
 pub use lay_out::{SheetSet, fits, lay_out, lay_out_watched};
-pub use layout::{Layout, Placed, Sheet, SheetId, SheetReport};
+pub use layout::{Layout, NearScores, Placed, Sheet, SheetFinding, SheetId, SheetReport};
 pub use letter::{Angles, CAPITAL, Labels, LetterParams, Lettering, glyph, lettering};
 pub use material::{Hex, Material, MaterialColours, Speeds};
 pub use nest::{
@@ -62,6 +64,7 @@ pub use nest::{
 pub use params::{PieceKind, SheetParams};
 pub use score::{ScoreParams, ScoreStyle};
 pub use stock::{SheetSize, StockParams};
+pub use stretch::Stretch;
 pub use stretch::Stretch;
 pub use verify::{clearance, verify};
 

@@ -6,5 +6,6 @@ mod params;
 mod piece;
 
 pub use glyph::{CAPITAL, Lettering, glyph, lettering};
+pub(super) use label::sheet_letter;
 pub use params::{Angles, Labels, LetterParams};
 pub(super) use piece::PieceLettering;

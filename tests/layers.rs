@@ -63,14 +63,15 @@ const ROOMS: &[Room] = &[
     room(1, SHEET, "net", &[]),
     room(2, KERNEL, "measure", &["geom", "mesh"]),
     room(2, KERNEL, "shape", &["geom", "units", "random", "mesh"]),
+    room(2, TOP, "mend", &["geom", "units", "mesh", "measure"]),
     room(2, TOP, "seam", &["units", "mesh", "measure", "progress"]),
     room(2, TOP, "select", &["geom", "units", "mesh", "measure", "seam", "progress"]),
-    room(3, TOP, "check", &["geom", "units", "mesh", "measure"]),
+    room(3, TOP, "check", &["geom", "units", "mesh", "measure", "mend"]),
     room(
         3,
         TOP,
         "op",
-        &["memory", "geom", "units", "mesh", "measure", "select", "check", "progress"],
+        &["memory", "geom", "units", "mesh", "measure", "mend", "select", "check", "progress"],
     ),
     room(
         3,
@@ -86,7 +87,10 @@ const ROOMS: &[Room] = &[
         4,
         TOP,
         "io",
-        &["geom", "units", "mesh", "net", "measure", "check", "panel", "sheet", "lint", "bloom"],
+        &[
+            "geom", "units", "mesh", "net", "measure", "mend", "select", "check", "panel", "sheet",
+            "lint", "bloom",
+        ],
     ),
     room(4, TOP, "picture", &["geom", "units", "mesh", "measure", "sheet"]),
     room(
@@ -164,6 +168,7 @@ const DOORS: &[(&str, &[&str])] = &[
     ("rust_xlsxwriter", &["src/io/panels_xlsx.rs"]),
     ("tiny_skia", &["src/picture/"]),
     ("serde_json", &["src/io/", "src/cli/"]),
+    ("meshopt", &["src/op/simplify/"]),
     ("toml", &["src/recipe/", "src/make/materials.rs"]),
     ("clap_complete", &["src/cli/"]),
     ("clap_mangen", &["src/cli/"]),

@@ -89,6 +89,8 @@ pub(super) enum CliError {
         did_you_mean(nearest.as_deref())
     )]
     NoSuchCode { word: String, nearest: Option<String> },
+    #[error("`{word}` is no verb; {}`kerfold help` lists all", did_you_mean(nearest.as_deref()))]
+    NoSuchVerb { word: String, nearest: Option<String> },
 }
 
 codes!(error CliError {
@@ -106,6 +108,7 @@ codes!(error CliError {
     UnknownRecipe = 12,
     Gallery = 13,
     Stopped = 14,
+    NoSuchVerb = 16,
 } through {
     Io.0,
     Shape.0,

@@ -154,6 +154,13 @@ mod tests {
             K::Manifold,
             K::OneComponent,
             K::Simple,
+            K::InsideOut,
+            K::Junction,
+            K::Doubled,
+            K::SharpCorner,
+            K::ShortEdge,
+            K::Mitre,
+            K::OtherUnit,
         ];
         let of_lint = [
             Check::OpenContour,

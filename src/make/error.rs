@@ -17,6 +17,7 @@ use crate::select::SelectError;
 use crate::shape::ShapeError;
 use crate::sheet::SheetError;
 use crate::unfold::UnfoldError;
+use crate::units::counted;
 
 /// What stopped the making of a thing, be it a step of a recipe or a verb.
 #[derive(Debug, thiserror::Error)]
@@ -73,6 +74,18 @@ pub enum MakeError {
     /// A state of folding is no mesh.
     #[error("the pieces cannot be drawn while they fold: {0}; unfold the mesh again")]
     State(BuildError),
+    /// A material that does not fold, and folds.
+    #[error(
+        "{material} does not fold, but the pieces have {}: say how with --fold score or --fold \
+        hinge, or cut every face by itself with --pieces faces",
+        counted(*folds, "fold", "folds")
+    )]
+    RigidFolds {
+        /// What the material is called.
+        material: String,
+        /// How many folds there are.
+        folds: usize,
+    },
     /// The picture could not be drawn.
     #[error(transparent)]
     Picture(#[from] PictureError),
@@ -82,6 +95,7 @@ codes!(error MakeError {
     NoMesh = 711,
     SecondMesh = 712,
     State = 713,
+    RigidFolds = 714,
 } through {
     Io.0,
     Planes.0,

@@ -7,11 +7,11 @@ use std::path::Path;
 use glam::DVec3;
 
 use super::{
-    CutReport, HandleAxis, HandleParams, HullParams, MengerParams, OpContext, OpError,
-    PlanarizeParams, ResolveParams, RindParams, SierpinskiParams, SliceParams, SubdivideParams,
-    TruncateEdgeParams, TruncateFaceParams, TruncateVertexParams, handle, hull, menger, planarize,
-    resolve, rind, sierpinski, sierpinski_preview, slice, subdivide, truncate_edges,
-    truncate_faces, truncate_vertices,
+    CutReport, HandleAxis, HandleParams, HullParams, MengerParams, MergeParams, OpContext, OpError,
+    PlanarizeParams, RepairParams, ResolveParams, RindParams, SierpinskiParams, SimplifyParams,
+    SliceParams, SubdivideParams, TruncateEdgeParams, TruncateFaceParams, TruncateVertexParams,
+    handle, hull, menger, merge, planarize, repair, resolve, rind, sierpinski, sierpinski_preview,
+    simplify, slice, subdivide, truncate_edges, truncate_faces, truncate_vertices,
 };
 use crate::mesh::{EdgeId, Mesh};
 use crate::select::NewElements;
@@ -99,6 +99,29 @@ impl Operate for ResolveParams {
     fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
         let (mesh, report) = resolve(mesh, self, context)?;
         Ok(OperatorOutput::new(mesh, report.notes()))
+    }
+}
+
+impl Operate for MergeParams {
+    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
+        let (mesh, report) = merge(mesh, self, context)?;
+        let notes = report.notes();
+        Ok(OperatorOutput { made: Some(report.made), ..OperatorOutput::new(mesh, notes) })
+    }
+}
+
+impl Operate for RepairParams {
+    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
+        let (mesh, report) = repair(mesh, self, context)?;
+        Ok(OperatorOutput::new(mesh, report.notes()))
+    }
+}
+
+impl Operate for SimplifyParams {
+    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
+        let (mesh, report) = simplify(mesh, self, context)?;
+        let is_clean = report.is_clean();
+        Ok(OperatorOutput { is_clean, ..OperatorOutput::new(mesh, report.notes()) })
     }
 }
 

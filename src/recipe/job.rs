@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::{Before, OperatorStep, Recipe, Step, StepError};
 use crate::check::{CheckParams, Report, check};
-use crate::io::{ReadMesh, read_mesh};
+use crate::io::{ReadMesh, read_mesh, size_note};
 use crate::make::{
     DformError, DformParams, FabricateParams, FabricateSettings, Fabrication, MakeError,
     PanelFiles, PanelJob, Panelled, PiecePromise, PointOut, ShowParams, carve_dform, fabricate,
@@ -150,9 +150,14 @@ impl Job {
             Step::Solid(params) => self.start(solid(params)?)?,
             Step::Read(read) => {
                 let path: PathBuf = folder.join(&read.path);
-                let ReadMesh { mut mesh, notes, .. } = read_mesh(&path, &read.options)?;
-                self.notes.extend(notes.iter().map(ToString::to_string));
+                let ReadMesh { mut mesh, notes, made, .. } = read_mesh(&path, &read.options)?;
+                let notes = notes.into_iter().chain(size_note(&mesh, &read.options));
+                self.notes.extend(notes.map(|note| note.to_string()));
                 // From here on ids are those of the model.obj that will be written.
+                self.made = made.map(|mut made| {
+                    made.compact(&mut mesh);
+                    made
+                });
                 mesh.compact();
                 self.start(mesh)?;
             }

@@ -15,9 +15,9 @@ use super::{
 };
 use crate::check::CheckParams;
 use crate::op::{
-    HandleParams, HullParams, MengerParams, Operate, PlanarizeParams, ResolveParams, RindParams,
-    SierpinskiParams, SliceParams, SubdivideParams, TruncateEdgeParams, TruncateFaceParams,
-    TruncateVertexParams,
+    HandleParams, HullParams, MengerParams, MergeParams, Operate, PlanarizeParams, RepairParams,
+    ResolveParams, RindParams, SierpinskiParams, SimplifyParams, SliceParams, SubdivideParams,
+    TruncateEdgeParams, TruncateFaceParams, TruncateVertexParams,
 };
 use crate::panel::PanelParams;
 use crate::picture::RenderParams;
@@ -85,6 +85,15 @@ const STEPS: &[StepKind] = &[
     }),
     step("planarize", "profile", &[PlanarizeParams::augment_args], |s| {
         operator::<PlanarizeParams>(s, "planarize")
+    }),
+    step("merge", "tolerance", &[MergeParams::augment_args], |s| {
+        operator::<MergeParams>(s, "merge")
+    }),
+    step("repair", "close_holes", &[RepairParams::augment_args], |s| {
+        operator::<RepairParams>(s, "repair")
+    }),
+    step("simplify", "faces", &[SimplifyParams::augment_args], |s| {
+        operator::<SimplifyParams>(s, "simplify")
     }),
     step("subdivide", "scheme", &[SubdivideParams::augment_args], |s| {
         operator::<SubdivideParams>(s, "subdivide")

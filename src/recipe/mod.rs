@@ -10,6 +10,7 @@ mod fields;
 mod job;
 mod keys;
 mod outputs;
+mod parameters;
 mod parse;
 
 #[cfg(test)]

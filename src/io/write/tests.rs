@@ -75,7 +75,7 @@ fn ply_and_off_keep_every_digit_and_the_order() {
             MeshFormat::Ply,
             "a.ply",
             &mesh,
-            &WriteOptions { command: command.clone(), ply },
+            &WriteOptions { command: command.clone(), ply, made: None },
         );
         assert_eq!(content(&back), (positions.clone(), plain.clone(), vec![]));
     }

@@ -62,9 +62,8 @@ pub use nest::{
     StockList,
 };
 pub use params::{PieceKind, SheetParams};
-pub use score::{ScoreParams, ScoreStyle};
+pub use score::{FoldWay, ScoreParams, ScoreStyle};
 pub use stock::{SheetSize, StockParams};
-pub use stretch::Stretch;
 pub use stretch::Stretch;
 pub use verify::{clearance, verify};
 

@@ -50,9 +50,11 @@ pub(super) fn run(args: &DformArgs, console: &Console) -> Result<Outcome, CliErr
     if args.list {
         return list(args, console);
     }
+    let stem = args.solid.file_stem().filter(|_| args.solid.as_os_str() != "-");
+    let title = stem.unwrap_or_default().to_string_lossy();
     let dform = Step::Dform {
         dform: args.dform.clone(),
-        sheet: args.sheet.clone(),
+        sheet: args.sheet.clone().titled(&title),
         show: args.show.from_here(),
     };
     let recipe = Recipe { name: None, steps: vec![dform] };

@@ -5,6 +5,7 @@
 //! names and bytes. Nothing is printed or written. Verbs, recipes and the gallery call it, and so
 //! can any program.
 
+mod assembly_text;
 mod candidates;
 mod carve;
 mod choices;
@@ -14,13 +15,13 @@ mod error;
 mod fabricate;
 mod flat_folds;
 mod materials;
-mod narrow_strips;
 mod nest;
 mod nest_error;
 mod operate;
 mod outputs;
 mod panel_error;
 mod panels;
+mod picture;
 mod planes;
 mod report_pictures;
 mod seam_choice;
@@ -32,13 +33,14 @@ pub use dform::{DformError, DformParams, MatchingChoice, MatchingChoiceError};
 pub use error::MakeError;
 pub use fabricate::{FabricateParams, FabricateSettings, Fabrication, fabricate};
 pub use materials::{MaterialError, material, with_material};
-pub use narrow_strips::MakeFinding;
 pub use nest::{NestStep, nest_files};
 pub use nest_error::NestError;
 pub use operate::{PiecePromise, operate};
 pub use outputs::{Output, fabrication_outputs, sheet_picture};
 pub use panel_error::PanelOptionError;
-pub use panels::{PanelFiles, PanelJob, Panelled, SolidFile, panel_model, panel_outputs};
+pub use panels::{PaneFile, PanelFiles, PanelJob, Panelled, SolidFile, panel_model, panel_outputs};
+pub use picture::PointOut;
+pub(crate) use picture::{before_and_sections, x_ray};
 pub use planes::{PlanesStep, solid_of_planes};
 pub use report_pictures::report_pictures;
 pub use seam_choice::SeamChoice;

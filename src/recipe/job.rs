@@ -3,13 +3,13 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use super::{OperatorStep, Recipe, Step, StepError};
+use super::{Before, OperatorStep, Recipe, Step, StepError};
 use crate::check::{CheckParams, Report, check};
 use crate::io::{ReadMesh, read_mesh};
 use crate::make::{
     DformError, DformParams, FabricateParams, FabricateSettings, Fabrication, MakeError,
-    PanelFiles, PanelJob, Panelled, PiecePromise, ShowParams, carve_dform, fabricate, nest_files,
-    operate, panel_model, solid_of_planes, with_material,
+    PanelFiles, PanelJob, Panelled, PiecePromise, PointOut, ShowParams, carve_dform, fabricate,
+    nest_files, operate, panel_model, solid_of_planes, with_material,
 };
 use crate::mesh::{Mesh, SplitVertex};
 use crate::op::{HullParams, HullStep, OpContext, OpError, hull};
@@ -39,6 +39,8 @@ impl fmt::Display for StepWithFindings {
 /// What a recipe has made so far.
 #[derive(Default)]
 pub struct Job {
+    /// The name of the recipe, which stands on its sheets.
+    title: String,
     mesh: Option<Mesh>,
     made: Option<NewElements>,
     /// Into how many pieces the strips of the last cut come apart, as the edges promised.
@@ -49,6 +51,11 @@ pub struct Job {
     pub with_findings: Vec<StepWithFindings>,
     /// How the picture of the model looks.
     pub render: RenderParams,
+    /// What the picture points out.
+    pub point_out: PointOut,
+    /// The mesh before the last operator, where the recipe shows it.
+    pub before: Option<Mesh>,
+    keeps_before: bool,
     /// The dual hull on its way, as the last hull was asked for.
     pub hull_steps: Vec<HullStep>,
     /// Limits for the report.
@@ -89,6 +96,10 @@ impl Job {
         folder: &Path,
         progress: &dyn Progress,
     ) -> Result<Self, StepError> {
+        let shows =
+            |s: &Step| matches!(s, Step::Render { story, .. } if story.before == Before::On);
+        self.keeps_before = recipe.steps.iter().any(shows);
+        self.title = recipe.name.clone().unwrap_or_default();
         for (i, step) in recipe.steps.iter().enumerate() {
             self.step(i + 1, step, folder, progress).map_err(|cause| StepError {
                 step: i + 1,
@@ -118,6 +129,11 @@ impl Job {
     /// [`MakeError::NoMesh`], or [`MakeError::Check`] for a limit that is none.
     pub fn report(&self) -> Result<Report, MakeError> {
         Ok(check(self.mesh()?, &self.check)?)
+    }
+
+    /// What the last step made.
+    pub fn made(&self) -> Option<&NewElements> {
+        self.made.as_ref()
     }
 
     fn step(
@@ -150,6 +166,7 @@ impl Job {
             Step::Operator(OperatorStep { verb, params }) => {
                 let context = OpContext { made: self.made.as_ref(), progress };
                 let output = operate(params.as_ref(), folder, self.mesh()?, &context)?;
+                self.before = self.mesh.take().filter(|_| self.keeps_before);
                 self.notes.extend(output.notes);
                 // To planarize again is how to mend faces that did not become planar.
                 self.with_findings.retain(|u| u.verb != "planarize" || *verb != "planarize");
@@ -170,28 +187,33 @@ impl Job {
                 (self.mesh, self.made, self.promised) = (Some(mesh), None, None);
             }
             Step::Check(params) => (self.check, self.is_check_asked) = (params.clone(), true),
-            Step::Render(params) => self.render = params.clone(),
+            Step::Render { render, point_out, .. } => {
+                (self.render, self.point_out) = (render.clone(), point_out.clone());
+            }
             Step::Dform { dform, sheet, show } => {
                 self.show = show.clone();
-                self.dform(dform, &with_material(sheet, folder)?, progress)?;
-                self.judge_strips(number, "dform");
+                self.dform(dform, &self.sheet(sheet, folder)?, progress)?;
             }
             Step::Unfold { unfold, fabricate, sheet, show } => {
                 self.show = show.clone();
-                self.unfold(unfold, fabricate, &with_material(sheet, folder)?, folder, progress)?;
-                self.judge_strips(number, "unfold");
+                self.unfold(unfold, fabricate, &self.sheet(sheet, folder)?, folder, progress)?;
             }
             Step::Panels { panels, files, sheet } => {
-                self.panels(panels, files, &with_material(sheet, folder)?, progress)?
+                self.panels(panels, files, &self.sheet(sheet, folder)?, progress)?
             }
             Step::Nest { nest, sheet } => {
-                let sheet = with_material(sheet, folder)?;
+                let sheet = self.sheet(sheet, folder)?;
                 let fabrication = nest_files(nest, &sheet, folder, progress)?;
                 self.notes.extend(fabrication.notes());
                 self.fabrication = Some((fabrication, sheet));
             }
         }
         Ok(())
+    }
+
+    /// Sheet parameters with what their material decides, and the name of the recipe.
+    fn sheet(&self, sheet: &SheetParams, folder: &Path) -> Result<SheetParams, MakeError> {
+        Ok(with_material(sheet, folder)?.titled(&self.title))
     }
 
     fn start(&mut self, mesh: Mesh) -> Result<(), MakeError> {
@@ -270,14 +292,5 @@ impl Job {
         self.notes.extend(fabrication.notes());
         (self.fabrication, self.panelled) = (Some((fabrication, sheet.clone())), None);
         Ok(())
-    }
-
-    /// Strips that the material is too thick for are findings.
-    fn judge_strips(&mut self, step: usize, verb: &'static str) {
-        let found = self.fabrication.as_ref().and_then(|(made, sheet)| made.narrow_strips(sheet));
-        if let Some(note) = found {
-            self.notes.push(note);
-            self.with_findings.push(StepWithFindings { step, verb });
-        }
     }
 }

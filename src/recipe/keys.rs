@@ -8,10 +8,10 @@ use clap::{Args, Command};
 use serde::de::DeserializeOwned;
 
 use super::error::RecipeError;
-use super::parse::StepFields;
+use super::fields::{KnownKeys, StepFields};
 use super::{
-    DformParams, FabricateParams, NestStep, OperatorStep, PanelFiles, PlanesStep, ReadStep,
-    ShowParams, Step,
+    DformParams, FabricateParams, NestStep, OperatorStep, PanelFiles, PlanesStep, PointOut,
+    ReadStep, ShowParams, Step, StoryParams,
 };
 use crate::check::CheckParams;
 use crate::op::{
@@ -51,8 +51,9 @@ impl StepKind {
     }
 
     /// All keys, that of the field of the verb among them.
-    pub(super) fn keys(&self) -> Vec<String> {
-        self.command().get_arguments().map(|a| a.get_id().to_string()).collect()
+    pub(super) fn known_keys(&self) -> KnownKeys {
+        let all = self.command().get_arguments().map(|a| a.get_id().to_string()).collect();
+        KnownKeys { all, of_verb: self.field, words: self.words }
     }
 }
 
@@ -132,7 +133,12 @@ const STEPS: &[StepKind] = &[
     step("nest", "pieces", &[NestStep::augment_args, SheetParams::augment_args], |s| {
         Ok(Step::Nest { nest: s.read()?, sheet: s.read()? })
     }),
-    step("render", "view", &[RenderParams::augment_args], |s| Ok(Step::Render(s.read()?))),
+    step(
+        "render",
+        "view",
+        &[RenderParams::augment_args, PointOut::augment_args, StoryParams::augment_args],
+        |s| Ok(Step::Render { render: s.read()?, point_out: s.read()?, story: s.read()? }),
+    ),
 ];
 
 const fn step(
@@ -157,12 +163,6 @@ fn operator<T: Args + DeserializeOwned + Operate + 'static>(
     verb: &'static str,
 ) -> Result<Step, RecipeError> {
     Ok(Step::Operator(OperatorStep { verb, params: Arc::new(step.read::<T>()?) }))
-}
-
-/// The names of a parameter struct's fields, as its command-line definition has them.
-pub(super) fn field_names<T: Args>() -> Vec<String> {
-    let command = T::augment_args(Command::new("step"));
-    command.get_arguments().map(|a| a.get_id().to_string()).collect()
 }
 
 /// The verbs, each once.

@@ -2,9 +2,11 @@
 //!
 //! Every step is the same parameter struct as the verb of that name on the command line. The steps
 //! of a recipe share one
-//! [`Job`]: the mesh as it is by then, what the last step made, and the results that are written at the end.
+//! [`Job`]: the mesh as it is by then, what the last step made, and the results that are written at
+//! the end.
 
 mod error;
+mod fields;
 mod job;
 mod keys;
 mod outputs;
@@ -25,7 +27,9 @@ pub use outputs::job_outputs;
 
 use crate::check::CheckParams;
 use crate::io::ReadOptions;
-use crate::make::{DformParams, FabricateParams, NestStep, PanelFiles, PlanesStep, ShowParams};
+use crate::make::{
+    DformParams, FabricateParams, NestStep, PanelFiles, PlanesStep, PointOut, ShowParams,
+};
 use crate::op::{HullParams, Operate};
 use crate::panel::PanelParams;
 use crate::picture::RenderParams;
@@ -52,6 +56,27 @@ pub struct ReadStep {
     #[command(flatten)]
     #[serde(flatten)]
     pub options: ReadOptions,
+}
+
+/// What a recipe shows besides its model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::Args, Deserialize)]
+pub struct StoryParams {
+    /// Whether before.png shows the model as it was before the last operator, seen through, with the
+    /// sections along which it was cut
+    #[arg(long, value_enum, default_value_t)]
+    #[serde(default)]
+    pub before: Before,
+}
+
+/// Whether there is a picture of the model before the last operator.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Before {
+    /// No picture.
+    #[default]
+    Off,
+    /// `before.png`.
+    On,
 }
 
 /// An operator of [`crate::op`] with its parameters.
@@ -117,7 +142,14 @@ pub enum Step {
         sheet: SheetParams,
     },
     /// `render = "iso"`: how the picture of the model looks.
-    Render(RenderParams),
+    Render {
+        /// Colours, view, numbers.
+        render: RenderParams,
+        /// What is pointed out.
+        point_out: PointOut,
+        /// What else is shown.
+        story: StoryParams,
+    },
 }
 
 impl Step {
@@ -134,7 +166,7 @@ impl Step {
             Self::Dform { .. } => "dform",
             Self::Panels { .. } => "panels",
             Self::Nest { .. } => "nest",
-            Self::Render(_) => "render",
+            Self::Render { .. } => "render",
         }
     }
 }

@@ -81,9 +81,14 @@ fn strips_too_narrow_for_the_material_are_a_finding() {
         ])
     };
     let narrow = with("90");
-    assert!(narrow.code == Some(1) && narrow.err.contains("F507"), "{}{}", narrow.out, narrow.err);
+    assert!(
+        narrow.code == Some(1) && narrow.text().contains("F631"),
+        "{}{}",
+        narrow.out,
+        narrow.err
+    );
     let wide = with("4");
-    assert!(wide.code == Some(0) && !wide.err.contains("F507"), "{}", wide.err);
+    assert!(wide.code == Some(0) && !wide.text().contains("F631"), "{}", wide.err);
 }
 
 #[test]

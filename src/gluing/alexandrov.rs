@@ -16,8 +16,6 @@ use super::surface::Surface;
 use crate::geom::ldl::solve_symmetric;
 use crate::progress::Progress;
 
-/// The first distance, in times the extent of the surface.
-const FAR: f64 = 30.0;
 /// An edge is flipped when it is hollow by more than that, in radians as seen from the apex: four
 /// points on a circle would flip to and fro.
 const HOLLOW: f64 = 1e-10;
@@ -56,10 +54,10 @@ pub(super) struct Continuation {
 }
 
 impl Continuation {
-    /// Begins with the apex far away.
-    pub fn new(mut surface: Surface) -> Result<Self, GluingError> {
+    /// Begins with the apex so many times the extent of the surface away.
+    pub fn new(mut surface: Surface, far: f64) -> Result<Self, GluingError> {
         let extent = surface.edges().map(|h| surface.length[h]).fold(0.0, f64::max);
-        let r = vec![FAR * extent; surface.material.len()];
+        let r = vec![far * extent; surface.material.len()];
         let flips = convexify(&mut surface, &r).map_err(|why| lost(1.0, why))?;
         let first =
             curvatures(&surface, &r).ok_or_else(|| lost(1.0, "a pyramid has no height"))?;

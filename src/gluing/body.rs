@@ -2,9 +2,9 @@
 
 use glam::{DVec2, DVec3};
 
-use super::alexandrov::Continuation;
+use super::alexandrov::{Continuation, Effort};
 use super::overlay::{Overlay, SeamPart, overlay};
-use super::place::place;
+use super::place::{place, smallest_box};
 use super::rims::Rims;
 use super::surface::Surface;
 use super::trace::trace;
@@ -17,6 +17,9 @@ use crate::net::{
 };
 use crate::progress::Progress;
 
+/// First distances of the apex, in times the extent of the surface: a further one where a nearer
+/// one leads nowhere.
+const FAR: [f64; 3] = [30.0, 300.0, 3000.0];
 /// How little of the curvatures is left when corners are placed; less where that does not do.
 const LEFT: [f64; 3] = [1e-6, 1e-8, 1e-10];
 /// Edges of the body are those of the pieces within that part of its size.
@@ -59,9 +62,19 @@ pub struct GluedFacts {
 /// pieces, is never returned.
 pub fn glue(gluing: &Gluing, progress: &dyn Progress) -> Result<Glued, GluingError> {
     let rims = gluing.rims()?;
+    if let Some(shape) = rims.mirrored() {
+        return Err(GluingError::FoldsFlat { size: smallest_box(&shape) });
+    }
     let (surface, directions) = Surface::new(&rims)?;
-    let mut continuation = Continuation::new(surface)?;
-    let (surface, places) = placed(&mut continuation, progress)?;
+    let mut tried = Err(GluingError::Cancelled);
+    for far in FAR {
+        tried = Continuation::new(surface.clone(), far)
+            .and_then(|start| placed(start, progress));
+        if !matches!(tried, Err(GluingError::NotFound { .. })) {
+            break;
+        }
+    }
+    let (surface, places, effort) = tried?;
     let traced = trace(&surface, &rims, &directions)?;
     let overlay = overlay(&surface, &rims, &traced, places)?;
     let mesh = mesh(&overlay)?;
@@ -69,8 +82,8 @@ pub fn glue(gluing: &Gluing, progress: &dyn Progress) -> Result<Glued, GluingErr
     let (edge_error, angle_error) = measured(&mesh, &net, &rims);
     let facts = GluedFacts {
         corners: rims.vertices,
-        newton: continuation.effort.newton,
-        flips: continuation.effort.flips,
+        newton: effort.newton,
+        flips: effort.flips,
         edge_error,
         angle_error,
         off_outline: rims.pieces.iter().map(|p| p.off).collect(),
@@ -80,9 +93,9 @@ pub fn glue(gluing: &Gluing, progress: &dyn Progress) -> Result<Glued, GluingErr
 }
 
 fn placed(
-    continuation: &mut Continuation,
+    mut continuation: Continuation,
     progress: &dyn Progress,
-) -> Result<(Surface, Vec<DVec3>), GluingError> {
+) -> Result<(Surface, Vec<DVec3>, Effort), GluingError> {
     let mut last = None;
     for left in LEFT {
         match continuation.lead_to(left, progress) {
@@ -94,7 +107,7 @@ fn placed(
             Ok((mut places, _)) => {
                 let middle = places.iter().sum::<DVec3>() / places.len() as f64;
                 places.iter_mut().for_each(|p| *p -= middle);
-                return Ok((surface, places));
+                return Ok((surface, places, continuation.effort));
             }
             Err(error @ GluingError::NotFound { .. }) => last = Some(error),
             Err(error) => return Err(error),

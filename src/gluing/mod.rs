@@ -20,6 +20,7 @@ mod named;
 mod outline;
 mod overlay;
 mod place;
+mod planar;
 mod rims;
 mod seams;
 mod surface;
@@ -30,6 +31,9 @@ pub use body::{Glued, GluedFacts, glue};
 pub use error::GluingError;
 pub use named::named_outline;
 pub use outline::Outline;
+pub use planar::{PlanarBody, planar_body};
 pub use rims::POINTS_LIMIT;
 pub use seams::{Gluing, Seam, Span};
 
+#[cfg(test)]
+mod tests;

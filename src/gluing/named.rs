@@ -39,8 +39,8 @@ pub fn named_outline(name: &str) -> Result<Outline, GluingError> {
         })
         .max_by_key(|kind| kind.len());
     let Some(kind) = kind else {
-        let word = name.trim_end_matches(|c: char| !c.is_ascii_alphabetic());
-        let nearest = nearest_word(word, KINDS).map(ToOwned::to_owned);
+        let word = name.split(|c: char| c.is_ascii_digit()).next().unwrap_or_default();
+        let nearest = nearest_word(word.trim_end_matches('-'), KINDS).map(ToOwned::to_owned);
         return Err(GluingError::UnknownName { name: name.to_owned(), nearest });
     };
     let numbers = Numbers { name, rest: name[kind.len()..].trim_start_matches('-') };

@@ -125,7 +125,7 @@ pub(super) fn extent(places: &[DVec3]) -> f64 {
 }
 
 /// Length and width of the smallest of the boxes at whole degrees.
-fn smallest_box(flat: &[DVec2]) -> [f64; 2] {
+pub(super) fn smallest_box(flat: &[DVec2]) -> [f64; 2] {
     let extent = |d: DVec2| {
         let range = flat.iter().map(|p| p.dot(d));
         range.clone().fold(f64::NEG_INFINITY, f64::max) - range.fold(f64::INFINITY, f64::min)

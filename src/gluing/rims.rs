@@ -465,4 +465,33 @@ impl Rims {
         }
         self.name_vertices();
     }
+
+    /// The shape that is covered twice, where the two sides of the seam are mirror images of one
+    /// another: two equal outlines without a shift, or one zipped along its axis of symmetry.
+    pub fn mirrored(&self) -> Option<Vec<DVec2>> {
+        let first = &self.pieces[0];
+        let n = first.len();
+        let half: Vec<DVec2> = match self.pieces.len() {
+            1 => {
+                // Where the seam ends, a side is joined with the one before it.
+                let before = |i: usize| (i + n - 1) % n;
+                let ends: Vec<usize> = (0..n).filter(|&i| first.mate[i].1 == before(i)).collect();
+                let [from, to] = ends.try_into().ok()?;
+                first.points[from..=to].to_vec()
+            }
+            2 if first.mate.iter().all(|m| m.0 == 1) => first.points.clone(),
+            _ => return None,
+        };
+        let is_mirror = |i: usize| {
+            let (q, j) = first.mate[i];
+            let (i, j) = ((i + 1) % n, j);
+            (first.angle(i) - self.pieces[q].angle(j)).abs() <= FLAT
+        };
+        let m = half.len();
+        let is_round = |i: usize| {
+            let (a, b, c) = (half[(i + m - 1) % m], half[i], half[(i + 1) % m]);
+            turn(b - a, c - b) >= -FLAT
+        };
+        ((0..n).all(is_mirror) && (0..m).all(is_round)).then_some(half)
+    }
 }

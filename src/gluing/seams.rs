@@ -5,6 +5,9 @@ use super::{GluingError, Outline};
 
 /// Parts of a rim that differ by less than that part of the whole are equal.
 pub(super) const EQUAL: f64 = 1e-9;
+/// Other places to begin that are tried where there is too much material, and pairs of corners.
+const MEND_STEPS: usize = 240;
+const MEND_CORNERS: usize = 2500;
 
 /// A part of a rim, counter-clockwise from one place to another, in mm from the outline's first
 /// point. `to` is larger than `from` by at most the whole rim.
@@ -100,28 +103,47 @@ impl Gluing {
 
     fn mend(&self) -> Option<String> {
         self.moved(0.0)?;
+        let is_zip = self.outlines.len() == 1;
         let whole = self.outlines[self.outlines.len() - 1].length();
-        let word = if self.outlines.len() == 1 { "zip" } else { "start" };
-        let steps = self.points.min(480);
-        let begin = self.seams[0].b.from - if word == "zip" { whole / 2.0 } else { 0.0 };
-        for k in 1..=steps / 2 {
-            for sign in [1.0, -1.0] {
-                let by = sign * k as f64 * whole / steps as f64;
-                if self.moved(by).is_some_and(|moved| rims::cut(&moved).is_ok()) {
-                    let place = (begin + by).rem_euclid(whole);
-                    let fraction = place / whole;
-                    return Some(format!(
-                        "the smallest change that mends it, in steps of {:.2} mm, is {by:+.2} mm: \
-                         `--{word} {fraction:.6}` ({place:.3} mm)",
-                        whole / steps as f64
-                    ));
-                }
+        let word = if is_zip { "zip" } else { "start" };
+        let begin = self.seams[0].b.from - if is_zip { whole / 2.0 } else { 0.0 };
+        let mut changes = self.changes(begin, whole);
+        changes.sort_by(|a, b| a.abs().total_cmp(&b.abs()).then(b.total_cmp(a)));
+        let step = whole / MEND_STEPS as f64;
+        let mended = changes
+            .into_iter()
+            .find(|&by| self.moved(by).is_some_and(|moved| rims::cut(&moved).is_ok()));
+        Some(match mended {
+            Some(by) => {
+                let place = (begin + by).rem_euclid(whole);
+                let part = place / whole;
+                format!(
+                    "the smallest change that mends it, in steps of {step:.2} mm, is {by:+.2} mm: \
+                     `--{word} {part:.9}` ({place:.4} mm)"
+                )
+            }
+            None => format!(
+                "no other `--{word}` mends it (tried in steps of {step:.2} mm): make the outlines \
+                 less hollow"
+            ),
+        })
+    }
+
+    /// Ways to begin elsewhere: equal steps, and where a corner meets a corner.
+    fn changes(&self, begin: f64, whole: f64) -> Vec<f64> {
+        let nearest = |by: f64| by - whole * (by / whole).round();
+        let mut changes: Vec<f64> = (1..MEND_STEPS)
+            .map(|k| nearest(k as f64 * whole / MEND_STEPS as f64))
+            .collect();
+        let [first, last] = [&self.outlines[0], &self.outlines[self.outlines.len() - 1]];
+        let (a, b): (Vec<f64>, Vec<f64>) = (first.corners().collect(), last.corners().collect());
+        if a.len() * b.len() <= MEND_CORNERS {
+            for x in &a {
+                // Of a zip, corners at equal distances from its beginning meet.
+                let halved = if self.outlines.len() == 1 { 2.0 } else { 1.0 };
+                changes.extend(b.iter().map(|y| nearest((x + y) / halved - begin)));
             }
         }
-        Some(format!(
-            "no other `--{word}` mends it (tried in steps of {:.2} mm): make the outlines less \
-             hollow",
-            whole / steps as f64
-        ))
+        changes
     }
 }

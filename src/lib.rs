@@ -45,6 +45,7 @@ pub mod shape;
 
 pub mod bloom;
 pub mod check;
+pub mod gluing;
 pub mod op;
 pub mod panel;
 pub mod unfold;

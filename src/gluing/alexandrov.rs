@@ -59,8 +59,7 @@ impl Continuation {
         let extent = surface.edges().map(|h| surface.length[h]).fold(0.0, f64::max);
         let r = vec![far * extent; surface.material.len()];
         let flips = convexify(&mut surface, &r).map_err(|why| lost(1.0, why))?;
-        let first =
-            curvatures(&surface, &r).ok_or_else(|| lost(1.0, "a pyramid has no height"))?;
+        let first = curvatures(&surface, &r).ok_or_else(|| lost(1.0, "a pyramid has no height"))?;
         let effort = Effort { flips, ..Effort::default() };
         Ok(Self { surface, r, effort, first, left: 1.0, step: 0.3 })
     }
@@ -115,8 +114,7 @@ fn newton(at: &mut Continuation, goal: f64) -> Result<(), &'static str> {
         at.effort.newton += 1;
         let kappa = curvatures(&at.surface, &at.r).ok_or("a pyramid has no height")?;
         let miss: Vec<f64> = kappa.iter().zip(&at.first).map(|(k, f)| goal * f - k).collect();
-        let is_near =
-            |(m, f): (&f64, &f64)| m.abs() <= NEAR * goal * f.abs() + ROUNDING;
+        let is_near = |(m, f): (&f64, &f64)| m.abs() <= NEAR * goal * f.abs() + ROUNDING;
         if miss.iter().zip(&at.first).all(is_near) {
             return Ok(());
         }
@@ -165,12 +163,11 @@ fn curvatures(surface: &Surface, r: &[f64]) -> Option<Vec<f64>> {
         }
         let top = foot.extend(squared.sqrt());
         let third = surface.third(h);
-        let corners =
-            [DVec3::ZERO, DVec3::new(surface.length[h], 0.0, 0.0), third.extend(0.0)];
+        let corners = [DVec3::ZERO, DVec3::new(surface.length[h], 0.0, 0.0), third.extend(0.0)];
         let mut side = h;
         for k in 0..3 {
-            let [axis, a, b] = [top, corners[(k + 1) % 3], corners[(k + 2) % 3]]
-                .map(|p| p - corners[k]);
+            let [axis, a, b] =
+                [top, corners[(k + 1) % 3], corners[(k + 2) % 3]].map(|p| p - corners[k]);
             let (m, n) = (axis.cross(a), axis.cross(b));
             sum[surface.origin[side]] += m.cross(n).length().atan2(m.dot(n));
             side = surface.next[side];
@@ -229,8 +226,7 @@ fn convexify(surface: &mut Surface, r: &[f64]) -> Result<usize, &'static str> {
             return Err("edges flipped without end");
         }
         let t = surface.twin[h];
-        let around =
-            [h, t].map(|s| [surface.next[s], surface.previous(s)]).concat();
+        let around = [h, t].map(|s| [surface.next[s], surface.previous(s)]).concat();
         for side in around.into_iter().chain(waiting.drain(..)) {
             let e = side.min(surface.twin[side]);
             if !std::mem::replace(&mut is_queued[e], true) {

@@ -68,8 +68,7 @@ pub fn glue(gluing: &Gluing, progress: &dyn Progress) -> Result<Glued, GluingErr
     let (surface, directions) = Surface::new(&rims)?;
     let mut tried = Err(GluingError::Cancelled);
     for far in FAR {
-        tried = Continuation::new(surface.clone(), far)
-            .and_then(|start| placed(start, progress));
+        tried = Continuation::new(surface.clone(), far).and_then(|start| placed(start, progress));
         if !matches!(tried, Err(GluingError::NotFound { .. })) {
             break;
         }
@@ -147,7 +146,10 @@ fn check(mesh: &Mesh, facts: &GluedFacts) -> Result<(), GluingError> {
         return not_true(format!("an edge is off by {:.1e} of the size", facts.edge_error));
     }
     if facts.angle_error > TRUE_ANGLES || facts.angle_error.is_nan() {
-        return not_true(format!("the material at a corner is off by {:.1e} rad", facts.angle_error));
+        return not_true(format!(
+            "the material at a corner is off by {:.1e} rad",
+            facts.angle_error
+        ));
     }
     Ok(())
 }

@@ -9,8 +9,8 @@ pub enum GluingError {
     /// A name that no outline has.
     #[error(
         "`{name}` is no outline{}; write circle, ellipse-2x1, superellipse-2x1-4, \
-        rounded-rectangle-2x1-0.3, regular-7, trefoil-0.25, peanut-0.25, egg-0.2, or the path of \
-        an SVG or DXF file",
+        rounded-rectangle-2x1-0.3, rectangle-2x1, lens-0.5, regular-7, trefoil-0.25, peanut-0.25, \
+        egg-0.2, or the path of an SVG or DXF file",
         nearest.as_ref().map(|n| format!(" (did you mean {n}?)")).unwrap_or_default()
     )]
     UnknownName {

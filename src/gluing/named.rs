@@ -11,11 +11,13 @@ use crate::units::nearest_word;
 const FINE: usize = 1 << 14;
 /// The largest extent of a named outline, in mm.
 const EXTENT: f64 = 100.0;
-const KINDS: [&str; 8] = [
+const KINDS: [&str; 10] = [
     "circle",
     "ellipse",
     "superellipse",
     "rounded-rectangle",
+    "rectangle",
+    "lens",
     "regular",
     "trefoil",
     "peanut",
@@ -26,7 +28,8 @@ const KINDS: [&str; 8] = [
 ///
 /// `circle`; `ellipse-2x1`; `superellipse-2x1-4` (with the exponent, 1.2 to 20);
 /// `rounded-rectangle-2x1-0.3` (with the radius as a part of half the short side, above 0 to 1);
-/// `regular-7` (corners, 3 to 200); `trefoil-0.25` and `peanut-0.25` (three and two lobes of so
+/// `rectangle-2x1`, from the lower left corner; `lens-0.5` (two arcs with so much width for its
+/// length, above 0 to 1, from the right tip); `regular-7` (corners, 3 to 200); `trefoil-0.25` and `peanut-0.25` (three and two lobes of so
 /// much, above 0 to 0.45); `egg-0.2` (how much thinner one end is, above 0 to 0.35).
 ///
 /// # Errors
@@ -63,6 +66,16 @@ pub fn named_outline(name: &str) -> Result<Outline, GluingError> {
             let r = numbers.within(r, 1e-3, 1.0, "the radius")?;
             rounded_rectangle(name, [a, b], r * a.min(b))
         }
+        "rectangle" => {
+            let [a, b] = numbers.sides(1, "rectangle-2x1")?.0;
+            let corners = [(0.0, 0.0), (a, 0.0), (a, b), (0.0, b)];
+            sized(name, &corners.map(|(x, y)| DVec2::new(x, y)), 0.5)
+        }
+        "lens" => {
+            let width = numbers.one("lens-0.5")?;
+            let width = numbers.within(width, 0.01, 1.0, "the width")?;
+            lens(name, width)
+        }
         "regular" => {
             let sides = numbers.one("regular-7")?;
             let sides = numbers.within(sides, 3.0, 200.0, "the number of corners")?;
@@ -77,9 +90,7 @@ pub fn named_outline(name: &str) -> Result<Outline, GluingError> {
         _ => {
             let thin = numbers.one("egg-0.2")?;
             let thin = numbers.within(thin, 1e-3, 0.35, "the thinness")?;
-            smooth(name, |t| {
-                DVec2::new(1.3 * t.cos(), t.sin() * (1.0 - thin * t.cos()))
-            })
+            smooth(name, |t| DVec2::new(1.3 * t.cos(), t.sin() * (1.0 - thin * t.cos())))
         }
     }
 }
@@ -122,7 +133,8 @@ impl Numbers<'_> {
         self.count(parts, example)?;
         let parts = self.parts();
         let Some((a, b)) = parts[0].split_once('x') else {
-            return self.fault(format!("its sides are two numbers with x; write it like {example}"));
+            return self
+                .fault(format!("its sides are two numbers with x; write it like {example}"));
         };
         let (a, b) = (self.number(a, example)?, self.number(b, example)?);
         let ratio = self.within(a / b, 1.0 / 50.0, 50.0, "the ratio of the sides")?;
@@ -160,6 +172,20 @@ fn rounded_rectangle(name: &str, [a, b]: [f64; 2], r: f64) -> Result<Outline, Gl
         }));
     }
     sized(name, &points, 0.5)
+}
+
+fn lens(name: &str, width: f64) -> Result<Outline, GluingError> {
+    // Half the angle of an arc over the length 2 with so much rise.
+    let half = 2.0 * width.atan();
+    let (radius, steps) = (1.0 / half.sin(), FINE / 2);
+    let arc: Vec<DVec2> = (0..steps)
+        .map(|k| {
+            let t = half * (1.0 - 2.0 * k as f64 / steps as f64);
+            radius * DVec2::new(t.sin(), t.cos() - half.cos())
+        })
+        .collect();
+    let points: Vec<DVec2> = arc.iter().copied().chain(arc.iter().map(|&p| -p)).collect();
+    sized(name, &points, 0.1)
 }
 
 fn regular(name: &str, sides: f64, numbers: &Numbers) -> Result<Outline, GluingError> {

@@ -107,7 +107,8 @@ impl Build<'_> {
     fn cross(&mut self, h: usize, part: f64) -> usize {
         let t = self.surface.twin[h];
         let (edge, part) = if h < t { (h, part) } else { (t, 1.0 - part) };
-        let [a, b] = [edge, self.surface.next[edge]].map(|h| self.overlay.places[self.surface.origin[h]]);
+        let [a, b] =
+            [edge, self.surface.next[edge]].map(|h| self.overlay.places[self.surface.origin[h]]);
         let node = self.overlay.places.len();
         self.overlay.places.push(a.lerp(b, part));
         self.on_edge.entry(edge).or_default().push((part, node));

@@ -8,8 +8,8 @@ use super::GluingError;
 use super::alexandrov::apex;
 use super::surface::Surface;
 use crate::geom::ldl::solve_symmetric;
-use crate::geom::predicate::orient3d;
 use crate::geom::polygon::{convex_hull, signed_area};
+use crate::geom::predicate::orient3d;
 use crate::geom::{RoundingBound, fit_plane, sparse};
 use crate::progress::Progress;
 
@@ -72,8 +72,8 @@ fn flat_shape(surface: &Surface, places: &[DVec3]) -> Option<GluingError> {
     let size = extent(places);
     let normal = fit_plane(places)?.normal();
     let heights = places.iter().map(|p| p.dot(normal));
-    let thickness = heights.clone().fold(f64::NEG_INFINITY, f64::max)
-        - heights.fold(f64::INFINITY, f64::min);
+    let thickness =
+        heights.clone().fold(f64::NEG_INFINITY, f64::max) - heights.fold(f64::INFINITY, f64::min);
     if thickness > NEARLY_FLAT * size {
         return None;
     }
@@ -106,10 +106,8 @@ fn flat_shape(surface: &Surface, places: &[DVec3]) -> Option<GluingError> {
     }
     let worst = edges.iter().map(|&h| error(&flat, h).abs()).fold(0.0, f64::max);
     // Folded once more, it would cover its outline more than twice.
-    let surface_area: f64 = surface
-        .triangles()
-        .map(|h| surface.length[h] * surface.third(h).y / 2.0)
-        .sum();
+    let surface_area: f64 =
+        surface.triangles().map(|h| surface.length[h] * surface.third(h).y / 2.0).sum();
     let covered = 2.0 * signed_area(&convex_hull(&flat)).abs();
     if worst > 1e-9 * size || (surface_area - covered).abs() > 1e-6 * covered {
         return None;
@@ -314,8 +312,10 @@ fn elimination_order(ends: &[[usize; 2]], places: &[DVec3]) -> Vec<usize> {
         of_vertex[i].push(e);
         of_vertex[j].push(e);
     }
-    let neighbours: Vec<Vec<usize>> =
-        ends.iter().map(|e| e.iter().flat_map(|&v| of_vertex[v].iter().copied()).collect()).collect();
+    let neighbours: Vec<Vec<usize>> = ends
+        .iter()
+        .map(|e| e.iter().flat_map(|&v| of_vertex[v].iter().copied()).collect())
+        .collect();
     let middles: Vec<DVec3> = ends.iter().map(|&[i, j]| (places[i] + places[j]) / 2.0).collect();
     sparse::nested_dissection(&middles, &neighbours)
 }

@@ -137,7 +137,8 @@ impl<'a> Sampler<'a> {
         let step = total / planes as f64;
         let (mut passed, mut taken) = (0.0, 0);
         // Face → planes that no other plane separates from it.
-        let mut region: std::collections::BTreeMap<usize, usize> = std::collections::BTreeMap::new();
+        let mut region: std::collections::BTreeMap<usize, usize> =
+            std::collections::BTreeMap::new();
         let mut touching: Vec<Vec<usize>> = vec![Vec::new()];
         for &(face, before, _) in &order {
             let Some((from, fold)) = before else {
@@ -167,8 +168,7 @@ impl<'a> Sampler<'a> {
     /// The plane through a ruling, turned by a part of its angle from one face to the other.
     fn tangent(&self, (from, to): (usize, usize), fold: usize, part: f64) -> Tangent {
         let mesh = &self.glued.mesh;
-        let normal =
-            |f: usize| mesh.plane(FaceId::new(f)).map_or(DVec3::Z, |plane| plane.normal());
+        let normal = |f: usize| mesh.plane(FaceId::new(f)).map_or(DVec3::Z, |plane| plane.normal());
         let (n, m) = (normal(from), normal(to));
         let across = (m - n * n.dot(m)).normalize_or_zero();
         let angle = self.turn(fold) * part;

@@ -80,7 +80,7 @@ pub(super) fn cut(gluing: &Gluing) -> Result<Rims, GluingError> {
     for seam in &gluing.seams {
         let (la, lb) = (seam.a.length(), seam.b.length());
         let whole = gluing.outlines[seam.a.piece].length();
-        if (la - lb).abs() > EQUAL * whole {
+        if (la - lb).abs() > gluing.slack.max(EQUAL) * whole {
             return Err(GluingError::Lengths {
                 seam: gluing.seam_text(seam),
                 a: gluing.span_text(&seam.a),
@@ -206,7 +206,8 @@ fn polygon(
         let chords = a.len() - 1;
         for k in 0..chords {
             let chord = if is_b { chords - 1 - k } else { k };
-            let Span { from, to, .. } = if is_b { gluing.seams[seam].b } else { gluing.seams[seam].a };
+            let Span { from, to, .. } =
+                if is_b { gluing.seams[seam].b } else { gluing.seams[seam].a };
             place.push(if is_b { to - b[chord + 1] } else { from + a[chord] });
             sides.push(((a[chord + 1] - a[chord]) + (b[chord + 1] - b[chord])) / 2.0);
             chord_sides[seam][chord].push((piece, sides.len() - 1));
@@ -217,8 +218,9 @@ fn polygon(
         name: outline.name().to_owned(),
         fault: fault.to_owned(),
     };
-    let points = with_sides(&on_rim, &sides)
-        .ok_or_else(|| bad("its chords could not be made equal to those beside them; take more points"))?;
+    let points = with_sides(&on_rim, &sides).ok_or_else(|| {
+        bad("its chords could not be made equal to those beside them; take more points")
+    })?;
     let off = points.iter().zip(&on_rim).map(|(p, q)| p.distance(*q)).fold(0.0, f64::max);
     let whole = outline.length();
     Ok(RimPolygon {
@@ -262,7 +264,8 @@ fn with_sides(points: &[DVec2], sides: &[f64]) -> Option<Vec<DVec2>> {
             let lever = if k == 0 { DVec2::ZERO } else { (end - chain[k]).perp() / perimeter };
             let weighted = basis[k] * turns[k].abs();
             let column = lever.extend(1.0);
-            slope += DMat3::from_cols(column * weighted.x, column * weighted.y, column * weighted.z);
+            slope +=
+                DMat3::from_cols(column * weighted.x, column * weighted.y, column * weighted.z);
         }
         if slope.determinant() == 0.0 {
             return None;
@@ -367,8 +370,7 @@ impl Rims {
         }
         if let Some(apart) = reached.iter().position(|r| !r) {
             let name = |p: usize| self.pieces[p].name.clone();
-            let with: Vec<String> =
-                (1..reached.len()).filter(|&p| reached[p]).map(name).collect();
+            let with: Vec<String> = (1..reached.len()).filter(|&p| reached[p]).map(name).collect();
             let with = if with.is_empty() { "itself".to_owned() } else { with.join(", ") };
             return Err(GluingError::Apart { apart: [name(0), with, name(apart)] });
         }
@@ -413,7 +415,10 @@ impl Rims {
         for piece in &self.pieces {
             for (i, _) in piece.vertex.iter().enumerate().filter(|&(_, &w)| w == v) {
                 let (at, p) = (piece.place[i], piece.points[i]);
-                places.push(format!("{} {at:.2} mm along its rim ({:.2}, {:.2})", piece.name, p.x, p.y));
+                places.push(format!(
+                    "{} {at:.2} mm along its rim ({:.2}, {:.2})",
+                    piece.name, p.x, p.y
+                ));
             }
         }
         places.join(" and ")

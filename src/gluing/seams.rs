@@ -46,6 +46,8 @@ pub struct Gluing {
     pub seams: Vec<Seam>,
     /// Chords on the longest rim.
     pub points: usize,
+    /// By how much of its rim the two sides of a seam may differ; they are then made equal.
+    pub slack: f64,
 }
 
 impl Gluing {
@@ -56,7 +58,7 @@ impl Gluing {
             a: Span { piece: 0, from: 0.0, to: a.length() },
             b: Span { piece: 1, from: start, to: start + b.length() },
         };
-        Self { outlines: vec![a, b], seams: vec![seam], points }
+        Self { outlines: vec![a, b], seams: vec![seam], points, slack: EQUAL }
     }
 
     /// One outline zipped shut from the place `start` (in mm) of its rim: points at equal distances
@@ -67,7 +69,7 @@ impl Gluing {
             a: Span { piece: 0, from: start, to: start + half },
             b: Span { piece: 0, from: start + half, to: start + 2.0 * half },
         };
-        Self { outlines: vec![outline], seams: vec![seam], points }
+        Self { outlines: vec![outline], seams: vec![seam], points, slack: EQUAL }
     }
 
     /// A side of a seam in words.
@@ -132,9 +134,8 @@ impl Gluing {
     /// Ways to begin elsewhere: equal steps, and where a corner meets a corner.
     fn changes(&self, begin: f64, whole: f64) -> Vec<f64> {
         let nearest = |by: f64| by - whole * (by / whole).round();
-        let mut changes: Vec<f64> = (1..MEND_STEPS)
-            .map(|k| nearest(k as f64 * whole / MEND_STEPS as f64))
-            .collect();
+        let mut changes: Vec<f64> =
+            (1..MEND_STEPS).map(|k| nearest(k as f64 * whole / MEND_STEPS as f64)).collect();
         let [first, last] = [&self.outlines[0], &self.outlines[self.outlines.len() - 1]];
         let (a, b): (Vec<f64>, Vec<f64>) = (first.corners().collect(), last.corners().collect());
         if a.len() * b.len() <= MEND_CORNERS {

@@ -91,7 +91,12 @@ impl Surface {
     }
 
     /// Adds the triangles of a piece; the half-edges of its sides in order.
-    fn add_piece(&mut self, points: &[DVec2], vertex: &[usize], triangles: &[[usize; 3]]) -> Vec<usize> {
+    fn add_piece(
+        &mut self,
+        points: &[DVec2],
+        vertex: &[usize],
+        triangles: &[[usize; 3]],
+    ) -> Vec<usize> {
         let mut inner: HashMap<(usize, usize), usize> = HashMap::new();
         let n = points.len();
         let mut sides = vec![usize::MAX; n];

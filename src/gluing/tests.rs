@@ -25,9 +25,8 @@ fn pair(a: &str, b: &str, start: f64, points: usize) -> Result<Glued, GluingErro
 
 /// A smooth convex outline: a support function with a positive radius of curvature.
 fn random_outline(rng: &mut Rng) -> Outline {
-    let waves: Vec<[f64; 3]> = (2..6)
-        .map(|k| [f64::from(k), rng.unit(), rng.between(0.0, TAU)])
-        .collect();
+    let waves: Vec<[f64; 3]> =
+        (2..6).map(|k| [f64::from(k), rng.unit(), rng.between(0.0, TAU)]).collect();
     let total: f64 = waves.iter().map(|[k, a, _]| a * (k * k - 1.0)).sum();
     let point = |i: usize| {
         let t = TAU * i as f64 / 4096.0;
@@ -165,11 +164,17 @@ fn more_pieces_are_glued_by_their_seams() {
     let outlines: Vec<Outline> =
         ["A", "B", "C", "D"].map(|name| tri.clone().renamed(name)).to_vec();
     let span = |piece: usize, k: f64| Span { piece, from: k * side, to: (k + 1.0) * side };
-    let seams = [((0, 0.), (1, 0.)), ((0, 1.), (2, 0.)), ((0, 2.), (3, 0.)), ((1, 1.), (3, 2.)),
-        ((1, 2.), (2, 1.)), ((2, 2.), (3, 1.))]
+    let seams = [
+        ((0, 0.), (1, 0.)),
+        ((0, 1.), (2, 0.)),
+        ((0, 2.), (3, 0.)),
+        ((1, 1.), (3, 2.)),
+        ((1, 2.), (2, 1.)),
+        ((2, 2.), (3, 1.)),
+    ]
     .map(|((p, i), (q, j))| Seam { a: span(p, i), b: span(q, j) })
     .to_vec();
-    let gluing = Gluing { outlines, seams, points: 30 };
+    let gluing = Gluing { outlines, seams, points: 30, slack: 1e-9 };
     let glued = glue(&gluing, &Silent).expect("a tetrahedron");
     assert_true(&glued);
     assert_eq!((glued.mesh.vertex_count(), glued.net.pieces.len()), (4, 4));
@@ -196,6 +201,7 @@ fn a_torus_and_two_bodies_are_refused() {
             Seam { a: span(0, 1.0), b: span(0, 3.0) },
         ],
         points: 40,
+        slack: 1e-9,
     };
     assert!(matches!(glue(&torus, &Silent), Err(GluingError::NoSphere { euler: 0, .. })));
     let whole = |piece: usize| Span { piece, from: 0.0, to: 4.0 * side };
@@ -203,6 +209,7 @@ fn a_torus_and_two_bodies_are_refused() {
         outlines: vec![square.clone(), square.clone(), square.clone(), square],
         seams: vec![Seam { a: whole(0), b: whole(1) }, Seam { a: whole(2), b: whole(3) }],
         points: 40,
+        slack: 1e-9,
     };
     assert!(matches!(glue(&apart, &Silent), Err(GluingError::Apart { .. })));
 }
@@ -224,17 +231,33 @@ fn planes_bound_a_solid_around_the_body() {
 
 #[test]
 fn names_are_read_and_misspelt_ones_answered() {
-    for name in ["circle", "ellipse-2x1", "superellipse-2x1-4", "rounded-rectangle-3x2-0.3",
-        "regular-7", "trefoil-0.25", "peanut-0.2", "egg-0.2"]
-    {
+    for name in [
+        "circle",
+        "ellipse-2x1",
+        "superellipse-2x1-4",
+        "rounded-rectangle-3x2-0.3",
+        "rectangle-3x1",
+        "lens-0.5",
+        "regular-7",
+        "trefoil-0.25",
+        "peanut-0.2",
+        "egg-0.2",
+    ] {
         let outline = named(name);
         assert!((outline.size().max_element() - 100.0).abs() < 1e-9, "{name}");
     }
     let misspelt = named_outline("elipse-2x1").expect_err("no outline").to_string();
     assert!(misspelt.contains("did you mean ellipse"), "{misspelt}");
-    for bad in ["ellipse", "ellipse-2", "ellipse-0x1", "regular-2", "regular-2.5", "trefoil-9",
-        "circle-3", "superellipse-2x1"]
-    {
+    for bad in [
+        "ellipse",
+        "ellipse-2",
+        "ellipse-0x1",
+        "regular-2",
+        "regular-2.5",
+        "trefoil-9",
+        "circle-3",
+        "superellipse-2x1",
+    ] {
         assert!(matches!(named_outline(bad), Err(GluingError::NameNumbers { .. })), "{bad}");
     }
 }

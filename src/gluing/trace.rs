@@ -111,15 +111,11 @@ impl Tracer<'_> {
         let piece = &self.rims.pieces[p];
         let (v, w) = (piece.vertex[i], piece.vertex[(i + 1) % piece.len()]);
         let (q, j) = piece.mate[i];
-        let length =
-            (piece.side(i).length() + self.rims.pieces[q].side(j).length()) / 2.0;
+        let length = (piece.side(i).length() + self.rims.pieces[q].side(j).length()) / 2.0;
         let direction = self.directions[p][i];
         let run = Run { piece: p, side: i, edge: None, crossings: Vec::new(), length };
         let lost = || GluingError::NotFound {
-            fault: format!(
-                "the seam at {} was lost on the body",
-                self.rims.place_text(v)
-            ),
+            fault: format!("the seam at {} was lost on the body", self.rims.place_text(v)),
         };
         let (h, from, angle) = match self.located[v] {
             Some(place) => (place.h, place.at, place.zero + direction),
@@ -129,8 +125,9 @@ impl Tracer<'_> {
                 {
                     return Ok(Run { edge: Some(edge), ..run });
                 }
-                let turned =
-                    |h: usize| (direction - self.surface.direction[h]).rem_euclid(self.surface.material[v]);
+                let turned = |h: usize| {
+                    (direction - self.surface.direction[h]).rem_euclid(self.surface.material[v])
+                };
                 let h = around.iter().copied().find(|&h| turned(h) <= self.surface.corner(h));
                 let h = h.ok_or_else(lost)?;
                 (h, DVec2::ZERO, turned(h))
@@ -170,7 +167,11 @@ impl Tracer<'_> {
             _ => surface.third(start),
         };
         let sides = [start, surface.next[start], surface.previous(start)];
-        if is_flat && sides.iter().all(|&s| (corner(surface.next[s]) - corner(s)).perp_dot(goal - corner(s)) >= 0.0) {
+        if is_flat
+            && sides
+                .iter()
+                .all(|&s| (corner(surface.next[s]) - corner(s)).perp_dot(goal - corner(s)) >= 0.0)
+        {
             let back = (-ray).to_angle();
             return Some(Walk { crossings: Vec::new(), end: Some((start, goal, back)) });
         }
@@ -189,7 +190,10 @@ impl Tracer<'_> {
             let third = surface.third(twin);
             let x = (p - q).normalize_or_zero();
             let m = q + x * third.x + x.perp() * third.y;
-            if !is_flat && surface.origin[surface.previous(twin)] == w && m.distance(goal) <= self.near {
+            if !is_flat
+                && surface.origin[surface.previous(twin)] == w
+                && m.distance(goal) <= self.near
+            {
                 return Some(Walk { crossings: crossings(&crossed, from, m, length), end: None });
             }
             let inside = |a: DVec2, b: DVec2| (b - a).perp_dot(goal - a) >= 0.0;
@@ -200,7 +204,9 @@ impl Tracer<'_> {
                 let end = Some((twin, at, back));
                 return Some(Walk { crossings: crossings(&crossed, from, goal, length), end });
             }
-            if (goal - from).length() + self.near < (m - from).dot(ray).min((p - from).dot(ray)).min((q - from).dot(ray)) {
+            if (goal - from).length() + self.near
+                < (m - from).dot(ray).min((p - from).dot(ray)).min((q - from).dot(ray))
+            {
                 return None;
             }
             if ray.perp_dot(m - from) > 0.0 {
@@ -233,7 +239,11 @@ fn crossings(
             let (a, b) = (d.perp_dot(p - from), d.perp_dot(q - from));
             let part = (a / (a - b)).clamp(0.0, 1.0);
             let at = p.lerp(q, part);
-            Crossing { edge, part, along: length * ((at - from).dot(d) / d.length_squared()).clamp(0.0, 1.0) }
+            Crossing {
+                edge,
+                part,
+                along: length * ((at - from).dot(d) / d.length_squared()).clamp(0.0, 1.0),
+            }
         })
         .collect()
 }

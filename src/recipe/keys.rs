@@ -10,8 +10,8 @@ use serde::de::DeserializeOwned;
 use super::error::RecipeError;
 use super::parse::StepFields;
 use super::{
-    DformParams, FabricateParams, NestStep, OperatorStep, PanelFiles, PlanesStep, ReadStep,
-    ShowParams, Step,
+    DformParams, FabricateParams, NestStep, OperatorStep, OutlineParams, PanelFiles, PlanesStep,
+    ReadStep, ShowParams, Step,
 };
 use crate::check::CheckParams;
 use crate::op::{
@@ -117,12 +117,27 @@ const STEPS: &[StepKind] = &[
             })
         },
     ),
-    step(
-        "dform",
-        "matching",
-        &[DformParams::augment_args, SheetParams::augment_args, ShowParams::augment_args],
-        |s| Ok(Step::Dform { dform: s.read()?, sheet: s.read()?, show: s.read()? }),
-    ),
+    StepKind {
+        words: &[("\"outlines\"", "\"hamiltonian\"")],
+        ..step(
+            "dform",
+            "matching",
+            &[
+                DformParams::augment_args,
+                OutlineParams::augment_args,
+                SheetParams::augment_args,
+                ShowParams::augment_args,
+            ],
+            |s| {
+                Ok(Step::Dform {
+                    dform: s.read()?,
+                    outlines: s.read()?,
+                    sheet: s.read()?,
+                    show: s.read()?,
+                })
+            },
+        )
+    },
     step(
         "panels",
         "side",

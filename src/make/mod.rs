@@ -13,6 +13,7 @@ mod fabricate;
 mod flat_folds;
 mod glue_file;
 mod materials;
+mod merged_net;
 mod nest;
 mod nest_error;
 mod operate;

@@ -7,19 +7,19 @@ use clap::ValueEnum;
 use serde::{Deserialize, Deserializer};
 
 use super::glue_file::read_glue_file;
+use super::merged_net::without_blank_folds;
 use super::outline_source::read_outline;
 use super::outlines_error::OutlinesError;
 use super::{FabricateParams, FabricateSettings, Fabrication, MakeError, Output, fabricate};
 use crate::gluing::{Glued, Gluing, GluingError, Outline, glue, planar_body};
 use crate::measure::size;
 use crate::mesh::Mesh;
-use crate::net::{FoldKind, Net};
 use crate::picture::{Cell, RenderParams, render_strip};
 use crate::progress::Progress;
 use crate::select::Selection;
 use crate::sheet::{SheetParams, lay_out_watched};
 use crate::unfold::{MeshSource, UnfoldParams, prove};
-use crate::units::{Angle, Length, parse_number};
+use crate::units::{Angle, Length, counted, parse_number};
 
 /// A place on a rim: a part of the whole, or a length.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -305,10 +305,10 @@ fn curved(
     net.proof = prove(&mesh, &net).map_err(|fault| GluingError::NotTrue {
         fault: format!("the pieces are not those of the body: {fault}"),
     })?;
-    let (drawn, blank) = scored(&net, params.bending);
-    let bent = drawn.folds.iter().filter(|f| f.kind != FoldKind::Flat).count();
+    let (drawn, blank) = without_blank_folds(&net, params.bending);
     notes.push(format!(
-        "{bent} rulings bend by {}° or more and are scored, {blank} less and are left blank",
+        "{} by {}° or more and scored; {blank} less, which is left to the sheet",
+        counted(drawn.folds.len(), "ruling is bent", "rulings are bent"),
         params.bending.degrees()
     ));
     let sheets = lay_out_watched(&drawn, sheet, progress)?;
@@ -316,19 +316,6 @@ fn curved(
     let fabrication = Fabrication { net, sheets, seams: words, divided: 0, sources: Vec::new() };
     notes.extend(fabrication.notes());
     Ok(OutlinedDform { mesh, fabrication, notes })
-}
-
-/// The net as it is drawn: lines that bend by less than the limit are flat. And how many these are.
-fn scored(net: &Net, limit: Angle) -> (Net, usize) {
-    let mut drawn = net.clone();
-    let mut blank = 0;
-    for fold in &mut drawn.folds {
-        if fold.fold_angle.abs() < limit.degrees() {
-            blank += 1;
-            fold.kind = FoldKind::Flat;
-        }
-    }
-    (drawn, blank)
 }
 
 fn planar(

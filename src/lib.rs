@@ -46,6 +46,7 @@ pub mod shape;
 
 pub mod bloom;
 pub mod check;
+pub mod gluing;
 pub mod op;
 pub mod panel;
 pub mod unfold;

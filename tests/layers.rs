@@ -80,6 +80,7 @@ const ROOMS: &[Room] = &[
         &["geom", "random", "mesh", "measure", "seam", "check", "net", "progress"],
     ),
     room(3, TOP, "panel", &["geom", "units", "mesh", "measure", "check", "net", "progress"]),
+    room(3, TOP, "gluing", &["geom", "units", "mesh", "measure", "net", "progress"]),
     room(3, SHEET, "sheet", &["geom", "units", "random", "net", "progress"]),
     room(3, SHEET, "lint", &["geom", "units"]),
     room(3, TOP, "bloom", &["geom", "mesh", "net"]),
@@ -99,7 +100,7 @@ const ROOMS: &[Room] = &[
         "make",
         &[
             "geom", "units", "progress", "mesh", "net", "measure", "shape", "seam", "select",
-            "check", "op", "unfold", "panel", "sheet", "bloom", "io", "picture",
+            "check", "op", "unfold", "panel", "gluing", "sheet", "lint", "bloom", "io", "picture",
         ],
     ),
     room(
@@ -169,7 +170,7 @@ const DOORS: &[(&str, &[&str])] = &[
     ("tiny_skia", &["src/picture/"]),
     ("serde_json", &["src/io/", "src/cli/"]),
     ("meshopt", &["src/op/simplify/"]),
-    ("toml", &["src/recipe/", "src/make/materials.rs"]),
+    ("toml", &["src/recipe/", "src/make/materials.rs", "src/make/glue_file.rs"]),
     ("clap_complete", &["src/cli/"]),
     ("clap_mangen", &["src/cli/"]),
     ("ctrlc", &["src/cli/"]),

@@ -8,8 +8,9 @@ use crate::check::{CheckParams, Report, check};
 use crate::io::{ReadMesh, read_mesh, size_note};
 use crate::make::{
     DformError, DformParams, FabricateParams, FabricateSettings, Fabrication, MakeError,
-    PanelFiles, PanelJob, Panelled, PiecePromise, PointOut, ShowParams, carve_dform, fabricate,
-    nest_files, operate, panel_model, solid_of_planes, with_material,
+    OutlineParams, OutlinesError, PanelFiles, PanelJob, Panelled, PiecePromise, PointOut,
+    ShowParams, carve_dform, fabricate, nest_files, operate, outlined_dform, panel_model,
+    solid_of_planes, with_material,
 };
 use crate::mesh::{Mesh, SplitVertex};
 use crate::op::{HullParams, HullStep, OpContext, OpError, hull};
@@ -195,9 +196,15 @@ impl Job {
             Step::Render { render, point_out, .. } => {
                 (self.render, self.point_out) = (render.clone(), point_out.clone());
             }
-            Step::Dform { dform, sheet, show } => {
+            Step::Dform { dform, outlines, sheet, show } => {
                 self.show = show.clone();
-                self.dform(dform, &self.sheet(sheet, folder)?, progress)?;
+                let sheet = self.sheet(sheet, folder)?;
+                if outlines.is_given() {
+                    self.outlines(outlines, folder, sheet, progress)?;
+                } else {
+                    no_stray_option(outlines)?;
+                    self.dform(dform, &sheet, progress)?;
+                }
             }
             Step::Unfold { unfold, fabricate, sheet, show } => {
                 self.show = show.clone();
@@ -244,6 +251,20 @@ impl Job {
         };
         (self.made, self.promised) = (Some(carved.made), None);
         self.unfold(&UnfoldParams::default(), &folds, sheet, Path::new(""), progress)
+    }
+
+    fn outlines(
+        &mut self,
+        params: &OutlineParams,
+        folder: &Path,
+        sheet: SheetParams,
+        progress: &dyn Progress,
+    ) -> Result<(), MakeError> {
+        let made = outlined_dform(params, folder, &sheet, progress)?;
+        self.start(made.mesh)?;
+        self.notes.extend(made.notes);
+        (self.fabrication, self.panelled) = (Some((made.fabrication, sheet)), None);
+        Ok(())
     }
 
     /// Panels take the place of pieces unfolded before, since both would go to the same files.
@@ -297,5 +318,17 @@ impl Job {
         self.notes.extend(fabrication.notes());
         (self.fabrication, self.panelled) = (Some((fabrication, sheet.clone())), None);
         Ok(())
+    }
+}
+
+/// Options of outlines mean nothing for a D-form of a solid.
+fn no_stray_option(outlines: &OutlineParams) -> Result<(), MakeError> {
+    match outlines.without_outlines() {
+        None => Ok(()),
+        Some(option) => Err(OutlinesError::Options {
+            what: format!("`{option}` is given without outlines"),
+            advice: "name outlines or a gluing file, or leave it out",
+        }
+        .into()),
     }
 }

@@ -10,8 +10,8 @@ use serde::de::DeserializeOwned;
 use super::error::RecipeError;
 use super::fields::{KnownKeys, StepFields};
 use super::{
-    DformParams, FabricateParams, NestStep, OperatorStep, PanelFiles, PlanesStep, PointOut,
-    ReadStep, ShowParams, Step, StoryParams,
+    DformParams, FabricateParams, NestStep, OperatorStep, OutlineParams, PanelFiles, PlanesStep,
+    PointOut, ReadStep, ShowParams, Step, StoryParams,
 };
 use crate::check::CheckParams;
 use crate::op::{
@@ -127,12 +127,27 @@ const STEPS: &[StepKind] = &[
             })
         },
     ),
-    step(
-        "dform",
-        "matching",
-        &[DformParams::augment_args, SheetParams::augment_args, ShowParams::augment_args],
-        |s| Ok(Step::Dform { dform: s.read()?, sheet: s.read()?, show: s.read()? }),
-    ),
+    StepKind {
+        words: &[("\"outlines\"", "\"hamiltonian\"")],
+        ..step(
+            "dform",
+            "matching",
+            &[
+                DformParams::augment_args,
+                OutlineParams::augment_args,
+                SheetParams::augment_args,
+                ShowParams::augment_args,
+            ],
+            |s| {
+                Ok(Step::Dform {
+                    dform: s.read()?,
+                    outlines: s.read()?,
+                    sheet: s.read()?,
+                    show: s.read()?,
+                })
+            },
+        )
+    },
     step(
         "panels",
         "side",

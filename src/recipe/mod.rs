@@ -29,7 +29,8 @@ pub use outputs::job_outputs;
 use crate::check::CheckParams;
 use crate::io::ReadOptions;
 use crate::make::{
-    DformParams, FabricateParams, NestStep, PanelFiles, PlanesStep, PointOut, ShowParams,
+    DformParams, FabricateParams, NestStep, OutlineParams, PanelFiles, PlanesStep, PointOut,
+    ShowParams,
 };
 use crate::op::{HullParams, Operate};
 use crate::panel::PanelParams;
@@ -117,10 +118,13 @@ pub enum Step {
         /// What is made to be looked at.
         show: ShowParams,
     },
-    /// `dform = "hamiltonian"`: carves the folds of a D-form and unfolds it.
+    /// `dform = "hamiltonian"`: carves the folds of a D-form and unfolds it. `dform = "outlines"`:
+    /// joins flat outlines, as a first step.
     Dform {
         /// Which folds, and how to carve them.
         dform: DformParams,
+        /// The outlines, where it is made from these.
+        outlines: OutlineParams,
         /// Where the pieces go.
         sheet: SheetParams,
         /// What is made to be looked at.

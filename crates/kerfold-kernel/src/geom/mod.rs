@@ -6,6 +6,8 @@ mod fit;
 mod frame;
 mod grid;
 pub mod hull;
+#[cfg(feature = "sparse")]
+pub mod ldl;
 mod meet;
 mod meet_three;
 mod plane;

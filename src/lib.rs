@@ -47,6 +47,7 @@ pub mod bloom;
 pub mod check;
 pub mod op;
 pub mod panel;
+pub mod panelize;
 pub mod unfold;
 
 pub mod io;

@@ -60,11 +60,12 @@ const ROOMS: &[Room] = &[
     room(2, TOP, "seam", &["mesh", "measure", "progress"]),
     room(2, TOP, "select", &["geom", "units", "mesh", "measure", "seam", "progress"]),
     room(3, TOP, "check", &["geom", "units", "mesh", "measure"]),
+    room(3, TOP, "panelize", &["geom", "units", "random", "mesh", "measure", "check", "progress"]),
     room(
         3,
         TOP,
         "op",
-        &["memory", "geom", "units", "mesh", "measure", "select", "check", "progress"],
+        &["memory", "geom", "units", "mesh", "measure", "select", "check", "panelize", "progress"],
     ),
     room(
         3,
@@ -97,8 +98,8 @@ const ROOMS: &[Room] = &[
         TOP,
         "recipe",
         &[
-            "units", "progress", "mesh", "shape", "select", "check", "op", "unfold", "panel",
-            "sheet", "io", "picture", "make",
+            "units", "progress", "mesh", "shape", "select", "check", "panelize", "op", "unfold",
+            "panel", "sheet", "io", "picture", "make",
         ],
     ),
     room(4, TOP, "gallery", &["units", "progress", "io", "make", "recipe"]),
@@ -108,8 +109,8 @@ const ROOMS: &[Room] = &[
         "cli",
         &[
             "units", "progress", "mesh", "net", "measure", "shape", "seam", "select", "check",
-            "op", "unfold", "panel", "sheet", "lint", "io", "picture", "make", "recipe", "gallery",
-            "explain",
+            "panelize", "op", "unfold", "panel", "sheet", "lint", "io", "picture", "make",
+            "recipe", "gallery", "explain",
         ],
     ),
 ];

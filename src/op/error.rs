@@ -3,6 +3,7 @@
 use crate::code::codes;
 use crate::geom::hull::{HalfSpaceError, HullError};
 use crate::mesh::{BuildError, EdgeId, FaceId, FileFault, VertexId};
+use crate::panelize::PanelizeError;
 use crate::select::SelectError;
 
 /// Why an operator refused; no mesh was made.
@@ -292,6 +293,9 @@ pub enum OpError {
         /// A vertex of the cavity, of the mesh before the cuts.
         vertex: VertexId,
     },
+    /// [`crate::panelize`] refused.
+    #[error(transparent)]
+    Panelize(#[from] PanelizeError),
     /// The user asked to stop.
     #[error("stopped before the end; nothing was written")]
     Cancelled,
@@ -335,6 +339,7 @@ codes!(error OpError {
     NoHull.reason,
     HalfSpaces.reason,
     Build.0,
+    Panelize.0,
 });
 
 fn first_few(elements: &[usize]) -> String {

@@ -14,6 +14,7 @@ use super::{
     truncate_vertices,
 };
 use crate::mesh::Mesh;
+use crate::panelize::{PanelizeParams, panelize};
 use crate::select::NewElements;
 
 /// What an operator made of a mesh.
@@ -96,6 +97,14 @@ impl Operate for PlanarizeParams {
     fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
         let (mesh, report) = planarize(mesh, self, context)?;
         Ok(OperatorOutput { mesh, made: None, notes: report.notes(), is_clean: report.is_clean() })
+    }
+}
+
+impl Operate for PanelizeParams {
+    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
+        let (mesh, report) = panelize(mesh, self, context.progress)?;
+        let is_clean = report.is_clean();
+        Ok(OperatorOutput { mesh, made: None, notes: report.notes(), is_clean })
     }
 }
 

@@ -20,6 +20,7 @@ use crate::op::{
     TruncateVertexParams,
 };
 use crate::panel::PanelParams;
+use crate::panelize::PanelizeParams;
 use crate::picture::RenderParams;
 use crate::shape::SolidParams;
 use crate::sheet::SheetParams;
@@ -84,6 +85,9 @@ const STEPS: &[StepKind] = &[
     }),
     step("planarize", "profile", &[PlanarizeParams::augment_args], |s| {
         operator::<PlanarizeParams>(s, "planarize")
+    }),
+    step("panelize", "size", &[PanelizeParams::augment_args], |s| {
+        operator::<PanelizeParams>(s, "panelize")
     }),
     step("subdivide", "scheme", &[SubdivideParams::augment_args], |s| {
         operator::<SubdivideParams>(s, "subdivide")

@@ -64,8 +64,12 @@ pub use report::{PanelizeReport, Place};
 const ROUNDS: usize = 40;
 /// Rounds in which planes become exact.
 const POLISH: usize = 12;
-/// Layouts that are tried while panels are broken.
-const ATTEMPTS: u64 = 3;
+/// Layouts that are tried while some panels are odd or broken.
+const ATTEMPTS: u64 = 6;
+/// The same for large surfaces.
+const ATTEMPTS_LARGE: u64 = 2;
+/// Surfaces with a larger area are large, in squared panel sizes.
+const LARGE: f64 = 1500.0;
 /// Rows along the rim are wanted so much more than rows along curvature.
 const RIM_WEIGHT: f64 = 3.0;
 /// Corners within this distance of their planes are exact, in panel sizes.
@@ -147,6 +151,7 @@ impl Model {
         let limits = Limits {
             edge: params.min_edge,
             angle: params.min_angle.radians(),
+            deviation: Limits::default().deviation.max(report::sag(&quadrics)),
             ..Limits::default()
         };
         Ok(Self { size, origin, surface, quadrics, scale, field, rule, limits })
@@ -173,7 +178,7 @@ impl Model {
         params: &PanelizeParams,
         progress: &dyn Progress,
     ) -> Result<Solved, PanelizeError> {
-        let mut best: Option<Solved> = None;
+        let mut best: Option<(f64, Solved)> = None;
         let mut failed = None;
         for attempt in 0..ATTEMPTS {
             // Seeds far apart, so that those of neighbouring runs do not repeat.
@@ -186,17 +191,17 @@ impl Model {
                     continue;
                 }
             };
-            let is_better =
-                best.as_ref().is_none_or(|best| self.badness(&solved) < self.badness(best));
-            if is_better {
-                best = Some(solved);
+            let bad = self.badness(&solved);
+            if best.as_ref().is_none_or(|(least, _)| bad < *least) {
+                best = Some((bad, solved));
             }
-            let is_good = best.as_ref().is_some_and(|best| self.badness(best) < 1.0);
-            if is_good || progress.is_cancelled() {
+            let is_good = best.as_ref().is_some_and(|(least, _)| *least < 1.0);
+            let is_large = self.surface.area() > LARGE && best.is_some();
+            if is_good || is_large && attempt + 1 >= ATTEMPTS_LARGE || progress.is_cancelled() {
                 break;
             }
         }
-        best.ok_or_else(|| {
+        best.map(|(_, solved)| solved).ok_or_else(|| {
             let place = failed.map_or(DVec3::ZERO, |v| self.surface.points[v]);
             PanelizeError::TooNarrow { size: self.size, place: self.place(place) }
         })
@@ -236,12 +241,25 @@ impl Model {
         pairs.filter(|[a, b]| measured[*a].is_sound && measured[*b].is_sound).collect()
     }
 
-    /// How bad panels are: from 1 on some are broken.
+    /// How bad panels are: from 1 on another layout is worth a try, from 100 on panels are broken.
     fn badness(&self, solved: &Solved) -> f64 {
-        let broken = solved.measured.iter().filter(|m| !m.is_sound).count();
+        let m = &solved.measured;
+        let broken = m.iter().filter(|m| !m.is_sound).count() + solved.through.len();
         let inexact = usize::from(solved.lack > EXACT);
-        let deviation = solved.measured.iter().map(|m| m.deviation).fold(0.0, f64::max);
-        (broken + solved.through.len() + inexact) as f64 + deviation.min(0.99)
+        let sag = report::sag(&self.quadrics);
+        let odd = |m: &&Measured| {
+            m.deviation > (2.5 * sag).max(0.05)
+                || m.least_angle < 12.0
+                || m.largest_angle > 300.0
+                || m.area < 0.2
+                || m.area > 2.4
+        };
+        let odd = m.iter().filter(odd).count() + report::far_nodes(self, solved).len();
+        let short = m.iter().filter(|m| m.shortest < 0.1).count().saturating_sub(m.len() / 50);
+        let deviations: Vec<f64> = m.iter().map(|m| m.deviation).collect();
+        let most = report::percentile(&deviations, 0.95);
+        let off = usize::from(most > (1.5 * sag).max(0.035));
+        (100 * (broken + inexact) + odd + short + off) as f64 + most.min(0.99)
     }
 
     /// The panels as a mesh in millimetres.

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::curvature::Quadric;
 use super::prove::node_reach;
 use super::regions::Kind;
 use super::size::SHARE;
@@ -71,14 +72,13 @@ impl PanelizeReport {
             |value: &dyn Fn(usize) -> f64| (0..m.len()).map(value).fold(f64::INFINITY, f64::min);
         let most = |value: &dyn Fn(usize) -> f64| (0..m.len()).map(value).fold(0.0, f64::max);
         let deviations: Vec<f64> = m.iter().map(|m| m.deviation).collect();
-        let sags: Vec<f64> = model.quadrics.iter().map(|q| q.sag()).collect();
         let inner: Vec<_> = m.iter().filter(|m| !m.is_rim).collect();
         let mut made = Self {
             size_mm: size,
             panels: m.len(),
             wanted: model.surface.area() / super::sites::PANEL_AREA,
             deviation_mm: [1.0, 0.95].map(|share| percentile(&deviations, share) * size),
-            sag_mm: percentile(&sags, SHARE) * size,
+            sag_mm: sag(&model.quadrics) * size,
             shortest_mm: least(&|f| m[f].shortest) * size,
             angles: [least(&|f| m[f].least_angle), most(&|f| m[f].largest_angle)],
             areas: [least(&|f| m[f].area), most(&|f| m[f].area)],
@@ -250,7 +250,7 @@ fn fits(panel: [f64; 2], sheet: [f64; 2]) -> bool {
     panel[0] <= sheet[0] && panel[1] <= sheet[1]
 }
 
-fn far_nodes(model: &Model, solved: &Solved) -> Vec<Place> {
+pub(super) fn far_nodes(model: &Model, solved: &Solved) -> Vec<Place> {
     let far = reaches(solved).filter(|&(_, reach)| reach > FARTHEST_NODE);
     let mut found: Vec<Place> = far
         .map(|(v, measured)| Place {
@@ -274,7 +274,12 @@ fn reaches(solved: &Solved) -> impl Iterator<Item = (usize, f64)> + '_ {
     })
 }
 
-fn percentile(values: &[f64], share: f64) -> f64 {
+/// By how much of its size a flat panel leaves the surface where it bends most.
+pub(super) fn sag(quadrics: &[Quadric]) -> f64 {
+    percentile(&quadrics.iter().map(Quadric::sag).collect::<Vec<f64>>(), SHARE)
+}
+
+pub(super) fn percentile(values: &[f64], share: f64) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     let last = sorted.len().saturating_sub(1);

@@ -57,6 +57,15 @@ pub(super) struct State {
     shift: f64,
 }
 
+/// What the terms of a round look at besides the panels.
+struct Round<'a> {
+    /// Where the corners were at the start.
+    start: &'a [DVec3],
+    rim: Vec<RimRow>,
+    /// For each corner the node there, if its plates reach too far.
+    nodes: Vec<Option<terms::Node>>,
+}
+
 /// Which unknowns a run solves for.
 struct Unknowns {
     /// The node of each corner; [`NONE`] where it stays.
@@ -155,12 +164,9 @@ impl State {
         (start, round): (&[DVec3], usize),
     ) {
         self.follow_surface(scene, unknowns);
-        let rim = RimRow::all(scene, &self.panels);
-        let mut elements: Vec<Element> = unknowns
-            .faces
-            .iter()
-            .map(|&f| self.element(scene, f, weights, (start, &rim)))
-            .collect();
+        let terms = Round { start, rim: RimRow::all(scene, &self.panels), nodes: self.far_nodes() };
+        let mut elements: Vec<Element> =
+            unknowns.faces.iter().map(|&f| self.element(scene, f, weights, &terms)).collect();
         if round % 4 == 3 {
             self.adapt_stress(unknowns, scene.limits);
         }

@@ -3,13 +3,13 @@
 
 use std::f64::consts::TAU;
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::super::regions::Kind;
 use super::super::sites::PANEL_AREA;
 use super::super::surface::NONE;
 use super::element::Element;
-use super::{RimRow, Scene, State, Unknowns};
+use super::{RimRow, Round, Scene, State, Unknowns};
 
 /// What each term weighs.
 #[derive(Debug, Clone, Copy)]
@@ -39,6 +39,10 @@ pub(in super::super) struct Weights {
     pub area: f64,
     /// Angles are not too sharp.
     pub angle: f64,
+    /// Corners and middles of faces are not far from the surface.
+    pub far: f64,
+    /// Plates do not reach far from their nodes.
+    pub node: f64,
     /// Corners at a rim lie on its curve.
     pub rim: f64,
 }
@@ -56,8 +60,10 @@ impl Default for Weights {
             lattice: 0.06,
             star: 1.0,
             edge: 0.5,
-            area: 0.3,
+            area: 0.5,
             angle: 0.3,
+            far: 2.0,
+            node: 0.05,
             rim: 2.0,
         }
     }
@@ -77,6 +83,8 @@ pub(in super::super) struct Limits {
     pub rim_area: [f64; 2],
     /// The smallest angle, in radians; angles are kept as far from a full turn.
     pub angle: f64,
+    /// Farther off the surface, corners and middles of faces count more.
+    pub deviation: f64,
 }
 
 impl Default for Limits {
@@ -85,14 +93,35 @@ impl Default for Limits {
             star: 0.06,
             edge: 0.18,
             area: [0.6, 1.45],
-            rim_area: [0.35, 1.7],
+            rim_area: [0.4, 1.6],
             angle: 25_f64.to_radians(),
+            deviation: 0.025,
         }
     }
 }
 
 /// Edges that are very short, and faces that are hardly star-shaped, weigh at most so much more.
 const MOST_STRESS: f64 = 40.0;
+
+/// Corners of plates of thickness 1 may stand so far from where a smooth surface would have them.
+const NEAR_NODE: f64 = 0.6;
+
+/// A node with plates that reach too far.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Node {
+    /// Where their corner should be, for the thickness 1.
+    near: DVec3,
+    /// How much the planes differ: the square of the largest angle from their mean.
+    spread: f64,
+}
+
+/// Where the corner of plates of thickness 1 is: the shortest vector that has the product 1 with
+/// all three normals.
+fn corner_way(normals: [DVec3; 3]) -> DVec3 {
+    let rows = DMat3::from_cols(normals[0], normals[1], normals[2]);
+    let gram = rows.transpose() * rows + DMat3::from_diagonal(DVec3::splat(1e-12));
+    rows * (gram.inverse() * DVec3::ONE)
+}
 
 /// A face as its terms see it.
 struct View {
@@ -137,7 +166,7 @@ impl State {
         scene: Scene<'_>,
         f: usize,
         weights: &Weights,
-        (start, rim): (&[DVec3], &[RimRow]),
+        round: &Round<'_>,
     ) -> Element {
         let view = View::new(self, f);
         let mut element = Element::new(view.len());
@@ -147,12 +176,13 @@ impl State {
         self.edges(&view, scene.limits, weights.edge, &mut element);
         self.area(&view, scene.limits, weights.area, &mut element);
         angles(&view, scene.limits, weights.angle, &mut element);
-        self.movement(&view, weights, start, &mut element);
+        self.movement(&view, weights, round.start, &mut element);
+        self.nodes(&view, weights.node, &round.nodes, &mut element);
         if self.is_inner_face(f) {
             self.regularity(&view, weights, &mut element);
         }
         for i in self.owned(&view) {
-            for row in rows_of(rim, view.corners[i]) {
+            for row in rows_of(&round.rim, view.corners[i]) {
                 let weight = if row.is_hard { weights.planarity } else { weights.rim };
                 element.by(i, row.normal).residual(row.distance(view.places[i]), weight);
             }
@@ -201,6 +231,10 @@ impl State {
             let quadric = &scene.quadrics[self.panels.hints[view.corners[i]]];
             let height = quadric.height(view.places[i]);
             element.by(i, height.normal).residual(height.distance, weights.corner);
+            let far = beyond(height.distance, scene.limits.deviation);
+            if far != 0.0 {
+                element.by(i, height.normal).residual(far, weights.far);
+            }
         }
         let height = self.height(scene, view.centre, self.panels.hints[view.corners[0]]);
         let share = 1.0 / view.len() as f64;
@@ -208,6 +242,13 @@ impl State {
             element.by(i, height.normal * share);
         }
         element.residual(height.distance, weights.centre);
+        let far = beyond(height.distance, scene.limits.deviation);
+        if far != 0.0 {
+            for i in 0..view.len() {
+                element.by(i, height.normal * share);
+            }
+            element.residual(far, weights.far);
+        }
         if scene.fixed.get(view.face).copied().flatten().is_none() {
             let off = self.planes[view.face].normal - height.normal;
             for (unknown, axis) in self.planes[view.face].axes().into_iter().enumerate() {
@@ -324,6 +365,34 @@ impl State {
         }
     }
 
+    /// Where plates would reach far from a node, its planes are tilted so that a nearer point will
+    /// do for their corner: n · s = 1 with s held near. Such points s of all nodes are a mesh
+    /// parallel to this one (Pottmann, Liu, Wallner, Bobenko, Wang 2007). Tilts count against those
+    /// that the planes have to each other, however flat they meet.
+    fn nodes(&self, view: &View, weight: f64, nodes: &[Option<Node>], element: &mut Element) {
+        let plane = self.planes[view.face];
+        for node in view.corners.iter().filter_map(|&v| nodes[v]) {
+            for (unknown, axis) in plane.axes().into_iter().enumerate() {
+                element.by_plane(unknown, node.near.dot(axis));
+            }
+            element.residual(plane.normal.dot(node.near) - 1.0, weight / node.spread);
+        }
+    }
+
+    /// The nodes whose plates reach too far; for each corner.
+    pub(super) fn far_nodes(&self) -> Vec<Option<Node>> {
+        let node = |v: usize| {
+            let &[a, b, c] = &self.fans[v][..] else { return None };
+            let normals = [a, b, c].map(|f| self.planes[f].normal);
+            let mean = (normals[0] + normals[1] + normals[2]).normalize_or_zero();
+            let way = corner_way(normals) - mean;
+            let spread = normals.iter().map(|n| n.distance_squared(mean)).fold(1e-5, f64::max);
+            (way.length() > NEAR_NODE)
+                .then(|| Node { near: mean + way.clamp_length_max(0.7 * NEAR_NODE), spread })
+        };
+        (0..self.panels.points.len()).map(node).collect()
+    }
+
     /// Faces that stay broken weigh more and more, others less and less.
     pub(super) fn adapt_stress(&mut self, unknowns: &Unknowns, limits: &Limits) {
         for &f in &unknowns.faces {
@@ -364,8 +433,15 @@ fn angles(view: &View, limits: &Limits, weight: f64, element: &mut Element) {
         let by_a = view.normal.cross(a) / (a.length_squared() + 1e-3);
         let by_b = -view.normal.cross(b) / (b.length_squared() + 1e-3);
         element.by(before, by_a).by(next, by_b).by(i, -(by_a + by_b));
-        element.residual(off, weight / least);
+        // Needles weigh more than corners that are only a little sharp.
+        let stress = (off.abs() / (0.4 * least)).max(1.0);
+        element.residual(off, weight / least * stress);
     }
+}
+
+/// By how much a distance is beyond a limit, with its sign.
+fn beyond(distance: f64, limit: f64) -> f64 {
+    (distance - limit).max(0.0) + (distance + limit).min(0.0)
 }
 
 /// The rows of a corner among those of all.

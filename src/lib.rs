@@ -49,6 +49,7 @@ pub mod check;
 pub mod gluing;
 pub mod op;
 pub mod panel;
+pub mod panelize;
 pub mod unfold;
 
 pub mod io;

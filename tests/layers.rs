@@ -67,11 +67,15 @@ const ROOMS: &[Room] = &[
     room(2, TOP, "seam", &["units", "mesh", "measure", "progress"]),
     room(2, TOP, "select", &["geom", "units", "mesh", "measure", "seam", "progress"]),
     room(3, TOP, "check", &["geom", "units", "mesh", "measure", "mend"]),
+    room(3, TOP, "panelize", &["geom", "units", "random", "mesh", "measure", "check", "progress"]),
     room(
         3,
         TOP,
         "op",
-        &["memory", "geom", "units", "mesh", "measure", "mend", "select", "check", "progress"],
+        &[
+            "memory", "geom", "units", "mesh", "measure", "mend", "select", "check", "panelize",
+            "progress",
+        ],
     ),
     room(
         3,
@@ -108,8 +112,8 @@ const ROOMS: &[Room] = &[
         TOP,
         "recipe",
         &[
-            "units", "progress", "mesh", "shape", "select", "check", "op", "unfold", "panel",
-            "sheet", "io", "picture", "make",
+            "units", "progress", "mesh", "shape", "select", "check", "panelize", "op", "unfold",
+            "panel", "sheet", "io", "picture", "make",
         ],
     ),
     room(4, TOP, "gallery", &["units", "progress", "io", "make", "recipe"]),
@@ -119,8 +123,8 @@ const ROOMS: &[Room] = &[
         "cli",
         &[
             "units", "progress", "mesh", "net", "measure", "shape", "seam", "select", "check",
-            "op", "unfold", "panel", "sheet", "lint", "io", "picture", "make", "recipe", "gallery",
-            "explain",
+            "panelize", "op", "unfold", "panel", "sheet", "lint", "io", "picture", "make",
+            "recipe", "gallery", "explain",
         ],
     ),
 ];

@@ -4,6 +4,7 @@ use super::roll::RollError;
 use crate::code::codes;
 use crate::geom::hull::{HalfSpaceError, HullError};
 use crate::mesh::{BuildError, EdgeId, FaceId, FileFault, VertexId};
+use crate::panelize::PanelizeError;
 use crate::select::SelectError;
 
 /// Why an operator refused; no mesh was made.
@@ -323,6 +324,9 @@ pub enum OpError {
         /// What was given, in mm.
         mm: f64,
     },
+    /// [`crate::panelize`] refused.
+    #[error(transparent)]
+    Panelize(#[from] PanelizeError),
     /// The user asked to stop.
     #[error("stopped before the end; nothing was written")]
     Cancelled,
@@ -371,6 +375,7 @@ codes!(error OpError {
     NoHull.reason,
     HalfSpaces.reason,
     Build.0,
+    Panelize.0,
 });
 
 fn first_few(elements: &[usize]) -> String {

@@ -14,6 +14,7 @@ use super::{
     simplify, slice, subdivide, truncate_edges, truncate_faces, truncate_vertices,
 };
 use crate::mesh::{EdgeId, Mesh};
+use crate::panelize::{PanelizeParams, panelize};
 use crate::select::NewElements;
 
 /// What an operator made of a mesh.
@@ -130,6 +131,14 @@ impl Operate for PlanarizeParams {
         let (mesh, report) = planarize(mesh, self, context)?;
         let notes = report.notes();
         Ok(OperatorOutput { is_clean: report.is_clean(), ..OperatorOutput::new(mesh, notes) })
+    }
+}
+
+impl Operate for PanelizeParams {
+    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
+        let (mesh, report) = panelize(mesh, self, context.progress)?;
+        let is_clean = report.is_clean();
+        Ok(OperatorOutput { mesh, made: None, notes: report.notes(), is_clean })
     }
 }
 

@@ -20,6 +20,7 @@ use crate::op::{
     TruncateEdgeParams, TruncateFaceParams, TruncateVertexParams,
 };
 use crate::panel::PanelParams;
+use crate::panelize::PanelizeParams;
 use crate::picture::RenderParams;
 use crate::shape::SolidParams;
 use crate::sheet::SheetParams;
@@ -94,6 +95,9 @@ const STEPS: &[StepKind] = &[
     }),
     step("simplify", "faces", &[SimplifyParams::augment_args], |s| {
         operator::<SimplifyParams>(s, "simplify")
+    }),
+    step("panelize", "size", &[PanelizeParams::augment_args], |s| {
+        operator::<PanelizeParams>(s, "panelize")
     }),
     step("subdivide", "scheme", &[SubdivideParams::augment_args], |s| {
         operator::<SubdivideParams>(s, "subdivide")

@@ -46,8 +46,10 @@ pub mod shape;
 
 pub mod bloom;
 pub mod check;
+pub mod gluing;
 pub mod op;
 pub mod panel;
+pub mod panelize;
 pub mod unfold;
 
 pub mod io;
@@ -79,6 +81,11 @@ pub mod prelude {
     pub use crate::unfold::{MeshSource, Seams, UnfoldParams, prove, unfold};
     pub use crate::units::{Angle, Length};
 }
+
+/// The example of the README, which is tested as those of the two lower crates are.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}
 
 /// Small meshes for tests, shared with the kernel's own.
 #[cfg(test)]

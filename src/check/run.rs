@@ -14,8 +14,8 @@ use crate::mesh::{EdgeId, FaceId, FaceMap, Mesh, VertexId};
 /// Always findings: faces beyond the planarity limits, without area or with an outline that meets
 /// itself, edges without length (shorter than the rounding bound, 1e-12 of the model), faces that
 /// look inwards, T-junctions and doubled faces; and what breaks the limits of shapes, where the
-/// profile or the user sets some. Only when required: valence, rims, convexity, vertices at one place, several components, faces that go
-/// through each other; these are still reported as data.
+/// profile or the user sets some. Only when required: valence, rims, convexity, vertices at one
+/// place, several components, faces that go through each other; these are still reported as data.
 ///
 /// # Errors
 /// [`CheckError::BadLimit`] when a limit is negative or not finite.

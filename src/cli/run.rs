@@ -54,7 +54,7 @@ pub(super) fn run(args: &RunArgs, console: &Console) -> Result<Outcome, CliError
     finish(&job, recipe.name, (&args.output, args.clean), console)
 }
 
-/// Writes everything that a job has made into a folder and tells about it.
+/// Writes everything that a job has made into a folder and reports it.
 pub(super) fn finish(
     job: &Job,
     name: Option<String>,
@@ -71,8 +71,10 @@ pub(super) fn finish(
     let panelled = job.panelled.as_ref().map(|(panelled, _)| panelled);
     if console.json {
         let summary = json!({
-            "command": command, "name": name, "written": written, "notes": job.notes, "model": model_json(job.mesh()?),
-            "verdict": report.verdict().name(), "fabrication": job.fabrication.as_ref().map(|(f, sheet)| summary_json(f, sheet)),
+            "command": command, "name": name, "written": written, "notes": job.notes,
+            "model": model_json(job.mesh()?),
+            "verdict": report.verdict().name(),
+            "fabrication": job.fabrication.as_ref().map(|(f, sheet)| summary_json(f, sheet)),
             "panels": panelled.map(panels_json),
             "unclean": job.with_findings.iter().map(ToString::to_string).collect::<Vec<_>>(),
         });
@@ -98,7 +100,9 @@ pub(super) fn finish(
     let has_panel_findings = panelled.is_some_and(|p| !p.findings.is_empty());
     let is_unclean =
         has_findings && job.is_check_asked || has_panel_findings || !job.with_findings.is_empty();
-    Ok(if is_unclean { Outcome::Findings } else { Outcome::Clean })
+    let has_sheet_findings =
+        job.fabrication.as_ref().is_some_and(|(f, _)| !f.findings().is_empty());
+    Ok(if is_unclean || has_sheet_findings { Outcome::Findings } else { Outcome::Clean })
 }
 
 /// Tells about a job that had pieces and no model.
@@ -110,7 +114,10 @@ fn nested(
 ) -> Result<Outcome, CliError> {
     if console.json {
         let fabrication = summary_json(fabrication, sheet);
-        let told = json!({ "command": command, "name": name, "written": written, "notes": job.notes, "fabrication": fabrication });
+        let told = json!({
+            "command": command, "name": name, "written": written, "notes": job.notes,
+            "fabrication": fabrication,
+        });
         console.result(&format!("{told:#}\n"))?;
     } else {
         console.notes(&job.notes);

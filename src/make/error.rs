@@ -3,9 +3,11 @@
 use super::dform::DformError;
 use super::materials::MaterialError;
 use super::nest_error::NestError;
+use super::outlines_error::OutlinesError;
 use super::panel_error::PanelOptionError;
 use crate::check::CheckError;
 use crate::code::codes;
+use crate::gluing::GluingError;
 use crate::io::IoError;
 use crate::io::planes_csv::PlanesError;
 use crate::mesh::BuildError;
@@ -53,6 +55,12 @@ pub enum MakeError {
     /// A D-form cannot be made as asked.
     #[error(transparent)]
     Dform(#[from] DformError),
+    /// Outlines close to no body.
+    #[error(transparent)]
+    Gluing(#[from] GluingError),
+    /// Outlines, options or a gluing file cannot be taken.
+    #[error(transparent)]
+    Outlines(#[from] OutlinesError),
     /// The mesh could not be unfolded.
     #[error(transparent)]
     Unfold(#[from] UnfoldError),
@@ -105,6 +113,8 @@ codes!(error MakeError {
     Seam.0,
     Check.0,
     Dform.0,
+    Gluing.0,
+    Outlines.0,
     Unfold.0,
     Nest.0,
     Sheet.0,

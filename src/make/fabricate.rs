@@ -24,6 +24,10 @@ use crate::units::{Angle, Length};
 /// Living hinges are as wide as so many thicknesses, where nothing is said.
 const HINGE: f64 = 10.0;
 
+/// How the seams were chosen, in words.
+const STRIPS: &str = "the strips that the last cut made fold, all other edges open";
+const SELECTED_FOLDS: &str = "all edges but the selected folds open";
+
 /// Which edges open. Without either, marked seams of the file are used; without marks the unfolder
 /// chooses.
 #[derive(Debug, Clone, Default, clap::Args, Deserialize)]
@@ -54,6 +58,15 @@ pub struct FabricateParams {
 }
 
 impl FabricateParams {
+    /// Whether the strips of the last cut are the folds, by name or because nothing else was said.
+    pub fn is_of_strips(&self) -> bool {
+        self.folds.as_ref().is_none_or(|folds| folds.to_string() == "strip")
+            && self.seams.is_none()
+            && self.sharp.is_none()
+            && self.keep.is_none()
+            && self.cut.is_none()
+    }
+
     /// The same with a seam file looked for from a folder.
     pub(crate) fn in_folder(&self, folder: &Path) -> Self {
         Self { seams: self.seams.as_ref().map(|seams| seams.in_folder(folder)), ..self.clone() }
@@ -87,6 +100,11 @@ pub struct FabricateSettings<'a> {
 }
 
 impl Fabrication {
+    /// Whether the folds were named, by the user or by the last cut.
+    pub fn is_of_given_folds(&self) -> bool {
+        [STRIPS, SELECTED_FOLDS].contains(&self.seams)
+    }
+
     /// The seams of a model that was unfolded here at which nothing bends: nobody wants them, but
     /// without them faces would overlap, or they were asked for.
     pub(super) fn flat_seams(&self) -> Vec<String> {
@@ -112,6 +130,7 @@ pub fn fabricate(
     progress: &dyn Progress,
 ) -> Result<Fabrication, MakeError> {
     let FabricateSettings { unfold: params, choice, sheet } = *settings;
+    sheet.check_sheets()?;
     let context = Context { mesh, made, progress };
     let keep = selected(&context, choice.keep.as_ref())?;
     let (mut seams, mut words) = choose_seams(&context, source, params, choice)?;
@@ -199,10 +218,7 @@ fn choose_seams(
         && let Some(made) = made
         && strips_reach_every_face(mesh, &made.strip)
     {
-        return Ok((
-            Seams::Folds(made.strip.clone()),
-            "the strips that the last cut made fold, all other edges open",
-        ));
+        return Ok((Seams::Folds(made.strip.clone()), STRIPS));
     }
     if params.pieces == PiecesMode::Auto
         && let Some(folds) = flat_folds::folds(mesh, context.progress)
@@ -241,7 +257,7 @@ fn given_seams(
         let mut edges = folds.edges(context)?;
         edges.extend(keep);
         edges.retain(|e| !cut.contains(e));
-        return Ok(Some((Seams::Folds(edges), "all edges but the selected folds open")));
+        return Ok(Some((Seams::Folds(edges), SELECTED_FOLDS)));
     }
     Ok(match Seams::marked(context.mesh) {
         Seams::Open(marked) => Some((open(marked), "the seams that the file marks open")),

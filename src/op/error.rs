@@ -1,8 +1,10 @@
 //! What a caller of an operator can mend.
 
+use super::roll::RollError;
 use crate::code::codes;
 use crate::geom::hull::{HalfSpaceError, HullError};
 use crate::mesh::{BuildError, EdgeId, FaceId, FileFault, VertexId};
+use crate::panelize::PanelizeError;
 use crate::select::SelectError;
 
 /// Why an operator refused; no mesh was made.
@@ -12,6 +14,9 @@ pub enum OpError {
     /// The selection could not be read on this mesh.
     #[error(transparent)]
     Select(#[from] SelectError),
+    /// Edges that cannot be rolled as asked.
+    #[error(transparent)]
+    Roll(#[from] RollError),
     /// The offset is not in (0, 2].
     #[error(
         "the offset is {offset}, but it must be above 0 (the element itself) and at most 2 (1 is \
@@ -319,6 +324,9 @@ pub enum OpError {
         /// What was given, in mm.
         mm: f64,
     },
+    /// [`crate::panelize`] refused.
+    #[error(transparent)]
+    Panelize(#[from] PanelizeError),
     /// The user asked to stop.
     #[error("stopped before the end; nothing was written")]
     Cancelled,
@@ -363,9 +371,11 @@ codes!(error OpError {
     NotSimplified = 353,
 } through {
     Select.0,
+    Roll.0,
     NoHull.reason,
     HalfSpaces.reason,
     Build.0,
+    Panelize.0,
 });
 
 fn first_few(elements: &[usize]) -> String {

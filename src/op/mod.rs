@@ -14,6 +14,7 @@ mod repair;
 mod report;
 mod resolve;
 mod rind;
+mod roll;
 mod sierpinski;
 mod simple;
 mod simplify;
@@ -44,6 +45,10 @@ pub use repair::{RepairParams, RepairReport, repair};
 pub use report::{CutReport, Origins, ShrunkOffset};
 pub use resolve::{ResolveParams, ResolveReport, resolve};
 pub use rind::{GroupThickness, RindParams, RindReport, ShellSource, rind};
+pub use roll::{
+    Place, Roll, RollError, RollLimit, RollParams, RollWordError, RolledEdge, StripSize,
+    StripWordError, largest_roll,
+};
 pub use sierpinski::{
     SierpinskiParams, SierpinskiReport, VertexKind, sierpinski, sierpinski_preview, vertex_kind,
 };

@@ -61,8 +61,8 @@ impl Mended {
     }
 }
 
-/// Makes a result as simple as the mesh was that it was made of. Meshes with self-loops, 2-gons and
-/// their like are on the way to something else, and may stay so.
+/// Makes a result one that files can hold. Where the mesh that it was made of had self-loops, 2-gons
+/// and their like, and the result has some, it is on the way to something else, and may stay so.
 ///
 /// # Errors
 /// [`OpError::NotSimple`] with the first fault that could not be mended.
@@ -72,30 +72,25 @@ pub(super) fn keep_simple(
     made: &mut NewElements,
     advice: &'static str,
 ) -> Result<Mended, OpError> {
-    if !is_simple(before) {
+    if is_unfinished(before) && is_unfinished(result) {
         return Ok(Mended::default());
     }
     let mended = make_simple(result, made);
     if let Some(&fault) = result.file_faults().first() {
         return Err(OpError::NotSimple { fault, advice });
     }
-    if has_more_than_files(result) {
+    if is_unfinished(result) || has_pinches(result) {
         *result = as_polygons(result, made)
             .map_err(|_| OpError::NotSimple { fault: FileFault::NoFaces, advice })?;
     }
     Ok(mended)
 }
 
-fn is_simple(mesh: &Mesh) -> bool {
-    !has_more_than_files(mesh) && mesh.file_faults().is_empty()
-}
-
-/// Whether a mesh has self-loops, faces with fewer than three different corners, or vertices with
-/// several rims.
-fn has_more_than_files(mesh: &Mesh) -> bool {
+/// Whether a mesh has self-loops, or faces with fewer than three different corners: no part of
+/// files, and good for the next operator only.
+fn is_unfinished(mesh: &Mesh) -> bool {
     mesh.edges().any(|e| is_loop(mesh, e))
         || mesh.faces().any(|f| straight_corners(mesh, f).len() < 3)
-        || has_pinches(mesh)
 }
 
 /// Whether several rims run through one vertex: a file holds a vertex for each of them.
@@ -108,13 +103,9 @@ fn has_pinches(mesh: &Mesh) -> bool {
 /// Pulls vertices apart through which several rims run, where nothing else keeps the mesh from
 /// being a file.
 pub(super) fn part_rims(mesh: &mut Mesh, made: &mut NewElements) {
-    let is_file = |mesh: &Mesh| {
-        !mesh.edges().any(|e| is_loop(mesh, e))
-            && mesh.faces().all(|f| straight_corners(mesh, f).len() > 2)
-            && mesh.file_faults().is_empty()
-    };
     if has_pinches(mesh)
-        && is_file(mesh)
+        && !is_unfinished(mesh)
+        && mesh.file_faults().is_empty()
         && let Ok(parted) = as_polygons(mesh, made)
     {
         *mesh = parted;
@@ -151,14 +142,7 @@ fn as_polygons(mesh: &Mesh, made: &mut NewElements) -> Result<Mesh, BuildError> 
         }
     }
     let (mut polygons, splits) = builder.build()?;
-    for (number, &f) in faces.iter().enumerate() {
-        if let Some(name) = mesh.group(f) {
-            polygons.set_group(FaceId::new(number), name);
-        }
-        if let Some(plane) = mesh.carried_plane(f) {
-            polygons.set_plane(FaceId::new(number), plane);
-        }
-    }
+    dress_faces(mesh, &faces, &mut polygons);
     let old: Vec<VertexId> = mesh.vertices().collect();
     let parted = splits.iter().map(|split| (split.added, old[split.given.index()]));
     for (new, v) in old.iter().map(|&v| (numbers[v], v)).chain(parted) {
@@ -180,6 +164,18 @@ fn as_polygons(mesh: &Mesh, made: &mut NewElements) -> Result<Mesh, BuildError> 
     seams.into_iter().for_each(|e| polygons.set_seam(e, true));
     made.compact(&mut polygons);
     Ok(polygons)
+}
+
+/// Gives faces, in their order, the groups and planes of those that they were.
+fn dress_faces(mesh: &Mesh, faces: &[FaceId], polygons: &mut Mesh) {
+    for (number, &f) in faces.iter().enumerate() {
+        if let Some(name) = mesh.group(f) {
+            polygons.set_group(FaceId::new(number), name);
+        }
+        if let Some(plane) = mesh.carried_plane(f) {
+            polygons.set_plane(FaceId::new(number), plane);
+        }
+    }
 }
 
 /// Mends what can be mended. Ids stay without gaps, and `made`

@@ -3,12 +3,13 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use super::{OperatorStep, Recipe, Step, StepError};
+use super::{Before, OperatorStep, Recipe, Step, StepError};
 use crate::check::{CheckParams, Report, check};
 use crate::io::{ReadMesh, read_mesh, size_note};
 use crate::make::{
-    DformParams, FabricateParams, FabricateSettings, Fabrication, MakeError, PanelFiles, PanelJob,
-    Panelled, ShowParams, carve_dform, fabricate, nest_files, operate, panel_model,
+    DformError, DformParams, FabricateParams, FabricateSettings, Fabrication, MakeError,
+    OutlineParams, OutlinesError, PanelFiles, PanelJob, Panelled, PiecePromise, PointOut,
+    ShowParams, carve_dform, fabricate, nest_files, operate, outlined_dform, panel_model,
     solid_of_planes, with_material,
 };
 use crate::mesh::{Mesh, SplitVertex};
@@ -19,7 +20,7 @@ use crate::progress::Progress;
 use crate::select::{NewElements, Selection};
 use crate::shape::solid;
 use crate::sheet::SheetParams;
-use crate::unfold::{MeshSource, UnfoldParams};
+use crate::unfold::{MeshSource, PiecesMode, UnfoldParams};
 
 /// An operator of a recipe that did not reach what was asked for; the notes say what is missing.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -39,14 +40,23 @@ impl fmt::Display for StepWithFindings {
 /// What a recipe has made so far.
 #[derive(Default)]
 pub struct Job {
+    /// The name of the recipe, which stands on its sheets.
+    title: String,
     mesh: Option<Mesh>,
     made: Option<NewElements>,
+    /// Into how many pieces the strips of the last cut come apart, as the edges promised.
+    promised: Option<PiecePromise>,
     /// What the user should know, in order.
     pub notes: Vec<String>,
     /// Operators that did not reach what was asked for, as far as no later step mends it.
     pub with_findings: Vec<StepWithFindings>,
     /// How the picture of the model looks.
     pub render: RenderParams,
+    /// What the picture points out.
+    pub point_out: PointOut,
+    /// The mesh before the last operator, where the recipe shows it.
+    pub before: Option<Mesh>,
+    keeps_before: bool,
     /// The dual hull on its way, as the last hull was asked for.
     pub hull_steps: Vec<HullStep>,
     /// Limits for the report.
@@ -87,6 +97,10 @@ impl Job {
         folder: &Path,
         progress: &dyn Progress,
     ) -> Result<Self, StepError> {
+        let shows =
+            |s: &Step| matches!(s, Step::Render { story, .. } if story.before == Before::On);
+        self.keeps_before = recipe.steps.iter().any(shows);
+        self.title = recipe.name.clone().unwrap_or_default();
         for (i, step) in recipe.steps.iter().enumerate() {
             self.step(i + 1, step, folder, progress).map_err(|cause| StepError {
                 step: i + 1,
@@ -116,6 +130,11 @@ impl Job {
     /// [`MakeError::NoMesh`], or [`MakeError::Check`] for a limit that is none.
     pub fn report(&self) -> Result<Report, MakeError> {
         Ok(check(self.mesh()?, &self.check)?)
+    }
+
+    /// What the last step made.
+    pub fn made(&self) -> Option<&NewElements> {
+        self.made.as_ref()
     }
 
     fn step(
@@ -153,12 +172,15 @@ impl Job {
             Step::Operator(OperatorStep { verb, params }) => {
                 let context = OpContext { made: self.made.as_ref(), progress };
                 let output = operate(params.as_ref(), folder, self.mesh()?, &context)?;
+                self.before = self.mesh.take().filter(|_| self.keeps_before);
                 self.notes.extend(output.notes);
                 // To planarize again is how to mend faces that did not become planar.
                 self.with_findings.retain(|u| u.verb != "planarize" || *verb != "planarize");
                 if !output.is_clean {
                     self.with_findings.push(StepWithFindings { step: number, verb });
                 }
+                let cut = (&output.cut_edges[..], self.made.as_ref());
+                self.promised = PiecePromise::of(self.mesh()?, cut, self.promised);
                 (self.mesh, self.made) = (Some(output.mesh), output.made);
             }
             Step::Hull(params) => {
@@ -168,29 +190,42 @@ impl Job {
                 self.hull_steps = report.steps;
                 // The hull is a solid of its own, whatever its corners came from.
                 self.with_findings.clear();
-                (self.mesh, self.made) = (Some(mesh), None);
+                (self.mesh, self.made, self.promised) = (Some(mesh), None, None);
             }
             Step::Check(params) => (self.check, self.is_check_asked) = (params.clone(), true),
-            Step::Render(params) => self.render = params.clone(),
-            Step::Dform { dform, sheet, show } => {
+            Step::Render { render, point_out, .. } => {
+                (self.render, self.point_out) = (render.clone(), point_out.clone());
+            }
+            Step::Dform { dform, outlines, sheet, show } => {
                 self.show = show.clone();
-                self.dform(dform, &with_material(sheet, folder)?, progress)?;
+                let sheet = self.sheet(sheet, folder)?;
+                if outlines.is_given() {
+                    self.outlines(outlines, folder, sheet, progress)?;
+                } else {
+                    no_stray_option(outlines)?;
+                    self.dform(dform, &sheet, progress)?;
+                }
             }
             Step::Unfold { unfold, fabricate, sheet, show } => {
                 self.show = show.clone();
-                self.unfold(unfold, fabricate, &with_material(sheet, folder)?, folder, progress)?;
+                self.unfold(unfold, fabricate, &self.sheet(sheet, folder)?, folder, progress)?;
             }
             Step::Panels { panels, files, sheet } => {
-                self.panels(panels, files, &with_material(sheet, folder)?, progress)?
+                self.panels(panels, files, &self.sheet(sheet, folder)?, progress)?
             }
             Step::Nest { nest, sheet } => {
-                let sheet = with_material(sheet, folder)?;
+                let sheet = self.sheet(sheet, folder)?;
                 let fabrication = nest_files(nest, &sheet, folder, progress)?;
                 self.notes.extend(fabrication.notes());
                 self.fabrication = Some((fabrication, sheet));
             }
         }
         Ok(())
+    }
+
+    /// Sheet parameters with what their material decides, and the name of the recipe.
+    fn sheet(&self, sheet: &SheetParams, folder: &Path) -> Result<SheetParams, MakeError> {
+        Ok(with_material(sheet, folder)?.titled(&self.title))
     }
 
     fn start(&mut self, mesh: Mesh) -> Result<(), MakeError> {
@@ -214,8 +249,22 @@ impl Job {
             folds: Selection::of_edges(carved.folds.iter().copied()),
             ..FabricateParams::default()
         };
-        self.made = Some(carved.made);
+        (self.made, self.promised) = (Some(carved.made), None);
         self.unfold(&UnfoldParams::default(), &folds, sheet, Path::new(""), progress)
+    }
+
+    fn outlines(
+        &mut self,
+        params: &OutlineParams,
+        folder: &Path,
+        sheet: SheetParams,
+        progress: &dyn Progress,
+    ) -> Result<(), MakeError> {
+        let made = outlined_dform(params, folder, &sheet, progress)?;
+        self.start(made.mesh)?;
+        self.notes.extend(made.notes);
+        (self.fabrication, self.panelled) = (Some((made.fabrication, sheet)), None);
+        Ok(())
     }
 
     /// Panels take the place of pieces unfolded before, since both would go to the same files.
@@ -256,8 +305,30 @@ impl Job {
             &source,
             progress,
         )?;
+        let made = fabrication.net.pieces.len();
+        let is_meant = choice.is_of_strips() && unfold.pieces == PiecesMode::Auto;
+        if let Some(PiecePromise { pieces: promised, is_perfect }) = self.promised
+            && promised != made
+            && is_meant
+            && fabrication.divided == 0
+            && (is_perfect || fabrication.is_of_given_folds())
+        {
+            return Err(DformError::BrokenPromise { promised, made }.into());
+        }
         self.notes.extend(fabrication.notes());
         (self.fabrication, self.panelled) = (Some((fabrication, sheet.clone())), None);
         Ok(())
+    }
+}
+
+/// Options of outlines mean nothing for a D-form of a solid.
+fn no_stray_option(outlines: &OutlineParams) -> Result<(), MakeError> {
+    match outlines.without_outlines() {
+        None => Ok(()),
+        Some(option) => Err(OutlinesError::Options {
+            what: format!("`{option}` is given without outlines"),
+            advice: "name outlines or a gluing file, or leave it out",
+        }
+        .into()),
     }
 }

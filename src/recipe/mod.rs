@@ -2,9 +2,11 @@
 //!
 //! Every step is the same parameter struct as the verb of that name on the command line. The steps
 //! of a recipe share one
-//! [`Job`]: the mesh as it is by then, what the last step made, and the results that are written at the end.
+//! [`Job`]: the mesh as it is by then, what the last step made, and the results that are written at
+//! the end.
 
 mod error;
+mod fields;
 mod job;
 mod keys;
 mod outputs;
@@ -26,7 +28,10 @@ pub use outputs::job_outputs;
 
 use crate::check::CheckParams;
 use crate::io::ReadOptions;
-use crate::make::{DformParams, FabricateParams, NestStep, PanelFiles, PlanesStep, ShowParams};
+use crate::make::{
+    DformParams, FabricateParams, NestStep, OutlineParams, PanelFiles, PlanesStep, PointOut,
+    ShowParams,
+};
 use crate::op::{HullParams, Operate};
 use crate::panel::PanelParams;
 use crate::picture::RenderParams;
@@ -53,6 +58,27 @@ pub struct ReadStep {
     #[command(flatten)]
     #[serde(flatten)]
     pub options: ReadOptions,
+}
+
+/// What a recipe shows besides its model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::Args, Deserialize)]
+pub struct StoryParams {
+    /// Whether before.png shows the model as it was before the last operator, seen through, with the
+    /// sections along which it was cut
+    #[arg(long, value_enum, default_value_t)]
+    #[serde(default)]
+    pub before: Before,
+}
+
+/// Whether there is a picture of the model before the last operator.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Before {
+    /// No picture.
+    #[default]
+    Off,
+    /// `before.png`.
+    On,
 }
 
 /// An operator of [`crate::op`] with its parameters.
@@ -92,10 +118,13 @@ pub enum Step {
         /// What is made to be looked at.
         show: ShowParams,
     },
-    /// `dform = "hamiltonian"`: carves the folds of a D-form and unfolds it.
+    /// `dform = "hamiltonian"`: carves the folds of a D-form and unfolds it. `dform = "outlines"`:
+    /// joins flat outlines, as a first step.
     Dform {
         /// Which folds, and how to carve them.
         dform: DformParams,
+        /// The outlines, where it is made from these.
+        outlines: OutlineParams,
         /// Where the pieces go.
         sheet: SheetParams,
         /// What is made to be looked at.
@@ -118,7 +147,14 @@ pub enum Step {
         sheet: SheetParams,
     },
     /// `render = "iso"`: how the picture of the model looks.
-    Render(RenderParams),
+    Render {
+        /// Colours, view, numbers.
+        render: RenderParams,
+        /// What is pointed out.
+        point_out: PointOut,
+        /// What else is shown.
+        story: StoryParams,
+    },
 }
 
 impl Step {
@@ -135,7 +171,7 @@ impl Step {
             Self::Dform { .. } => "dform",
             Self::Panels { .. } => "panels",
             Self::Nest { .. } => "nest",
-            Self::Render(_) => "render",
+            Self::Render { .. } => "render",
         }
     }
 }

@@ -1,4 +1,7 @@
+//! Readers from the file to the mesh.
+
 use super::*;
+use crate::mesh::VertexId;
 use crate::mesh::assert_sound;
 use clap::Parser as _;
 use glam::DVec3;

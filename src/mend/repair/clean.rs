@@ -11,10 +11,16 @@ use super::{Repair, Repairs};
 use crate::geom::{AxisBox, BoxTree};
 
 pub(super) fn weld(soup: &mut Soup, near: f64, repairs: &mut Repairs) {
-    let mut is_used = vec![false; soup.positions.len()];
-    soup.faces.iter().flat_map(|f| &f.corners).for_each(|&v| is_used[v as usize] = true);
-    let target = weld_targets(&soup.positions, near);
-    let welded = (0..target.len()).filter(|&v| is_used[v] && target[v] as usize != v).count();
+    // Vertices of no face are nobody's place.
+    let mut used: Vec<u32> = soup.faces.iter().flat_map(|f| f.corners.iter().copied()).collect();
+    used.sort_unstable();
+    used.dedup();
+    let places: Vec<DVec3> = used.iter().map(|&v| soup.positions[v as usize]).collect();
+    let mut target: Vec<u32> = (0..soup.positions.len() as u32).collect();
+    for (&v, other) in used.iter().zip(weld_targets(&places, near)) {
+        target[v as usize] = used[other as usize];
+    }
+    let welded = (0..target.len()).filter(|&v| target[v] as usize != v).count();
     let faces = std::mem::take(&mut soup.faces);
     for mut face in faces {
         face.corners.iter_mut().for_each(|v| *v = target[*v as usize]);

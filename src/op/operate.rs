@@ -7,11 +7,11 @@ use std::path::Path;
 use glam::DVec3;
 
 use super::{
-    HandleAxis, HandleParams, HullParams, MengerParams, OpContext, OpError, PlanarizeParams,
-    ResolveParams, RindParams, SierpinskiParams, SliceParams, SubdivideParams, TruncateEdgeParams,
-    TruncateFaceParams, TruncateVertexParams, handle, hull, menger, planarize, resolve, rind,
-    sierpinski, sierpinski_preview, slice, subdivide, truncate_edges, truncate_faces,
-    truncate_vertices,
+    CutReport, HandleAxis, HandleParams, HullParams, MengerParams, OpContext, OpError,
+    PlanarizeParams, ResolveParams, RindParams, SierpinskiParams, SliceParams, SubdivideParams,
+    TruncateEdgeParams, TruncateFaceParams, TruncateVertexParams, handle, hull, menger, planarize,
+    resolve, rind, sierpinski, sierpinski_preview, slice, subdivide, truncate_edges,
+    truncate_faces, truncate_vertices,
 };
 use crate::mesh::Mesh;
 use crate::select::NewElements;
@@ -48,6 +48,16 @@ pub trait Operate: fmt::Debug + Send + Sync {
         Vec::new()
     }
 
+    /// The same cut with its whole report, so that it can be shown before it is made; `None` for
+    /// operators that cut nothing.
+    fn cut(
+        &self,
+        _mesh: &Mesh,
+        _context: &OpContext<'_>,
+    ) -> Option<Result<(Mesh, CutReport), OpError>> {
+        None
+    }
+
     /// A file with points that has to be read first; operators read no files.
     fn points_file(&self) -> Option<&Path> {
         None
@@ -66,6 +76,10 @@ macro_rules! cuts {
                 let (mesh, report) = $operator(mesh, self, context)?;
                 let notes = report.notes($element);
                 Ok(OperatorOutput { mesh, made: Some(report.made), notes, is_clean: true })
+            }
+
+            fn cut(&self, mesh: &Mesh, context: &OpContext<'_>) -> Option<Result<(Mesh, CutReport), OpError>> {
+                Some($operator(mesh, self, context))
             }
         }
     )*};

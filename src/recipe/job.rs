@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use super::{OperatorStep, Recipe, Step, StepError};
 use crate::check::{CheckParams, Report, check};
@@ -36,10 +37,11 @@ impl fmt::Display for StepWithFindings {
     }
 }
 
-/// What a recipe has made so far.
-#[derive(Default)]
+/// What a recipe has made so far. A copy shares the mesh, so that the states between the steps can
+/// be kept.
+#[derive(Clone, Default)]
 pub struct Job {
-    mesh: Option<Mesh>,
+    mesh: Option<Arc<Mesh>>,
     made: Option<NewElements>,
     /// What the user should know, in order.
     pub notes: Vec<String>,
@@ -74,7 +76,7 @@ impl Job {
     /// are closed up, so that they are those of the model that will be written.
     pub fn with_mesh(mut mesh: Mesh, notes: Vec<String>) -> Self {
         mesh.compact();
-        Self { mesh: Some(mesh), notes, ..Self::default() }
+        Self { mesh: Some(Arc::new(mesh)), notes, ..Self::default() }
     }
 
     /// Runs the steps of a recipe on what there is.
@@ -88,13 +90,24 @@ impl Job {
         progress: &dyn Progress,
     ) -> Result<Self, StepError> {
         for (i, step) in recipe.steps.iter().enumerate() {
-            self.step(i + 1, step, folder, progress).map_err(|cause| StepError {
-                step: i + 1,
-                verb: step.verb(),
-                cause: Box::new(cause),
-            })?;
+            self.carry_out(i + 1, step, folder, progress)?;
         }
         Ok(self)
+    }
+
+    /// Carries out one step; `number` is its place in the recipe, from 1.
+    pub(super) fn carry_out(
+        &mut self,
+        number: usize,
+        step: &Step,
+        folder: &Path,
+        progress: &dyn Progress,
+    ) -> Result<(), StepError> {
+        self.step(number, step, folder, progress).map_err(|cause| StepError {
+            step: number,
+            verb: step.verb(),
+            cause: Box::new(cause),
+        })
     }
 
     /// The mesh as it is by now.
@@ -102,7 +115,12 @@ impl Job {
     /// # Errors
     /// [`MakeError::NoMesh`] before the first step.
     pub fn mesh(&self) -> Result<&Mesh, MakeError> {
-        self.mesh.as_ref().ok_or(MakeError::NoMesh)
+        self.mesh.as_deref().ok_or(MakeError::NoMesh)
+    }
+
+    /// What the last step made, for the selections `made` and `strip` of the next one.
+    pub fn made(&self) -> Option<&NewElements> {
+        self.made.as_ref()
     }
 
     /// Whether there is a mesh; a job that only nests pieces has none.
@@ -154,7 +172,7 @@ impl Job {
                 if !output.is_clean {
                     self.with_findings.push(StepWithFindings { step: number, verb });
                 }
-                (self.mesh, self.made) = (Some(output.mesh), output.made);
+                (self.mesh, self.made) = (Some(Arc::new(output.mesh)), output.made);
             }
             Step::Hull(params) => {
                 let (mesh, report) =
@@ -163,7 +181,7 @@ impl Job {
                 self.hull_steps = report.steps;
                 // The hull is a solid of its own, whatever its corners came from.
                 self.with_findings.clear();
-                (self.mesh, self.made) = (Some(mesh), None);
+                (self.mesh, self.made) = (Some(Arc::new(mesh)), None);
             }
             Step::Check(params) => (self.check, self.is_check_asked) = (params.clone(), true),
             Step::Render(params) => self.render = params.clone(),
@@ -192,7 +210,7 @@ impl Job {
         if self.mesh.is_some() {
             return Err(MakeError::SecondMesh);
         }
-        self.mesh = Some(mesh);
+        self.mesh = Some(Arc::new(mesh));
         Ok(())
     }
 
@@ -204,7 +222,7 @@ impl Job {
     ) -> Result<(), MakeError> {
         let carved = carve_dform(self.mesh()?, params, progress)?;
         self.notes.extend(carved.notes);
-        self.mesh = Some(carved.mesh);
+        self.mesh = Some(Arc::new(carved.mesh));
         let folds = FabricateParams {
             folds: Selection::of_edges(carved.folds.iter().copied()),
             ..FabricateParams::default()

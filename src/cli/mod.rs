@@ -25,6 +25,7 @@ mod run;
 mod seams;
 mod snippet;
 mod solid;
+mod studio;
 mod terminal;
 mod unfold;
 mod verify;
@@ -112,6 +113,7 @@ enum Verb {
     Run(run::RunArgs),
     Gallery(gallery::GalleryArgs),
     Render(render::RenderArgs),
+    Studio(studio::StudioArgs),
     Explain(explain::ExplainArgs),
     Completions(manual::CompletionsArgs),
     Man(manual::ManArgs),
@@ -167,6 +169,7 @@ pub fn run() -> ExitCode {
         Verb::Run(args) => run::run(&args, &console),
         Verb::Gallery(args) => gallery::run(&args, &console),
         Verb::Render(args) => render::run(&args, &console),
+        Verb::Studio(args) => studio::run(&args, &console),
         Verb::Explain(args) => explain::run(&args, &console),
         Verb::Completions(args) => manual::completions(&args),
         Verb::Man(args) => manual::man(&args, &console),

@@ -15,5 +15,7 @@ mod recipe;
 mod rows;
 mod seams;
 mod streams;
+#[cfg(unix)]
+mod studio;
 mod unfold;
 mod verify;

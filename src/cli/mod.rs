@@ -27,6 +27,7 @@ mod run;
 mod seams;
 mod snippet;
 mod solid;
+mod studio;
 mod terminal;
 mod unfold;
 mod verify;
@@ -128,6 +129,7 @@ enum Verb {
     Run(run::RunArgs),
     Gallery(gallery::GalleryArgs),
     Render(render::RenderArgs),
+    Studio(studio::StudioArgs),
     Explain(explain::ExplainArgs),
     Help(help::HelpArgs),
     Completions(manual::CompletionsArgs),
@@ -192,6 +194,7 @@ pub fn run() -> ExitCode {
         Verb::Run(args) => run::run(&args, &console),
         Verb::Gallery(args) => gallery::run(&args, &console),
         Verb::Render(args) => render::run(&args, &console),
+        Verb::Studio(args) => studio::run(&args, &console),
         Verb::Explain(args) => explain::run(&args, &console),
         Verb::Help(args) => help::run(&args, &console),
         Verb::Completions(args) => manual::completions(&args),

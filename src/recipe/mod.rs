@@ -5,6 +5,7 @@
 //! [`Job`]: the mesh as it is by then, what the last step made, and the results that are written at
 //! the end.
 
+mod draft;
 mod error;
 mod fields;
 mod job;
@@ -12,6 +13,8 @@ mod keys;
 mod outputs;
 mod parameters;
 mod parse;
+mod schema;
+mod session;
 
 #[cfg(test)]
 mod tests;
@@ -21,10 +24,13 @@ use std::sync::Arc;
 
 use serde::Deserialize;
 
+pub use draft::{RecipeDraft, StepDraft, Value};
 pub use error::{Position, RecipeError, StepError};
 pub use job::{Job, StepWithFindings};
 pub use keys::{StepKind, steps};
 pub use outputs::job_outputs;
+pub use schema::{ChoiceSchema, KeySchema, StepGroup, StepSchema, ValueKind, schema};
+pub use session::{Preview, Reached, Replay, Session, SessionError};
 
 use crate::check::CheckParams;
 use crate::io::ReadOptions;

@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 use glam::DVec2;
 
 use super::glyph::lettering;
+use super::obstacle::{Obstacle, Obstacles, is_clear};
 use crate::geom::polygon::{Location, borders_meet, bounds, centroid, locate, signed_area};
 use crate::net::{FlatFace, Piece, Segment};
 use crate::sheet::distance::{distance_to_contour, edges};
@@ -48,22 +49,6 @@ pub(super) struct Label {
 /// What is already lettered on the faces of a piece, by their index.
 pub(super) type Taken = BTreeMap<usize, Vec<[DVec2; 4]>>;
 
-/// Contours of joints that lettering must keep clear of: the cut of a piece where it differs from
-/// its faces, and slits.
-pub(super) type Obstacles<'a> = &'a [Vec<DVec2>];
-
-/// What of the obstacles of a piece may come near a label in a face: the rest lies beyond the box of
-/// the face, and a label lies inside.
-pub(super) fn obstacles_near(polygon: &[DVec2], obstacles: Obstacles<'_>) -> Vec<Vec<DVec2>> {
-    let Some((low, high)) = bounds(polygon) else { return Vec::new() };
-    // Slits are few, and stay.
-    let is_near = |obstacle: &&Vec<DVec2>| {
-        obstacle.len() <= 2
-            || bounds(*obstacle).is_some_and(|(l, h)| l.cmple(high).all() && low.cmple(h).all())
-    };
-    obstacles.iter().filter(is_near).cloned().collect()
-}
-
 /// The name of a piece, as large as fits beside what is taken, reading along `upright` where
 /// possible and else along a face's longest edge; with the index of the face that holds it. Obstacles
 /// are those near each of the faces.
@@ -71,7 +56,7 @@ pub(super) fn name_label(
     piece: &Piece,
     upright: DVec2,
     taken: &Taken,
-    obstacles: &[Vec<Vec<DVec2>>],
+    obstacles: &[Vec<Obstacle>],
 ) -> Result<Option<(usize, Label)>, SheetError> {
     let text = piece.id.to_string();
     let mut order: Vec<(f64, usize)> =
@@ -222,19 +207,20 @@ fn inner_point(polygon: &[DVec2], obstacles: Obstacles<'_>) -> DVec2 {
     let Some((low, high)) = bounds(polygon) else { return DVec2::ZERO };
     let n = polygon.len();
     let depth = |p: DVec2| {
-        if locate(polygon, p) != Location::Inside || !obstacles.iter().all(|o| is_on_material(o, p))
-        {
+        if locate(polygon, p) != Location::Inside || !obstacles.iter().all(|o| o.has_material(p)) {
             return -1.0;
         }
-        let all = obstacles.iter().map(|o| distance_to_contour(p, o));
-        all.fold(distance_to_contour(p, polygon), f64::min)
+        let own = distance_to_contour(p, polygon);
+        obstacles.iter().fold(own, |least, obstacle| obstacle.distance_below(p, least))
     };
     let cell = (high - low) / GRID as f64;
     let on_grid = |i: usize| low + cell * (DVec2::new((i % GRID) as f64, (i / GRID) as f64) + 0.5);
     let ears = (0..n).map(|i| (polygon[i] + polygon[(i + 1) % n] + polygon[(i + 2) % n]) / 3.0);
     let candidates = (0..GRID * GRID).map(on_grid).chain(ears).chain([centroid(polygon)]);
-    let deeper =
-        |best: (f64, DVec2), p: DVec2| if depth(p) > best.0 { (depth(p), p) } else { best };
+    let deeper = |best: (f64, DVec2), p: DVec2| {
+        let here = depth(p);
+        if here > best.0 { (here, p) } else { best }
+    };
     let mut best = candidates.fold((-1.0, low), deeper);
     let mut step = cell;
     for _ in 0..16 {
@@ -250,22 +236,6 @@ fn inner_point(polygon: &[DVec2], obstacles: Obstacles<'_>) -> DVec2 {
 /// Whether a label lies inside a face and on nothing else.
 fn is_free(polygon: &[DVec2], label: &Label, taken: &[[DVec2; 4]]) -> bool {
     taken.iter().all(|frame| !overlap(frame, &label.frame)) && frame_inside(polygon, &label.frame)
-}
-
-/// Whether a label neither crosses an obstacle nor has one inside, nor lies in a notch or hole that
-/// is cut away.
-pub(super) fn is_clear(label: &Label, obstacles: Obstacles<'_>) -> bool {
-    obstacles.iter().all(|o| is_on_material(o, label.frame[0]))
-        && obstacles.iter().all(|o| {
-            !borders_meet(o, &label.frame)
-                && o.first().is_none_or(|&p| locate(&label.frame, p) == Location::Outside)
-        })
-}
-
-/// Whether a point lies on the material side of an obstacle: outlines run counter-clockwise, holes
-/// clockwise, slits have no inside.
-fn is_on_material(obstacle: &[DVec2], p: DVec2) -> bool {
-    (locate(obstacle, p) == Location::Inside) == (obstacle.len() > 2 && signed_area(obstacle) > 0.0)
 }
 
 /// Whether a convex frame lies in the interior of a polygon, exactly.
@@ -285,6 +255,10 @@ mod tests {
     use crate::geom::polygon::segments_meet;
     use crate::net::PieceId;
     use crate::sheet::testing::{ell, piece, points, ring, square};
+
+    fn obstacles<const N: usize>(contours: [Vec<DVec2>; N]) -> Vec<Obstacle> {
+        contours.iter().filter_map(|contour| Obstacle::of(contour)).collect()
+    }
 
     fn assert_clear(piece: &Piece, label: &Label) {
         for stroke in &label.strokes {
@@ -325,7 +299,7 @@ mod tests {
         let mut frame = piece(PieceId(0), square(120.0));
         frame.holes = vec![hole.clone()];
         let contours = [square(120.0), hole];
-        let (_, label) = name_label(&frame, DVec2::X, &Taken::new(), &[contours.to_vec()])
+        let (_, label) = name_label(&frame, DVec2::X, &Taken::new(), &[obstacles(contours)])
             .expect("letters")
             .expect("room");
         assert_clear(&frame, &label);
@@ -372,7 +346,7 @@ mod tests {
             [vec![DVec2::ZERO], points(notch), points([(60.0, 0.0), (60.0, 60.0), (0.0, 60.0)])]
                 .concat();
         let label =
-            number_label("12", &piece.faces[0], [0, 1], segment, &[], std::slice::from_ref(&cut));
+            number_label("12", &piece.faces[0], [0, 1], segment, &[], &obstacles([cut.clone()]));
         let label = label.expect("letters").expect("room beside or behind the notch");
         let in_notch = label.frame.iter().all(|p| locate(&points(notch), *p) == Location::Inside);
         assert!(
@@ -383,10 +357,11 @@ mod tests {
         let hole = points([(10.0, 10.0), (10.0, 50.0), (50.0, 50.0), (50.0, 10.0)]);
         assert!(!is_clear(
             &set("1", DVec2::splat(30.0), DVec2::X, 3.0).expect("a letter"),
-            &[square(60.0), hole]
+            &obstacles([square(60.0), hole])
         ));
         let slit = points([(0.0, 50.0), (60.0, 50.0)]);
-        assert!(is_clear(&set("1", DVec2::splat(30.0), DVec2::X, 3.0).expect("a letter"), &[slit]));
+        let label = set("1", DVec2::splat(30.0), DVec2::X, 3.0).expect("a letter");
+        assert!(is_clear(&label, &obstacles([slit])));
     }
 
     #[test]

@@ -5,9 +5,8 @@ use std::collections::BTreeMap;
 
 use glam::DVec2;
 
-use super::label::{
-    Label, Taken, is_clear, name_label, number_across, number_label, obstacles_near,
-};
+use super::label::{Label, Taken, name_label, number_across, number_label};
+use super::obstacle::{Obstacle, is_clear, obstacles_near};
 use super::params::{Angles, Labels, LetterParams};
 use super::stretch::Stretch;
 use crate::geom::polygon::{Location, locate};
@@ -41,7 +40,7 @@ pub(crate) struct PieceLettering<'a> {
     here: &'a Features<'a>,
     placed: &'a Placed,
     /// For each face what its labels must keep clear of.
-    obstacles: Vec<Vec<Vec<DVec2>>>,
+    obstacles: Vec<Vec<Obstacle>>,
     params: LetterParams,
 }
 
@@ -56,7 +55,8 @@ impl<'a> PieceLettering<'a> {
         obstacles: &[Vec<DVec2>],
         params: LetterParams,
     ) -> Self {
-        let near = |face: &FlatFace| obstacles_near(&face.polygon, obstacles);
+        let obstacles: Vec<Obstacle> = obstacles.iter().filter_map(|o| Obstacle::of(o)).collect();
+        let near = |face: &FlatFace| obstacles_near(&face.polygon, &obstacles);
         let obstacles = piece.faces.iter().map(near).collect();
         Self { net, piece, here, placed, obstacles, params }
     }

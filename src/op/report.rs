@@ -2,7 +2,7 @@
 
 use super::OpError;
 use super::cut::{Cutter, Lineage};
-use super::simple::part_rims;
+use super::simple::keep_cut_simple;
 use crate::code::Code;
 use crate::measure::{CrossingKind, CrossingPair, crossings_while};
 use crate::mesh::{FaceId, Mesh, Renumbering, VertexId};
@@ -227,7 +227,7 @@ impl RoundMarks {
 pub(super) fn finish(mut mesh: Mesh, mut report: CutReport) -> (Mesh, CutReport) {
     let map = report.made.compact(&mut mesh);
     report.origins = report.origins.renumbered(&map, mesh.face_slots());
-    part_rims(&mut mesh, &mut report.made);
+    keep_cut_simple(&mut mesh, &mut report.made);
     report.not_three_valent = mesh.vertices().filter(|&v| mesh.valence(v) != 3).collect();
     report.components = mesh.components().len();
     (mesh, report)

@@ -1,6 +1,7 @@
 //! `kerfold help`: what `--help` says, for those who ask in words.
 
 use super::error::CliError;
+use super::output::command_line;
 use super::{Console, Outcome, command};
 use crate::units::nearest_word;
 
@@ -29,6 +30,12 @@ pub(super) fn run(args: &HelpArgs, console: &Console) -> Result<Outcome, CliErro
         }
         found = found.find_subcommand_mut(word).expect("a verb that was just listed");
     }
-    console.result(&found.render_long_help().to_string())?;
+    let text = found.render_long_help().to_string();
+    if console.json {
+        let told = serde_json::json!({ "command": command_line(), "help": text });
+        console.result(&format!("{told:#}\n"))?;
+    } else {
+        console.result(&text)?;
+    }
     Ok(Outcome::Clean)
 }

@@ -328,6 +328,11 @@ impl IoError {
     }
 }
 
+/// How a file is mended, while it is read or for good.
+fn repair_advice(way: &str, path: &Path) -> String {
+    format!("; or read with {way}, or `kerfold repair {} -o repaired.obj`", path.display())
+}
+
 /// What is read instead.
 fn other(wanted: &FileCounts, found: Option<&FileCounts>) -> String {
     match found {
@@ -345,20 +350,12 @@ fn advice(fault: &BuildError, path: &Path) -> String {
         BuildError::TooFewCorners { .. } => "; remove it",
         BuildError::TooMany { .. } => "; simplify the model first",
         BuildError::FlippedFace { .. } => {
-            return format!(
-                "; --orient does when reading, `kerfold repair {} -o repaired.obj` for good",
-                path.display()
-            );
+            let way = "--orient (--mend where there is one side only)";
+            return repair_advice(way, path);
         }
         BuildError::ThreeFacesAtEdge { .. }
         | BuildError::DegenerateFace { .. }
-        | BuildError::ZeroLengthEdge { .. } => {
-            return format!(
-                "; --mend does what is needed when reading, `kerfold repair {} -o repaired.obj` \
-                for good",
-                path.display()
-            );
-        }
+        | BuildError::ZeroLengthEdge { .. } => return repair_advice("--mend", path),
         _ => "",
     };
     text.to_owned()

@@ -38,7 +38,7 @@ fn what_a_cut_made_is_known_to_the_next_call() {
     assert!(faces.err.is_empty() || faces.code == Some(0), "{}", faces.err);
     // A mesh of which nobody said what was made has no strips.
     let none = cut("strip", &solid, &second);
-    assert!(none.code == Some(2) && none.err.contains("made none"), "{}", none.err);
+    assert!(none.code == Some(2) && none.err.contains("(E284)"), "{}", none.err);
 }
 
 #[test]

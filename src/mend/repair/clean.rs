@@ -1,25 +1,53 @@
 //! What needs no neighbours to be judged: vertices at one place, empty and doubled faces; and
 //! vertices that lie on the sides of other faces.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashSet};
 
 use glam::DVec3;
 
-use super::super::soup::{Soup, by_edge};
+use super::super::soup::{Soup, SoupFace, by_edge};
 use super::super::weld::{remove_spikes, weld_targets};
 use super::{Repair, Repairs};
 use crate::geom::{AxisBox, BoxTree};
 
 pub(super) fn weld(soup: &mut Soup, near: f64, repairs: &mut Repairs) {
-    let mut is_used = vec![false; soup.positions.len()];
-    soup.faces.iter().flat_map(|f| &f.corners).for_each(|&v| is_used[v as usize] = true);
-    let target = weld_targets(&soup.positions, near);
-    let welded = (0..target.len()).filter(|&v| is_used[v] && target[v] as usize != v).count();
-    for face in &mut soup.faces {
+    // Vertices of no face are nobody's place.
+    let mut used: Vec<u32> = soup.faces.iter().flat_map(|f| f.corners.iter().copied()).collect();
+    used.sort_unstable();
+    used.dedup();
+    let places: Vec<DVec3> = used.iter().map(|&v| soup.positions[v as usize]).collect();
+    let mut target: Vec<u32> = (0..soup.positions.len() as u32).collect();
+    for (&v, other) in used.iter().zip(weld_targets(&places, near)) {
+        target[v as usize] = used[other as usize];
+    }
+    let welded = (0..target.len()).filter(|&v| target[v] as usize != v).count();
+    let faces = std::mem::take(&mut soup.faces);
+    for mut face in faces {
         face.corners.iter_mut().for_each(|v| *v = target[*v as usize]);
         remove_spikes(&mut face.corners);
+        let rings = simple_rings(&face.corners).into_iter();
+        soup.faces.extend(rings.map(|corners| SoupFace { corners, source: face.source }));
     }
     repairs.add(Repair::Welded, welded);
+}
+
+/// A ring that visits vertices more than once as rings that do not: what lies between two visits is
+/// a ring of its own.
+fn simple_rings(ring: &[u32]) -> Vec<Vec<u32>> {
+    let (mut rings, mut open) = (Vec::new(), Vec::new());
+    for &v in ring {
+        if let Some(at) = open.iter().position(|&w| w == v) {
+            rings.push(open.split_off(at));
+        }
+        open.push(v);
+    }
+    rings.push(open);
+    // Of several rings those without area are nothing new; where all are, one stands for the face.
+    if rings.iter().any(|ring| ring.len() > 2) {
+        rings.retain(|ring| ring.len() > 2);
+    }
+    rings.truncate(rings.iter().filter(|ring| ring.len() > 2).count().max(1));
+    rings
 }
 
 /// Drops faces that are narrower than `near`.
@@ -47,31 +75,23 @@ pub(super) fn drop_empty(soup: &mut Soup, near: f64, repairs: &mut Repairs) {
 /// it is one too many: two solids that touch along a face both have it.
 pub(super) fn drop_doubled(soup: &mut Soup, repairs: &mut Repairs) {
     let before = soup.faces.len();
+    let mut met: HashSet<Vec<u32>> = HashSet::new();
+    soup.faces.retain(|face| met.insert(from_lowest(&face.corners)));
     let sides = soup.sides();
     let mut uses = vec![0_usize; sides.len()];
     for edge in by_edge(&sides) {
         edge.iter().for_each(|&s| uses[s as usize] = edge.len());
     }
     let mut first_side = 0;
-    let mut met: HashMap<Vec<u32>, Vec<Vec<u32>>> = HashMap::new();
-    let mut is_kept = Vec::with_capacity(before);
-    for face in &soup.faces {
+    let mut seen: HashSet<Vec<u32>> = HashSet::new();
+    soup.faces.retain(|face| {
         let own = &uses[first_side..first_side + face.corners.len()];
         first_side += face.corners.len();
-        let mut key = face.corners.clone();
-        key.sort_unstable();
-        let ring = from_lowest(&face.corners);
-        let others = met.entry(key).or_default();
-        let is_same = others.contains(&ring);
-        let back: Vec<u32> = from_lowest(&face.corners.iter().rev().copied().collect::<Vec<_>>());
-        let is_surplus = others.contains(&back) && own.iter().all(|uses| uses % 2 == 1);
-        is_kept.push(!(is_same || is_surplus));
-        if !(is_same || is_surplus) {
-            others.push(ring);
-        }
-    }
-    let mut kept = is_kept.into_iter();
-    soup.faces.retain(|_| kept.next().unwrap_or(true));
+        let back: Vec<u32> = face.corners.iter().rev().copied().collect();
+        let is_surplus = seen.contains(&from_lowest(&back)) && own.iter().all(|uses| uses % 2 == 1);
+        seen.insert(from_lowest(&face.corners));
+        !is_surplus
+    });
     repairs.add(Repair::Doubled, before - soup.faces.len());
 }
 

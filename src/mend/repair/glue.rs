@@ -24,13 +24,23 @@ impl Glue {
         let sides = soup.sides();
         let mut other = vec![NONE; sides.len()];
         let mut crowded = 0;
-        for edge in by_edge(&sides) {
+        let edges = by_edge(&sides);
+        // Faces that end somewhere are fins rather than walls of a solid.
+        let mut is_fin = vec![false; soup.faces.len()];
+        for edge in edges.iter().filter(|edge| edge.len() == 1) {
+            is_fin[sides[edge[0] as usize].face as usize] = true;
+        }
+        for edge in edges {
             let pairs = match edge[..] {
                 [_] => continue,
                 [a, b] => vec![[a, b]],
                 _ => {
                     crowded += 1;
-                    pairs_around(soup, &sides, &edge)
+                    let of_fin = |&s: &u32| is_fin[sides[s as usize].face as usize];
+                    let (fins, walls): (Vec<u32>, Vec<u32>) = edge.into_iter().partition(of_fin);
+                    let mut pairs = pairs_around(soup, &sides, &walls);
+                    pairs.extend(pairs_around(soup, &sides, &fins));
+                    pairs
                 }
             };
             for [a, b] in pairs {
@@ -212,7 +222,8 @@ fn turn_lesser(soup: &Soup, part: &[u32], is_turned: &mut [bool]) -> usize {
 /// a pair, as the faces say by the way they look; what they contradict each other about is paired
 /// by angle.
 fn pairs_around(soup: &Soup, sides: &[Side], edge: &[u32]) -> Vec<[u32; 2]> {
-    let [a, b] = sides[edge[0] as usize].ends();
+    let Some(&first) = edge.first() else { return Vec::new() };
+    let [a, b] = sides[first as usize].ends();
     let axis = (soup.positions[b as usize] - soup.positions[a as usize]).normalize_or_zero();
     let across = axis.any_orthonormal_vector();
     let up = axis.cross(across);

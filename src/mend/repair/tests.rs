@@ -179,3 +179,37 @@ fn the_needle_on_a_side_goes_and_nothing_stays_open() {
     assert!(mesh.is_closed());
     assert_eq!(done(&repairs), [(Repair::Empty, 1), (Repair::Junctions, 1)]);
 }
+
+mod random {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(512))]
+
+        /// Whatever the faces are: what is left is a surface that a file can hold.
+        #[test]
+        fn any_faces_become_a_surface(
+            points in prop::collection::vec(prop::array::uniform3(0_i8..3), 3..9),
+            faces in prop::collection::vec(prop::collection::vec(0_usize..64, 1..7), 1..12),
+            closes in any::<bool>(),
+        ) {
+            let places: Vec<DVec3> =
+                points.iter().map(|p| DVec3::from_array(p.map(f64::from))).collect();
+            let faces: Vec<Vec<u32>> = faces
+                .iter()
+                .map(|f| f.iter().map(|v| (v % places.len()) as u32).collect())
+                .collect();
+            let mut soup = soup(places, faces);
+            let params = RepairParams { close_holes: closes.then(|| Length::from_mm(9.0)) };
+            repair(&mut soup, &params);
+            if soup.faces.is_empty() {
+                return Ok(());
+            }
+            let mesh = soup.build(&Mesh::new()).expect("a surface");
+            assert_sound(&mesh);
+            prop_assert!(mesh.file_faults().is_empty(), "{:?}", mesh.file_faults());
+        }
+    }
+}

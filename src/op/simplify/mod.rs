@@ -28,7 +28,7 @@ use crate::measure::{CrossingPair, crossings, genus};
 use crate::mesh::{FaceId, Mesh, MeshBuilder, VertexId};
 use crate::units::{Length, counted};
 
-/// Where a result is no surface or too far off, it is asked for again with so much more.
+/// Where a result is no surface, it is asked for again with so many more faces.
 const MORE: f64 = 1.15;
 /// How often.
 const MOST_TRIES: usize = 12;
@@ -152,30 +152,70 @@ pub fn simplify(
         lost_seams: mesh.edges().filter(|&e| mesh.is_seam(e)).count(),
         ..SimplifyReport::default()
     };
-    let allowed = params.deviation.map(Length::mm);
-    let (mut faces, mut error) = (params.faces.unwrap_or(4), allowed.unwrap_or(NO_LIMIT));
+    let faces = params.faces.unwrap_or(4);
+    let result = match params.deviation {
+        None => to_number(mesh, &triangles, faces, context)?,
+        Some(deviation) => within(mesh, &triangles, (faces, deviation.mm()), context)?,
+    };
+    let Some(result) = result else {
+        return Err(OpError::NotSimplified { tries: MOST_TRIES });
+    };
+    report.deviation_mm = deviation(mesh, &result);
+    Ok(finish(mesh, result, params, report))
+}
+
+/// The mesh of about so many faces, or of more where it would be no surface.
+fn to_number(
+    mesh: &Mesh,
+    triangles: &Triangles,
+    mut faces: usize,
+    context: &OpContext<'_>,
+) -> Result<Option<Mesh>, OpError> {
     for round in 0..MOST_TRIES {
-        if context.progress.is_cancelled() {
-            return Err(OpError::Cancelled);
+        go_on(round, context)?;
+        let built = triangles.build(mesh, &triangles.fewer(faces, NO_LIMIT));
+        if built.is_some() {
+            return Ok(built);
         }
-        context.progress.report("simplifying", round, MOST_TRIES);
-        let corners = triangles.fewer(faces, error);
-        let built = triangles.build(mesh, &corners);
-        if let Some(result) = built {
-            report.deviation_mm = deviation(mesh, &result);
-            if allowed.is_none_or(|allowed| report.deviation_mm <= allowed) {
-                return Ok(finish(mesh, result, params, report));
-            }
-            error /= 2.0;
-        } else if params.faces.is_some() {
-            faces = (faces as f64 * MORE).ceil() as usize + 2;
-        }
-        if allowed.is_some() {
-            error /= MORE;
-        }
-        report.kept_more = true;
+        faces = (faces as f64 * MORE).ceil() as usize + 2;
     }
-    Err(OpError::NotSimplified { tries: MOST_TRIES })
+    Ok(None)
+}
+
+/// The mesh of the fewest faces found, not fewer than asked for, that keeps the deviation as it is
+/// measured. The library's own error is only about as large, so the one that leads to it is searched
+/// for by halving.
+fn within(
+    mesh: &Mesh,
+    triangles: &Triangles,
+    (faces, allowed): (usize, f64),
+    context: &OpContext<'_>,
+) -> Result<Option<Mesh>, OpError> {
+    let mut best: Option<Mesh> = None;
+    let (mut low, mut high) = (0.0, 2.0 * allowed);
+    for round in 0..MOST_TRIES {
+        go_on(round, context)?;
+        let middle = low + (high - low) / 2.0;
+        let built = triangles.build(mesh, &triangles.fewer(faces, middle));
+        match built.filter(|built| deviation(mesh, built) <= allowed) {
+            Some(built) => {
+                low = middle;
+                if best.as_ref().is_none_or(|best| built.face_count() < best.face_count()) {
+                    best = Some(built);
+                }
+            }
+            None => high = middle,
+        }
+    }
+    Ok(best)
+}
+
+fn go_on(round: usize, context: &OpContext<'_>) -> Result<(), OpError> {
+    if context.progress.is_cancelled() {
+        return Err(OpError::Cancelled);
+    }
+    context.progress.report("simplifying", round, MOST_TRIES);
+    Ok(())
 }
 
 fn finish(

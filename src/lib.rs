@@ -78,6 +78,11 @@ pub mod prelude {
     pub use crate::units::{Angle, Length};
 }
 
+/// The example of the README, which is tested as those of the two lower crates are.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}
+
 /// Small meshes for tests, shared with the kernel's own.
 #[cfg(test)]
 #[path = "../crates/kerfold-kernel/src/measure/fixtures.rs"]

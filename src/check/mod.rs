@@ -14,7 +14,7 @@ mod short;
 
 pub use details::{Details, EdgeDetail, VertexDetail, details};
 pub use params::{CheckError, CheckParams, Requirement};
-pub use profile::{Breach, Limits, Profile, Unit};
+pub use profile::{Breach, Limits, Profile, ROUNDED, Unit};
 pub use report::{
     CheckFinding, CheckKind, ConicalNode, Element, FaceReport, MOST_CROSSINGS, ModelCounts, Report,
     ValenceReport, Verdict,

@@ -24,8 +24,8 @@ pub struct CheckParams {
     pub profile: Profile,
 
     /// What else the model must be, separated by commas: `planar` (always checked), `valence3`,
-    /// `closed`, `convex`, `manifold`, `one-component`, `simple` (no face goes through another). What
-    /// is broken becomes a finding.
+    /// `closed`, `convex`, `manifold`, `one-component`, `simple` (no face goes through another).
+    /// What is broken becomes a finding.
     #[arg(
         long,
         value_enum,

@@ -4,6 +4,10 @@ use std::fmt;
 
 use crate::measure::Planarity;
 
+/// A corner that lies off the plane of its face by no more than this part of the face's diameter is
+/// rounding of the file: single precision, or seven digits.
+pub const ROUNDED: f64 = 1e-5;
+
 /// A named set of planarity limits (`operators.md` 11). They are kerfold's own defaults, not norms:
 /// ask your supplier.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, clap::ValueEnum)]

@@ -11,8 +11,8 @@ use crate::mesh::{EdgeId, FaceId, FaceMap, Mesh, VertexId};
 ///
 /// Always findings: faces beyond the planarity limits, without area or with an outline that meets
 /// itself, and edges without length (shorter than the rounding bound, 1e-12 of the model). Only
-/// when required: valence, rims, convexity, vertices at one place, several components, faces that go
-/// through each other; these are still reported as data.
+/// when required: valence, rims, convexity, vertices at one place, several components, faces that
+/// go through each other; these are still reported as data.
 ///
 /// # Errors
 /// [`CheckError::BadLimit`] when a limit is negative or not finite.

@@ -56,7 +56,13 @@ struct CutOf<T: Args> {
     params: T,
     /// Afterwards split vertices with more than three edges into 3-valent ones by moving faces
     /// inwards, by 0.01mm at most or as far as given
-    #[arg(long, value_name = "DEPTH", num_args = 0..=1, require_equals = true, default_missing_value = "0.01mm")]
+    #[arg(
+        long,
+        value_name = "DEPTH",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "0.01mm"
+    )]
     resolve: Option<Length>,
     /// The mesh to write: OBJ, PLY, STL or OFF; `-` writes OBJ to standard output. With `--keep
     /// both` two meshes are written, OUT-reverse and OUT-normal

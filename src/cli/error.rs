@@ -45,7 +45,10 @@ pub(super) enum CliError {
     Step(#[from] MakeError),
     #[error("{}: {error}", path.display())]
     Recipe { path: PathBuf, error: Box<RecipeError>, text: String },
-    #[error("{}: there are no recipes in this folder; put files that end in .toml into it", path.display())]
+    #[error(
+        "{}: there are no recipes in this folder; put files that end in .toml into it",
+        path.display()
+    )]
     NoRecipes { path: PathBuf },
     #[error("no recipe is named {name}; known are {known}")]
     UnknownRecipe { name: String, known: String },
@@ -81,7 +84,10 @@ pub(super) enum CliError {
     Stopped,
     #[error("writing to standard output: {0}")]
     Stdout(io::Error),
-    #[error("`{word}` is no code and no finding; {}`kerfold explain` lists all", did_you_mean(nearest.as_deref()))]
+    #[error(
+        "`{word}` is no code and no finding; {}`kerfold explain` lists all",
+        did_you_mean(nearest.as_deref())
+    )]
     NoSuchCode { word: String, nearest: Option<String> },
 }
 

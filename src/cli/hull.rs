@@ -24,7 +24,11 @@ pub(super) struct HullArgs {
     #[command(flatten)]
     options: ReadOptions,
     /// Half-spaces instead of a mesh: nx,ny,nz,d on each line for n·x <= d
-    #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["dual", "no_box", "clusters", "by_group", "parts", "steps"])]
+    #[arg(
+        long,
+        value_name = "FILE.csv",
+        conflicts_with_all = ["dual", "no_box", "clusters", "by_group", "parts", "steps"]
+    )]
     planes: Option<PathBuf>,
     #[command(flatten)]
     hull: HullParams,

@@ -59,7 +59,10 @@ pub(super) fn run(args: &KerfTestArgs, console: &Console) -> Result<Outcome, Cli
     let path = &args.output;
     if console.json {
         let (width, height) = (drawing.width, drawing.height);
-        let told = json!({ "command": command, "written": path.to_string_lossy(), "thickness": thickness, "width": width, "height": height });
+        let told = json!({
+            "command": command, "written": path.to_string_lossy(), "thickness": thickness,
+            "width": width, "height": height,
+        });
         console.result(&format!("{told:#}\n"))?;
     } else {
         let (width, height) = (drawing.width, drawing.height);

@@ -50,8 +50,10 @@ pub(super) fn run(args: &NestArgs, console: &Console) -> Result<Outcome, CliErro
     if console.json {
         let layout = &fabrication.sheets.layout;
         let told = json!({
-            "command": command, "written": written, "notes": notes, "pieces": fabrication.net.pieces.len(),
-            "sheets": layout.sheets.len(), "density": layout.density, "cut_length": layout.cut_length,
+            "command": command, "written": written, "notes": notes,
+            "pieces": fabrication.net.pieces.len(),
+            "sheets": layout.sheets.len(), "density": layout.density,
+            "cut_length": layout.cut_length,
             "offcut": layout.sheets.last().and_then(|s| s.offcut),
         });
         console.result(&format!("{told:#}\n"))?;

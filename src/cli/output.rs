@@ -9,7 +9,7 @@ use super::error::CliError;
 use super::snippet::recipe_snippet;
 use crate::code::Coded;
 use crate::io::output::{OutputFolder, write_file, write_files};
-use crate::io::{IoError, MeshFormat, WriteOptions, mesh_bytes};
+use crate::io::{IoError, MeshFormat, WriteOptions, file_note, mesh_bytes};
 use crate::measure::size;
 use crate::mesh::Mesh;
 use crate::units::counted;
@@ -80,6 +80,7 @@ impl Console {
     }
 
     fn show_model(&self, path: &Path, mesh: &Mesh, notes: &[String]) -> Result<(), CliError> {
+        let notes: Vec<String> = notes.iter().cloned().chain(file_note(mesh)).collect();
         let is_stdout = path == Path::new("-");
         if self.json {
             let (command, model) = (command_line(), model_json(mesh));
@@ -94,7 +95,7 @@ impl Console {
             }
             return Ok(());
         }
-        self.notes(notes);
+        self.notes(&notes);
         let text = format!("{}: {}", path.display(), model_text(mesh));
         match (is_stdout, self.quiet) {
             (true, false) => say(&text),

@@ -60,7 +60,8 @@ pub(super) fn run(args: &PanelsArgs, console: &Console) -> Result<Outcome, CliEr
     if console.json {
         let summary = json!({
             "command": command, "written": written, "notes": notes, "model": model_json(&read.mesh),
-            "panels": panels_json(&panelled), "fabrication": summary_json(&panelled.fabrication, &sheet),
+            "panels": panels_json(&panelled),
+            "fabrication": summary_json(&panelled.fabrication, &sheet),
         });
         console.result(&format!("{summary:#}\n"))?;
     } else {
@@ -156,7 +157,8 @@ fn finding_text(finding: &PanelFinding) -> String {
 pub(super) fn panels_json(panelled: &Panelled) -> Value {
     let (schedule, totals) = (&panelled.schedule, &panelled.schedule.totals);
     json!({
-        "count": schedule.panels.len(), "different": schedule.groups.len(), "area_mm2": totals.area, "mass_kg": totals.mass,
+        "count": schedule.panels.len(), "different": schedule.groups.len(), "area_mm2": totals.area,
+        "mass_kg": totals.mass,
         "edge_work_mm": totals.bevelled, "nodes_above_valence_3": totals.nodes_above_three,
         "largest_residual_mm_per_mm": totals.residual, "largest_miss_mm": totals.miss_mm,
         "verdict": if panelled.findings.is_empty() { "pass" } else { "fail" },

@@ -66,7 +66,10 @@ pub(super) fn run(args: &RenderArgs, console: &Console) -> Result<Outcome, CliEr
     console.notes(&read.notes);
     let (width, height) = size;
     if console.json {
-        let summary = serde_json::json!({ "command": command_line(), "written": args.output.to_string_lossy(), "width": width, "height": height });
+        let summary = serde_json::json!({
+            "command": command_line(), "written": args.output.to_string_lossy(),
+            "width": width, "height": height,
+        });
         console.result(&format!("{summary:#}\n"))?;
     } else {
         console.result(&format!("{}: {width} × {height} pixels\n", args.output.display()))?;

@@ -37,7 +37,7 @@ pub(super) fn run(args: &RunArgs, console: &Console) -> Result<Outcome, CliError
     finish(&job, recipe.name, (&args.output, args.clean), console)
 }
 
-/// Writes everything that a job has made into a folder and tells about it.
+/// Writes everything that a job has made into a folder and reports it.
 pub(super) fn finish(
     job: &Job,
     name: Option<String>,
@@ -54,8 +54,10 @@ pub(super) fn finish(
     let panelled = job.panelled.as_ref().map(|(panelled, _)| panelled);
     if console.json {
         let summary = json!({
-            "command": command, "name": name, "written": written, "notes": job.notes, "model": model_json(job.mesh()?),
-            "verdict": report.verdict().name(), "fabrication": job.fabrication.as_ref().map(|(f, sheet)| summary_json(f, sheet)),
+            "command": command, "name": name, "written": written, "notes": job.notes,
+            "model": model_json(job.mesh()?),
+            "verdict": report.verdict().name(),
+            "fabrication": job.fabrication.as_ref().map(|(f, sheet)| summary_json(f, sheet)),
             "panels": panelled.map(panels_json),
             "unclean": job.with_findings.iter().map(ToString::to_string).collect::<Vec<_>>(),
         });
@@ -95,7 +97,10 @@ fn nested(
 ) -> Result<Outcome, CliError> {
     if console.json {
         let fabrication = summary_json(fabrication, sheet);
-        let told = json!({ "command": command, "name": name, "written": written, "notes": job.notes, "fabrication": fabrication });
+        let told = json!({
+            "command": command, "name": name, "written": written, "notes": job.notes,
+            "fabrication": fabrication,
+        });
         console.result(&format!("{told:#}\n"))?;
     } else {
         console.notes(&job.notes);

@@ -102,7 +102,8 @@ fn rows(
 fn row_json(row: &Row) -> serde_json::Value {
     let folds: Vec<usize> = row.folds.iter().map(|e| e.index()).collect();
     json!({
-        "selection": row.selection, "pieces": row.pieces, "seam_cycles": row.cycles, "seam_length_mm": row.seam_length,
+        "selection": row.selection, "pieces": row.pieces, "seam_cycles": row.cycles,
+        "seam_length_mm": row.seam_length,
         "fold_sum_rad_mm": row.fold_sum, "orbit": row.orbit, "folds": folds,
     })
 }

@@ -71,7 +71,10 @@ pub(super) fn run(args: &UnfoldArgs, console: &Console) -> Result<Outcome, CliEr
         .chain(stopped)
         .collect();
     if console.json {
-        let summary = json!({ "command": command, "written": written, "notes": notes, "fabrication": summary_json(&fabrication, &sheet) });
+        let summary = json!({
+            "command": command, "written": written, "notes": notes,
+            "fabrication": summary_json(&fabrication, &sheet),
+        });
         console.result(&format!("{summary:#}\n"))?;
     } else {
         console.notes(&notes);
@@ -132,11 +135,13 @@ pub(super) fn summary_text(fabrication: &Fabrication, sheet: &SheetParams) -> St
 pub(super) fn summary_json(fabrication: &Fabrication, sheet: &SheetParams) -> serde_json::Value {
     let (net, layout) = (&fabrication.net, &fabrication.sheets.layout);
     json!({
-        "pieces": net.pieces.len(), "folds": net.folds.len(), "seams": net.seams.len(), "rims": net.rims.len(),
+        "pieces": net.pieces.len(), "folds": net.folds.len(), "seams": net.seams.len(),
+        "rims": net.rims.len(),
         "proof": { "congruence_mm": net.proof.congruence_mm, "refold_mm": net.proof.refold_mm, "overlaps": net.proof.overlaps },
         "sheets": layout.sheets.len(), "density": layout.density,
         "cut_length": layout.cut_length, "score_length": layout.score_length,
         "findings": fabrication.findings(),
-        "travel_length": fabrication.sheets.travel_length(), "seconds": fabrication.sheets.seconds(sheet),
+        "travel_length": fabrication.sheets.travel_length(),
+        "seconds": fabrication.sheets.seconds(sheet),
     })
 }

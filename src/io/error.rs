@@ -4,8 +4,9 @@ use std::fmt;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+use super::format::MeshFormat;
 use crate::code::codes;
-use crate::mesh::{BuildError, FileFault};
+use crate::mesh::{BuildError, FileCounts, FileFault};
 
 /// Where in a file something is. Shown as `spot.obj:17`, or as `spot.stl` when the file has no
 /// lines.
@@ -61,8 +62,11 @@ pub enum IoError {
         /// What the system says.
         source: std::io::Error,
     },
-    /// Neither the name nor the content tells the format.
-    #[error("{}: unknown mesh format; use a name that ends in .obj, .ply, .stl or .off", path.display())]
+    /// Neither the name nor the content shows the format.
+    #[error(
+        "{}: unknown mesh format; use a name that ends in .obj, .ply, .stl or .off",
+        path.display()
+    )]
     UnknownFormat {
         /// The file.
         path: PathBuf,
@@ -163,7 +167,11 @@ pub enum IoError {
         mm: f64,
     },
     /// The folder to write into does not exist.
-    #[error("cannot write {}: there is no folder {}; make it first", path.display(), folder.display())]
+    #[error(
+        "cannot write {}: there is no folder {}; make it first",
+        path.display(),
+        folder.display()
+    )]
     NoFolder {
         /// The file.
         path: PathBuf,
@@ -171,7 +179,11 @@ pub enum IoError {
         folder: PathBuf,
     },
     /// Something else than a folder stands where a folder is needed.
-    #[error("cannot write into {}: {} is a file, not a folder; choose another place", path.display(), file.display())]
+    #[error(
+        "cannot write into {}: {} is a file, not a folder; choose another place",
+        path.display(),
+        file.display()
+    )]
     NotAFolder {
         /// What was to be written, or made.
         path: PathBuf,
@@ -185,7 +197,10 @@ pub enum IoError {
         path: PathBuf,
     },
     /// The system refuses to write.
-    #[error("cannot write {} ({source}); check that you may write there and that the disk has room", path.display())]
+    #[error(
+        "cannot write {} ({source}); check that you may write there and that the disk has room",
+        path.display()
+    )]
     Unwritable {
         /// The file or folder.
         path: PathBuf,
@@ -209,12 +224,36 @@ pub enum IoError {
         /// What is wrong with it, in numbers of the mesh in memory.
         fault: FileFault,
     },
-    /// What was to be written as OBJ reads otherwise than the mesh: a fault of ours.
+    /// What was to be written reads otherwise than the mesh: a fault of ours.
     #[error(
-        "the OBJ text does not say what the mesh is, so nothing was written; please report this \
-        bug, and write PLY or OFF instead"
+        "the file read back does not say what the mesh is, so nothing was written; please report \
+        this bug, and write another format than {format}"
     )]
-    NotReadBack,
+    NotReadBack {
+        /// Of which format.
+        format: MeshFormat,
+    },
+    /// A mesh that readers would take for another.
+    #[error(
+        "this mesh would be read as another: {}; take another step, or other numbers, that leave \
+        a mesh of simple polygons with one rim at most at each vertex",
+        other(wanted, found.as_ref())
+    )]
+    ReadAsOther {
+        /// What is in memory.
+        wanted: FileCounts,
+        /// What a reader finds; `None` when it refuses the file.
+        found: Option<FileCounts>,
+    },
+    /// A mesh that STL cannot hold: it knows vertices by their places, in single precision.
+    #[error(
+        "STL, which knows vertices by their places alone, cannot hold this mesh: {why}; write OBJ, \
+        PLY or OFF"
+    )]
+    NotForStl {
+        /// What happens to it.
+        why: String,
+    },
     /// A coordinate does not fit the single precision of glTF.
     #[error("{name} is too far out for GLB, which holds numbers up to 3e38; write OBJ or PLY")]
     TooFarForGlb {
@@ -250,6 +289,8 @@ codes!(error IoError {
     TooFarForGlb = 118,
     NotForFiles = 119,
     NotReadBack = 120,
+    ReadAsOther = 121,
+    NotForStl = 122,
     Workbook = 128,
 } through {
     Content.fault,
@@ -270,6 +311,14 @@ impl IoError {
             ErrorKind::IsADirectory => Self::IsFolder { path },
             _ => Self::Unreadable { path, source },
         }
+    }
+}
+
+/// What is read instead.
+fn other(wanted: &FileCounts, found: Option<&FileCounts>) -> String {
+    match found {
+        Some(found) => format!("{found} instead of {wanted}"),
+        None => "more than two faces meet at an edge, or a face comes twice to a vertex".to_owned(),
     }
 }
 

@@ -1,7 +1,7 @@
 //! Files in and out, one direction of one format per file.
 //!
-//! [`read_mesh`] reads OBJ, PLY, STL and OFF, [`write_mesh`] writes them; `-` is standard output and
-//! means OBJ. Everything that kerfold writes goes through [`output`], so that a file is
+//! [`read_mesh`] reads OBJ, PLY, STL and OFF, [`write_mesh`] writes them; `-` is standard output
+//! and means OBJ. Everything that kerfold writes goes through [`output`], so that a file is
 //! whole or not there.
 
 mod base64;
@@ -34,4 +34,4 @@ pub use read::{
 pub use write::glb;
 pub use write::plates;
 pub use write::step;
-pub use write::{PlyEncoding, WriteOptions, mesh_bytes, write_mesh};
+pub use write::{PlyEncoding, WriteOptions, file_note, mesh_bytes, write_mesh};

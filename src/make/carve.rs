@@ -51,12 +51,13 @@ impl CarvedDform {
 /// Chooses the folds and cuts them off, round after round.
 ///
 /// The pieces that the folds promise are those that come out: what is connected before carving is
-/// connected by folds after it, and the carved pieces are laid out to see that no fold opens. For two pieces and for one, choices are tried in the order of their fold sums, 24 at most,
-/// until that holds. Where no choice keeps its promise, the largest smaller offset at which one
-/// does is taken if the offset was left open, and named if it was given; where there is none
-/// either, the first choice is kept, with a note. On a mesh that is not convex only those folds are
-/// cut off whose ends are convex corners, each without touching the rest of the mesh; no plane can
-/// shave the others, which stay sharp folds.
+/// connected by folds after it, and the carved pieces are laid out to see that no fold opens. For
+/// two pieces and for one, choices are tried in the order of their fold sums, 24 at most, until
+/// that holds. Where no choice keeps its promise, the largest smaller offset at which one does is
+/// taken if the offset was left open, and named if it was given; where there is none either, the
+/// first choice is kept, with a note. On a mesh that is not convex only those folds are cut off
+/// whose ends are convex corners, each without touching the rest of the mesh; no plane can shave
+/// the others, which stay sharp folds.
 ///
 /// # Errors
 /// [`MakeError::Seam`] when the mesh is open, not 3-valent, or has no such choice;
@@ -327,8 +328,8 @@ fn edges_within_pieces(
     carved.edges().filter(is_within).collect()
 }
 
-/// Of the candidates those that join what the folds leave apart, the longest first. The others would
-/// close a ring around a vertex whose faces cannot lie flat together, and stay seams.
+/// Of the candidates those that join what the folds leave apart, the longest first. The others
+/// would close a ring around a vertex whose faces cannot lie flat together, and stay seams.
 fn joining(mesh: &Mesh, folds: &[EdgeId], mut candidates: Vec<EdgeId>) -> Vec<EdgeId> {
     let mut piece = piece_of_faces(mesh, folds);
     candidates

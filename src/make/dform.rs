@@ -134,7 +134,12 @@ pub struct DformParams {
     #[serde(default)]
     pub offset: Option<f64>,
     /// How far the planes lean towards one of the two faces, -1 to 1; 0 weighs their normals alike
-    #[arg(long, default_value_t = 0.0, value_parser = crate::units::parse_number, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        default_value_t = 0.0,
+        value_parser = crate::units::parse_number,
+        allow_negative_numbers = true
+    )]
     #[serde(default)]
     pub bend: f64,
 }

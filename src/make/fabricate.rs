@@ -109,6 +109,7 @@ pub fn fabricate(
     progress: &dyn Progress,
 ) -> Result<Fabrication, MakeError> {
     let FabricateSettings { unfold: params, choice, sheet } = *settings;
+    sheet.check_sheets()?;
     let context = Context { mesh, made, progress };
     let keep = selected(&context, choice.keep.as_ref())?;
     let (mut seams, words) = choose_seams(&context, source, params, choice)?;

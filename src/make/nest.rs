@@ -22,7 +22,12 @@ pub struct NestStep {
     pub pieces: Vec<PathBuf>,
     /// How often everything is made, 1 to 10000; a file may give a quantity for each of its pieces,
     /// too
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 1,
+        value_parser = clap::value_parser!(u32).range(1..=10_000)
+    )]
     #[serde(default = "once")]
     pub quantity: u32,
 }
@@ -47,8 +52,8 @@ fn one_or_many<'de, D: serde::Deserializer<'de>>(
     })
 }
 
-/// What the pieces of files are, which the files do not say: plates are cut otherwise than along the
-/// border of their only face.
+/// What the pieces of files are, which the files do not say: plates are cut otherwise than along
+/// the border of their only face.
 fn kind_of(net: &Net) -> PieceKind {
     let is_plate = |piece: &Piece| match piece.faces.as_slice() {
         [face] => piece.outline != face.polygon || !piece.holes.is_empty(),

@@ -205,7 +205,14 @@ fn layout_notes(report: &SheetReport) -> impl Iterator<Item = String> {
     let shared = note(usize::from(shared > 0.0), || {
         format!("{shared} mm of cuts are shared by two parts and cut once")
     });
-    [stopped, spacing, shared].into_iter().flatten()
+    let widened = note(report.widened_pieces.len(), || {
+        format!(
+            "lines of pieces cross, so that they take more room on the sheet, and no other lies in \
+            their holes: {}",
+            piece_list(&report.widened_pieces)
+        )
+    });
+    [stopped, spacing, shared, widened].into_iter().flatten()
 }
 
 /// What the info layer lacks.

@@ -41,8 +41,8 @@ pub struct ShowParams {
     #[arg(long, value_name = "FILE")]
     #[serde(default)]
     pub animate: Option<AnimationFile>,
-    /// How the order of assembly is shown: as a list, or as pictures too (assembly-01.png, …, twelve
-    /// steps each)
+    /// How the order of assembly is shown: as a list, or as pictures too (assembly-01.png, …,
+    /// twelve steps each)
     #[arg(long, value_enum, default_value = "list")]
     #[serde(default)]
     pub assembly: AssemblyForm,

@@ -1,10 +1,12 @@
 //! What a chain of cuts made and removed.
 
+use super::OpError;
 use super::cut::{Cutter, Lineage};
 use super::simple::part_rims;
 use crate::code::Code;
-use crate::measure::{CrossingKind, CrossingPair};
+use crate::measure::{CrossingKind, CrossingPair, crossings_while};
 use crate::mesh::{FaceId, Mesh, Renumbering, VertexId};
+use crate::progress::Progress;
 use crate::select::NewElements;
 
 /// The first of a list as a note names them; dots stand for the rest.
@@ -23,7 +25,19 @@ pub struct ShrunkOffset {
 }
 
 /// As many pairs of faces as a report may hold; more say nothing new.
-pub(super) const MOST_PAIRS: usize = 1000;
+const MOST_PAIRS: usize = 1000;
+
+/// The pairs of faces of a result that go through each other, as many as a report may hold.
+///
+/// # Errors
+/// [`OpError::Cancelled`].
+pub(super) fn crossing_pairs(
+    mesh: &Mesh,
+    progress: &dyn Progress,
+) -> Result<Vec<CrossingPair>, OpError> {
+    progress.report("looking for crossings", 0, 1);
+    crossings_while(mesh, MOST_PAIRS, &|| !progress.is_cancelled()).ok_or(OpError::Cancelled)
+}
 
 /// A note on faces that go through each other; `None` without any.
 pub(super) fn crossing_note(pairs: &[CrossingPair], code: Code) -> Option<String> {

@@ -61,8 +61,8 @@ impl Mended {
     }
 }
 
-/// Makes a result as simple as the mesh was that it was made of. Meshes with self-loops, 2-gons and
-/// their like are on the way to something else, and may stay so.
+/// Makes a result one that files can hold. Where the mesh that it was made of had self-loops, 2-gons
+/// and their like, and the result has some, it is on the way to something else, and may stay so.
 ///
 /// # Errors
 /// [`OpError::NotSimple`] with the first fault that could not be mended.
@@ -72,30 +72,25 @@ pub(super) fn keep_simple(
     made: &mut NewElements,
     advice: &'static str,
 ) -> Result<Mended, OpError> {
-    if !is_simple(before) {
+    if is_unfinished(before) && is_unfinished(result) {
         return Ok(Mended::default());
     }
     let mended = make_simple(result, made);
     if let Some(&fault) = result.file_faults().first() {
         return Err(OpError::NotSimple { fault, advice });
     }
-    if has_more_than_files(result) {
+    if is_unfinished(result) || has_pinches(result) {
         *result = as_polygons(result, made)
             .map_err(|_| OpError::NotSimple { fault: FileFault::NoFaces, advice })?;
     }
     Ok(mended)
 }
 
-fn is_simple(mesh: &Mesh) -> bool {
-    !has_more_than_files(mesh) && mesh.file_faults().is_empty()
-}
-
-/// Whether a mesh has self-loops, faces with fewer than three different corners, or vertices with
-/// several rims.
-fn has_more_than_files(mesh: &Mesh) -> bool {
+/// Whether a mesh has self-loops, or faces with fewer than three different corners: no part of
+/// files, and good for the next operator only.
+fn is_unfinished(mesh: &Mesh) -> bool {
     mesh.edges().any(|e| is_loop(mesh, e))
         || mesh.faces().any(|f| straight_corners(mesh, f).len() < 3)
-        || has_pinches(mesh)
 }
 
 /// Whether several rims run through one vertex: a file holds a vertex for each of them.
@@ -108,13 +103,9 @@ fn has_pinches(mesh: &Mesh) -> bool {
 /// Pulls vertices apart through which several rims run, where nothing else keeps the mesh from
 /// being a file.
 pub(super) fn part_rims(mesh: &mut Mesh, made: &mut NewElements) {
-    let is_file = |mesh: &Mesh| {
-        !mesh.edges().any(|e| is_loop(mesh, e))
-            && mesh.faces().all(|f| straight_corners(mesh, f).len() > 2)
-            && mesh.file_faults().is_empty()
-    };
     if has_pinches(mesh)
-        && is_file(mesh)
+        && !is_unfinished(mesh)
+        && mesh.file_faults().is_empty()
         && let Ok(parted) = as_polygons(mesh, made)
     {
         *mesh = parted;

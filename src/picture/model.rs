@@ -34,6 +34,15 @@ const PLANAR: f64 = 1e-6;
 /// # Errors
 /// [`PictureError::SizeOutOfRange`], [`PictureError::NoDirection`], [`PictureError::NoFaces`] and
 /// [`PictureError::VertexTooFar`].
+///
+/// # Example
+/// ```
+/// use kerfold::picture::{RenderParams, render_model};
+///
+/// let picture = render_model(&kerfold::shape::cube(40.0), &RenderParams::default())?;
+/// assert!(picture.width() > 0);
+/// # Ok::<(), kerfold::picture::PictureError>(())
+/// ```
 pub fn render_model(mesh: &Mesh, params: &RenderParams) -> Result<Picture, PictureError> {
     render_with(mesh, params, &Marks::default())
 }

@@ -298,7 +298,7 @@ impl RenderParams {
             View::Bottom => (-DVec3::Z, Some(-DVec3::Y)),
         };
         let up = if self.up == UpAxis::Z { DVec3::Z } else { DVec3::Y };
-        // Named views are told with z up; the quarter turn about x takes z to y and the front (−y)
+        // Named views are given with z up; the quarter turn about x takes z to y and the front (−y)
         // to z.
         let is_named = !matches!(self.view, View::From(_));
         let turn = |d: DVec3| {

@@ -229,7 +229,7 @@ impl<'a> Stage<'a> {
         }
     }
 
-    /// Adds the polygon of the origins of `half_edges`; tells whether its front is seen.
+    /// Adds the polygon of the origins of `half_edges`; says whether its front is seen.
     fn add_facet(
         &mut self,
         face: FaceId,

@@ -8,7 +8,7 @@ use clap::{Args, Command};
 use serde::de::DeserializeOwned;
 
 use super::error::RecipeError;
-use super::parse::StepFields;
+use super::fields::{KnownKeys, StepFields};
 use super::{
     DformParams, FabricateParams, NestStep, OperatorStep, PanelFiles, PlanesStep, PointOut,
     ReadStep, ShowParams, Step, StoryParams,
@@ -51,8 +51,9 @@ impl StepKind {
     }
 
     /// All keys, that of the field of the verb among them.
-    pub(super) fn keys(&self) -> Vec<String> {
-        self.command().get_arguments().map(|a| a.get_id().to_string()).collect()
+    pub(super) fn known_keys(&self) -> KnownKeys {
+        let all = self.command().get_arguments().map(|a| a.get_id().to_string()).collect();
+        KnownKeys { all, of_verb: self.field, words: self.words }
     }
 }
 
@@ -162,12 +163,6 @@ fn operator<T: Args + DeserializeOwned + Operate + 'static>(
     verb: &'static str,
 ) -> Result<Step, RecipeError> {
     Ok(Step::Operator(OperatorStep { verb, params: Arc::new(step.read::<T>()?) }))
-}
-
-/// The names of a parameter struct's fields, as its command-line definition has them.
-pub(super) fn field_names<T: Args>() -> Vec<String> {
-    let command = T::augment_args(Command::new("step"));
-    command.get_arguments().map(|a| a.get_id().to_string()).collect()
 }
 
 /// The verbs, each once.

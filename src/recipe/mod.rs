@@ -2,9 +2,11 @@
 //!
 //! Every step is the same parameter struct as the verb of that name on the command line. The steps
 //! of a recipe share one
-//! [`Job`]: the mesh as it is by then, what the last step made, and the results that are written at the end.
+//! [`Job`]: the mesh as it is by then, what the last step made, and the results that are written at
+//! the end.
 
 mod error;
+mod fields;
 mod job;
 mod keys;
 mod outputs;

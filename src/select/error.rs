@@ -88,7 +88,10 @@ pub enum SelectError {
         source: SeamError,
     },
     /// Nothing fits.
-    #[error("`{selection}` selects no {kind}{}", found.as_ref().map(|found| format!("; {found}")).unwrap_or_default())]
+    #[error(
+        "`{selection}` selects no {kind}{}",
+        found.as_ref().map(|found| format!("; {found}")).unwrap_or_default()
+    )]
     Empty {
         /// The whole selection.
         selection: String,

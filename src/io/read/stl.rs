@@ -37,7 +37,7 @@ pub(super) fn read(bytes: &[u8], text: &[u8]) -> Result<RawMesh, Located> {
 
 /// Whether the length is what the number of triangles in a binary header asks for. Some binary
 /// files begin with `solid`.
-pub(in crate::io) fn is_binary(bytes: &[u8]) -> bool {
+pub(super) fn is_binary(bytes: &[u8]) -> bool {
     announced(bytes)
         .is_some_and(|count| (bytes.len() - HEADER - 4) as u64 == count * TRIANGLE as u64)
 }

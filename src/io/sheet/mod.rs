@@ -1,4 +1,5 @@
-//! Sheets in every format that shops take, all made from the same drawing, and where each piece lies.
+//! Sheets in every format that shops take, all made from the same drawing, and where each piece
+//! lies.
 
 pub mod dxf;
 pub mod files;

@@ -15,6 +15,7 @@ mod off;
 pub mod plates;
 mod ply;
 mod polygons;
+mod read_back;
 pub mod step;
 mod stl;
 
@@ -82,9 +83,10 @@ pub fn write_mesh(path: &Path, mesh: &Mesh, options: &WriteOptions) -> Result<()
 /// rounds to single precision and cuts faces into triangles.
 ///
 /// # Errors
-/// [`IoError::NotForFiles`] for a mesh that would not be read again; [`IoError::NotReadBack`] for a
-/// fault of the OBJ writer, which another reader checks;
-/// [`IoError::TooFarForStl`] when a coordinate does not fit.
+/// [`IoError::NotForFiles`] for a mesh that would not be read again, [`IoError::ReadAsOther`] for
+/// one that would be read as another; [`IoError::NotReadBack`] for a fault of a writer: all files
+/// are read back by other code. [`IoError::TooFarForStl`] when a coordinate does not fit,
+/// [`IoError::NotForStl`] when parts touch that STL cannot tell apart.
 ///
 /// # Example
 /// ```
@@ -103,18 +105,25 @@ pub fn mesh_bytes(
     if let Some(&fault) = mesh.file_faults().first() {
         return Err(IoError::NotForFiles { fault });
     }
-    Ok(match format {
-        MeshFormat::Obj => {
-            let text = obj::write(mesh, options);
-            if !obj_check::says(&text, mesh) {
-                return Err(IoError::NotReadBack);
-            }
-            text
-        }
+    read_back::check_counts(mesh)?;
+    let bytes = match format {
+        MeshFormat::Obj => obj::write(mesh, options),
         MeshFormat::Ply => ply::write(mesh, options),
         MeshFormat::Off => off::write(mesh, options),
         MeshFormat::Stl => stl::write(mesh, options)?,
-    })
+    };
+    read_back::check_bytes(format, &bytes, mesh)?;
+    Ok(bytes)
+}
+
+/// What the user should know of the file of a mesh: what holds a mesh in memory together, but is no
+/// part of files.
+pub fn file_note(mesh: &Mesh) -> Option<String> {
+    let counts = mesh.file_counts().filter(|_| read_back::has_more_than_files(mesh))?;
+    Some(format!(
+        "self-loops and faces with two sides are no part of files: the file has {counts}; smooth \
+        the model before it is written to keep it in one"
+    ))
 }
 
 #[cfg(test)]

@@ -6,12 +6,14 @@ use std::f64::consts::PI;
 use glam::DVec3;
 
 use super::super::OpError;
-use super::Thickness;
+use super::super::size::ask;
+use super::{MengerParams, Thickness};
 use crate::geom::{Plane, RoundingBound, meet_planes_near};
 use crate::measure::dihedral_angle;
 use crate::mesh::{
     EdgeMap, FaceId, FaceMap, HalfEdgeId, HalfEdgeMap, Mesh, VertexId, VertexMap, WalkBuilder,
 };
+use crate::progress::Progress;
 
 /// Angles that differ by no more than this are equal: sides whose directions are opposite, faces at
 /// the angle of collapse.
@@ -44,18 +46,22 @@ struct Places {
 
 pub(super) fn round(
     mesh: &Mesh,
-    thickness: Thickness,
-    collapse: f64,
+    params: &MengerParams,
+    progress: &dyn Progress,
 ) -> Result<(Mesh, Vec<usize>), OpError> {
     let mut planes = FaceMap::filled(mesh.face_slots(), None);
-    for f in mesh.faces() {
+    for (turn, f) in mesh.faces().enumerate() {
+        ask(progress, turn)?;
         planes[f] = Some(mesh.plane(f).ok_or(OpError::NoArea(f))?);
     }
-    let mut places = Places::of(mesh, &planes, thickness);
+    let mut places = Places::of(mesh, &planes, params.thickness);
+    ask(progress, 0)?;
     let angles = angles(mesh);
-    let joins = Joins::of(mesh, &angles, collapse);
+    let joins = Joins::of(mesh, &angles, params.collapse.radians());
     joins.merge(mesh, &planes, &mut places.depths);
+    ask(progress, 0)?;
     let crossing = crossing(mesh, &planes, &places, &joins, &angles);
+    ask(progress, 0)?;
     let mut digger = Digger {
         mesh,
         planes: &planes,
@@ -72,6 +78,7 @@ pub(super) fn round(
         ),
     };
     let frames = digger.dig();
+    ask(progress, 0)?;
     let mut sponge = digger.walks.build();
     for (f, made) in frames {
         if let Some(name) = mesh.group(f) {

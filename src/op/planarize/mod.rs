@@ -10,7 +10,7 @@
 //! Needs: faces whose corners are not all fixed. Keeps: V, E, F, genus, groups, seams. Changes:
 //! positions, so that faces are planar to the profile. Degenerate: a flat patch of hexagons has too
 //! few ways to bend; it is already planar, and the shift of the system (Levenberg 1944) keeps its
-//! steps small. What does not come to an end within the rounds is told, with the worst face.
+//! steps small. What does not come to an end within the rounds is reported, with the worst face.
 
 mod constraints;
 

@@ -2,44 +2,63 @@
 
 use glam::{DVec3, IVec3};
 
+use super::super::OpError;
+use super::super::size::ask;
 use super::Opening;
 use super::offset::Skin;
 use crate::geom::{Frame, triangulate};
 use crate::mesh::{FaceId, FaceMap, Mesh};
+use crate::progress::Progress;
 
 /// By how much less than the thickness a distance may be: the rounding of the construction, with
 /// room for flat corners.
 const SLACK: f64 = 1e-6;
 
-/// The faces that stay and that the second skin comes nearer to than their thickness, or whose
-/// sides turn round; ascending.
-pub(super) fn crossing_faces(
-    mesh: &Mesh,
-    openings: &FaceMap<Opening>,
-    thickness: &FaceMap<f64>,
-    skin: &Skin,
-) -> Vec<usize> {
-    let solid: Vec<FaceId> = mesh.faces().filter(|&f| openings[f] == Opening::None).collect();
-    let turns_round = |f: FaceId| {
-        mesh.face_half_edges(f).any(|h| {
-            let (a, b) = (mesh.origin(h), mesh.target(h));
-            let before = mesh.position(b) - mesh.position(a);
-            a != b
-                && before.dot(skin.positions[b] - skin.positions[a])
-                    < -SLACK * before.length_squared()
-        })
-    };
-    let mut found: Vec<usize> =
-        solid.iter().filter(|&&f| turns_round(f)).map(|f| f.index()).collect();
-    found.extend(too_near(mesh, &solid, thickness, skin).iter().map(|f| f.index()));
-    found.sort_unstable();
-    found.dedup();
-    found
+/// The first skin, and how thick the shell is to be.
+pub(super) struct Outer<'a> {
+    pub mesh: &'a Mesh,
+    pub openings: &'a FaceMap<Opening>,
+    pub thickness: &'a FaceMap<f64>,
+}
+
+impl Outer<'_> {
+    /// The faces that stay and that the second skin comes nearer to than their thickness, or whose
+    /// sides turn round; ascending.
+    pub fn crossing_faces(
+        &self,
+        skin: &Skin,
+        progress: &dyn Progress,
+    ) -> Result<Vec<usize>, OpError> {
+        let mesh = self.mesh;
+        let is_solid = |&f: &FaceId| self.openings[f] == Opening::None;
+        let solid: Vec<FaceId> = mesh.faces().filter(is_solid).collect();
+        let turns_round = |f: FaceId| {
+            mesh.face_half_edges(f).any(|h| {
+                let (a, b) = (mesh.origin(h), mesh.target(h));
+                let before = mesh.position(b) - mesh.position(a);
+                a != b
+                    && before.dot(skin.positions[b] - skin.positions[a])
+                        < -SLACK * before.length_squared()
+            })
+        };
+        let mut found: Vec<usize> =
+            solid.iter().filter(|&&f| turns_round(f)).map(|f| f.index()).collect();
+        let near = too_near(mesh, &solid, self.thickness, (skin, progress))?;
+        found.extend(near.iter().map(|f| f.index()));
+        found.sort_unstable();
+        found.dedup();
+        Ok(found)
+    }
 }
 
 /// Faces with a vertex of the second skin nearer than their thickness.
-fn too_near(mesh: &Mesh, solid: &[FaceId], thickness: &FaceMap<f64>, skin: &Skin) -> Vec<FaceId> {
-    let Some((low, high)) = mesh.bounds() else { return Vec::new() };
+fn too_near(
+    mesh: &Mesh,
+    solid: &[FaceId],
+    thickness: &FaceMap<f64>,
+    (skin, progress): (&Skin, &dyn Progress),
+) -> Result<Vec<FaceId>, OpError> {
+    let Some((low, high)) = mesh.bounds() else { return Ok(Vec::new()) };
     let reach = solid.iter().map(|&f| thickness[f].abs()).fold(0.0, f64::max);
     let fineness = (solid.len() as f64).sqrt().clamp(4.0, 128.0);
     let cells = Cells { low, size: reach.max((high - low).max_element() / fineness) };
@@ -60,7 +79,8 @@ fn too_near(mesh: &Mesh, solid: &[FaceId], thickness: &FaceMap<f64>, skin: &Skin
         unevenness[f] = beside.fold(0.0, f64::max);
     }
     let mut is_near = FaceMap::filled(mesh.face_slots(), false);
-    for v in mesh.vertices() {
+    for (turn, v) in mesh.vertices().enumerate() {
+        ask(progress, turn)?;
         let p = skin.positions[v];
         if p.cmplt(low - reach).any() || p.cmpgt(high + reach).any() {
             continue;
@@ -75,7 +95,7 @@ fn too_near(mesh: &Mesh, solid: &[FaceId], thickness: &FaceMap<f64>, skin: &Skin
             }
         }
     }
-    solid.iter().copied().filter(|&f| is_near[f]).collect()
+    Ok(solid.iter().copied().filter(|&f| is_near[f]).collect())
 }
 
 fn triangles_of(mesh: &Mesh, faces: &[FaceId]) -> Vec<(FaceId, [DVec3; 3])> {

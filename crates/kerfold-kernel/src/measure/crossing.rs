@@ -39,23 +39,44 @@ pub enum CrossingKind {
 ///
 /// Time is n log n besides the pairs whose boxes meet.
 pub fn crossings(mesh: &Mesh, most: usize) -> Vec<CrossingPair> {
-    let Some((low, high)) = mesh.bounds() else { return Vec::new() };
+    crossings_while(mesh, most, &|| true).expect("nobody stops it")
+}
+
+/// So many pairs are compared between two questions whether to go on.
+const STRIDE: usize = 1024;
+
+/// As [`crossings`], for as long as `goes_on` says so; `None` when it was stopped.
+pub fn crossings_while(
+    mesh: &Mesh,
+    most: usize,
+    goes_on: &dyn Fn() -> bool,
+) -> Option<Vec<CrossingPair>> {
+    let Some((low, high)) = mesh.bounds() else { return Some(Vec::new()) };
     let near = 8.0 * RoundingBound::of_box(low, high).length();
     let pieces = Piece::all(mesh, near);
     let boxes: Vec<AxisBox> = pieces.iter().map(|piece| piece.bounds).collect();
     let mut found = Found { pairs: Vec::new(), contacts: Vec::new() };
+    if !goes_on() {
+        return None;
+    }
+    let (mut turn, mut is_stopped) = (0_usize, false);
     BoxTree::new(&boxes).pairs(|i, j| {
         let (a, b) = (&pieces[i], &pieces[j]);
         if a.face != b.face {
             found.compare(a, b, near);
         }
-        found.pairs.len() < most
+        turn += 1;
+        is_stopped = turn.is_multiple_of(STRIDE) && !goes_on();
+        found.pairs.len() < most && !is_stopped
     });
+    if is_stopped {
+        return None;
+    }
     found.passing_edges(mesh);
     found.pairs.sort_unstable();
     found.pairs.dedup();
     found.pairs.truncate(most);
-    found.pairs
+    Some(found.pairs)
 }
 
 /// A planar face, or a triangle of one that is not.

@@ -9,8 +9,8 @@
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 
-use super::joint::Boundaries;
-use super::letter::{Stretch, stretches};
+use super::boundary::Boundaries;
+use super::stretch::{Stretch, stretches};
 use crate::geom::polygon::signed_area;
 use crate::net::{Net, PieceId};
 

@@ -10,9 +10,10 @@ use super::features::{Features, features};
 use super::joint::{FlapFold, Jointed, on_material};
 use super::kerf::CutShape;
 use super::layout::{Layout, Placed, SheetReport};
-use super::letter::{PieceLettering, Stretch, sheet_letter};
+use super::letter::{PieceLettering, sheet_letter};
 use super::params::{PieceKind, SheetParams};
 use super::score::{Hinges, ScorePlan, with_holding_tabs};
+use super::stretch::Stretch;
 use crate::net::{FoldKind, Net, Piece, PieceId};
 
 /// Draws every sheet of a layout.

@@ -1,4 +1,4 @@
-//! A coupon that tells the kerf of a material on a machine, and the slot that holds it.
+//! A coupon that shows the kerf of a material on a machine, and the slot that holds it.
 //!
 //! Above, a bar of ten blocks cut apart by single lines in a window: pushed to one side they leave
 //! a gap of eleven kerfs (eleven cuts lie side by side). Below, a comb with slots around the
@@ -47,6 +47,13 @@ const LETTERS: f64 = 2.5;
 ///
 /// # Errors
 /// [`SheetError::OutOfRange`] for a thickness that is not from 0.01 mm to 100 mm.
+///
+/// # Example
+/// ```
+/// let coupon = kerfold_sheet::sheet::kerf_coupon(3.0, "birch 3 mm")?;
+/// assert!(coupon.width > 0.0 && coupon.height > 0.0);
+/// # Ok::<(), kerfold_sheet::sheet::SheetError>(())
+/// ```
 pub fn kerf_coupon(thickness: f64, title: &str) -> Result<Drawing, SheetError> {
     let [least, most] = THICKNESS;
     if !(least..=most).contains(&thickness) {

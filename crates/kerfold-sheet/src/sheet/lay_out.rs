@@ -5,20 +5,22 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::DVec2;
 
 use super::assembly::{Assembly, assembly};
+use super::boundary::Boundaries;
 use super::bounding_box::{rounded, smallest_box};
 use super::distance::contour_distance;
 use super::draw::draw;
 use super::drawing::Drawing;
 use super::error::{SheetError, TooLarge};
 use super::info::{draw_info, verify_info};
-use super::joint::{Boundaries, join};
+use super::joint::join;
 use super::kerf::CutShape;
 use super::layout::{Layout, Placed, Sheet, SheetId, SheetReport};
-use super::letter::stretches;
 use super::nest::{CommonLine, Laid, StockSheet, candidates, lay, offcut};
-use super::params::{SheetParams, Stock};
+use super::params::SheetParams;
 use super::score_gap::near_scores;
 use super::slit::mend;
+use super::stock::Stock;
+use super::stretch::stretches;
 use super::verify::verify;
 use crate::geom::polygon::bounds;
 use crate::net::{Net, Piece, PieceId};
@@ -38,6 +40,19 @@ pub struct SheetSet {
     pub report: SheetReport,
 }
 
+impl SheetSet {
+    /// Length of the travel moves of all sheets, in mm.
+    pub fn travel_length(&self) -> f64 {
+        self.drawings.iter().map(Drawing::travel_length).sum()
+    }
+
+    /// Estimated seconds on the machine for all sheets, where a material has speeds.
+    pub fn seconds(&self, params: &SheetParams) -> Option<f64> {
+        let speeds = params.stock.made_of.as_ref()?.speed;
+        Some(self.drawings.iter().map(|d| speeds.seconds(d)).sum())
+    }
+}
+
 /// Whether a piece, kerf included, fits on an empty sheet at an angle that is allowed. Every piece
 /// fits on `sheet = none`.
 ///
@@ -46,7 +61,9 @@ pub struct SheetSet {
 pub fn fits(piece: &Piece, params: &SheetParams) -> Result<bool, SheetError> {
     let Some(sheets) = params.sheets()? else { return Ok(true) };
     let shapes = [CutShape::of_piece(piece, params.stock.kerf.mm())?];
-    Ok(candidates(&shapes, &sheets, params).iter().all(|c| c.poses.iter().any(Option::is_some)))
+    Ok(candidates(&shapes, &sheets, &params.nest)
+        .iter()
+        .all(|c| c.poses.iter().any(Option::is_some)))
 }
 
 /// Places, letters, draws and measures all pieces of a net. For `sheet = none` everything is empty.
@@ -58,6 +75,27 @@ pub fn fits(piece: &Piece, params: &SheetParams) -> Result<bool, SheetError> {
 /// fit at no angle, so that they can be split; [`SheetError::NoPlace`] for pieces that outlines,
 /// defects and groups leave no place for; [`SheetError::BadContour`], [`SheetError::KerfSplit`] and
 /// [`SheetError::UnknownPiece`] for a broken net; what [`verify`] finds, for a bug of ours.
+///
+/// # Example
+/// ```
+/// use glam::DVec2;
+/// use kerfold_sheet::net::{MeshCounts, Net, Piece, PieceId, Proof};
+/// use kerfold_sheet::sheet::{SheetParams, lay_out};
+///
+/// let outline = [[0.0, 0.0], [80.0, 0.0], [80.0, 50.0]].map(DVec2::from).to_vec();
+/// let net = Net {
+///     scale: 1.0,
+///     counts: MeshCounts { vertices: 0, edges: 0, faces: 0 },
+///     pieces: vec![Piece { id: PieceId(0), outline, holes: vec![], faces: vec![] }],
+///     folds: vec![],
+///     seams: vec![],
+///     rims: vec![],
+///     proof: Proof { congruence_mm: 0.0, refold_mm: 0.0, overlaps: 0 },
+/// };
+/// let sheets = lay_out(&net, &SheetParams::default())?;
+/// assert_eq!(sheets.layout.sheets[0].placed.len(), 1);
+/// # Ok::<(), kerfold_sheet::sheet::SheetError>(())
+/// ```
 pub fn lay_out(net: &Net, params: &SheetParams) -> Result<SheetSet, SheetError> {
     lay_out_watched(net, params, &Silent)
 }
@@ -80,7 +118,7 @@ pub fn lay_out_watched(
     let net = mended.as_ref().map_or(net, |m| &m.net);
     let boundaries = Boundaries::new(net);
     let stretches = stretches(net, &boundaries);
-    let jointed = join(net, params)?;
+    let jointed = join(net, &params.joint, &params.stock)?;
     let bare = net;
     let net = jointed.as_ref().map_or(net, |j| &j.net);
     let shapes = net
@@ -88,7 +126,7 @@ pub fn lay_out_watched(
         .iter()
         .map(|p| CutShape::of_piece(p, params.stock.kerf.mm()))
         .collect::<Result<Vec<_>, _>>()?;
-    let mut layout = place_all(net, &shapes, (params, &sheets), progress)?;
+    let (mut layout, widened) = place_all(net, &shapes, (params, &sheets), progress)?;
     let (mut drawings, mut report) =
         draw(net, &shapes, &layout, (params, &stretches, jointed.as_ref()))?;
     for (drawing, sheet) in drawings.iter_mut().zip(&layout.sheets) {
@@ -104,6 +142,7 @@ pub fn lay_out_watched(
     }
     draw_info(&mut drawings, (net, &shapes), (&layout, &sheets), params, &mut report)?;
     report.near_scores = near_scores(net, &drawings, params);
+    report.widened_pieces = widened;
     report.lost_holes = shapes.iter().map(|s| s.lost_holes).sum();
     report.closed_notches = shapes.iter().map(|s| s.closed_notches).sum();
     report.narrow_holes = bare.pieces.iter().map(|p| narrow_holes(p, params)).sum();
@@ -169,8 +208,8 @@ fn place_all(
     shapes: &[CutShape],
     (params, sheets): (&SheetParams, &[StockSheet]),
     progress: &dyn Progress,
-) -> Result<Layout, SheetError> {
-    let candidates = candidates(shapes, sheets, params);
+) -> Result<(Layout, Vec<PieceId>), SheetError> {
+    let candidates = candidates(shapes, sheets, &params.nest);
     let too_large: Vec<TooLarge> = net
         .pieces
         .iter()
@@ -196,12 +235,12 @@ fn place_all(
         return Err(SheetError::PiecesTooLarge { pieces: too_large, width, height, margin });
     }
     if shapes.is_empty() {
-        return Ok(Layout::default());
+        return Ok((Layout::default(), Vec::new()));
     }
-    let laid = lay(&candidates, sheets, params, progress).map_err(|no_place| {
+    let laid = lay(&candidates, sheets, &params.nest, progress).map_err(|no_place| {
         SheetError::NoPlace { pieces: no_place.pieces.iter().map(|&i| shapes[i].piece).collect() }
     })?;
-    Ok(layout_of(shapes, &laid, sheets))
+    Ok((layout_of(shapes, &laid, sheets), laid.widened))
 }
 
 fn layout_of(shapes: &[CutShape], laid: &Laid, stock: &[StockSheet]) -> Layout {

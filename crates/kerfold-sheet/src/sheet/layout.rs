@@ -137,8 +137,8 @@ pub struct SheetReport {
     pub widened_notches: usize,
     /// Seams whose two sides lie on one another: they are left uncut and fold.
     pub uncut_seams: Vec<EdgeLabel>,
-    /// Holes that pieces have of their own, not for joints, and that are narrow for the thickness or
-    /// near another cut.
+    /// Holes that pieces have of their own, not for joints, and that are narrow for the thickness
+    /// or near another cut.
     pub narrow_holes: usize,
     /// Folds without room for their angle, where angles were asked for.
     pub unmarked_angles: usize,
@@ -155,6 +155,8 @@ pub struct SheetReport {
     pub unlabelled_lines: usize,
     /// Folds that are scored nearer to each other than the material can take.
     pub near_scores: Option<NearScores>,
+    /// Pieces whose lines cross, which nesting took for larger than they are.
+    pub widened_pieces: Vec<PieceId>,
     /// Whether the search was stopped before its effort was used up.
     pub is_stopped: bool,
     /// What became of the joints.

@@ -11,7 +11,9 @@ mod decode;
 mod dxf;
 mod dxf_binary;
 mod dxf_entity;
+mod dxf_value;
 mod pdf;
+mod pdf_file;
 mod pdf_object;
 mod pdf_page;
 mod pdf_unpack;
@@ -58,7 +60,7 @@ pub enum ArtFormat {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ArtError {
-    /// Neither the name nor the content tells the format.
+    /// Neither the name nor the content shows the format.
     #[error("this is neither SVG, DXF nor PDF; export the drawing in one of these")]
     UnknownFormat,
     /// No content.

@@ -92,6 +92,14 @@ pub fn glyph(character: char) -> Option<Vec<Vec<DVec2>>> {
 ///
 /// # Errors
 /// [`SheetError::NoGlyph`] for a character other than A–Z, 0–9, space and `- . / # + : _ ° % , ( ) = × Ø <`.
+///
+/// # Example
+/// ```
+/// let name = kerfold_sheet::sheet::lettering("P01", 5.0)?;
+/// assert!((name.high.y - name.low.y - 5.0).abs() < 1e-9);
+/// assert!(kerfold_sheet::sheet::lettering("ß", 5.0).is_err());
+/// # Ok::<(), kerfold_sheet::sheet::SheetError>(())
+/// ```
 pub fn lettering(text: &str, height: f64) -> Result<Lettering, SheetError> {
     let unit = height / CAPITAL;
     let mut strokes = Vec::new();

@@ -85,8 +85,8 @@ pub(super) type Taken = BTreeMap<usize, Vec<[DVec2; 4]>>;
 /// its faces, and slits.
 pub(super) type Obstacles<'a> = &'a [Vec<DVec2>];
 
-/// What of the obstacles of a piece may come near a label in a face: the rest lies beyond the box of
-/// the face, and a label lies inside.
+/// What of the obstacles of a piece may come near a label in a face: the rest lies beyond the box
+/// of the face, and a label lies inside.
 pub(super) fn obstacles_near(polygon: &[DVec2], obstacles: Obstacles<'_>) -> Vec<Vec<DVec2>> {
     let Some((low, high)) = bounds(polygon) else { return Vec::new() };
     // Slits are few, and stay.
@@ -98,8 +98,8 @@ pub(super) fn obstacles_near(polygon: &[DVec2], obstacles: Obstacles<'_>) -> Vec
 }
 
 /// The name of a piece, as large as fits beside what is taken, reading along `upright` where
-/// possible and else along a face's longest edge; with the index of the face that holds it. Obstacles
-/// are those near each of the faces.
+/// possible and else along a face's longest edge; with the index of the face that holds it.
+/// Obstacles are those near each of the faces.
 pub(super) fn name_label(
     piece: &Piece,
     upright: DVec2,

@@ -4,11 +4,8 @@ mod glyph;
 mod label;
 mod params;
 mod piece;
-mod stretch;
 
 pub use glyph::{CAPITAL, Lettering, glyph, lettering};
 pub(super) use label::sheet_letter;
 pub use params::{Angles, Labels, LetterParams};
 pub(super) use piece::PieceLettering;
-pub use stretch::Stretch;
-pub(super) use stretch::stretches;

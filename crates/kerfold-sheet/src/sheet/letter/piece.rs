@@ -9,13 +9,13 @@ use super::label::{
     Label, Room, Taken, is_clear, name_label, number_across, number_label, obstacles_near, suited,
 };
 use super::params::{Angles, Labels, LetterParams};
-use super::stretch::Stretch;
 use crate::geom::polygon::{Location, locate};
 use crate::net::{FlatFace, FoldKind, Net, Piece, Seam};
 use crate::sheet::drawing::{Drawing, MarkKind, Stroke};
 use crate::sheet::error::SheetError;
 use crate::sheet::features::Features;
 use crate::sheet::layout::{Placed, SheetReport};
+use crate::sheet::stretch::Stretch;
 
 /// What is lettered first and so gets the best place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

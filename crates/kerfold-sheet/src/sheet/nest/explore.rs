@@ -58,7 +58,7 @@ impl Explore<'_, '_, '_, '_> {
         Layout { spots: self.field.spots[..self.field.pieces].to_vec(), bins, used }
     }
 
-    /// The layout with the pieces where they are told to lie.
+    /// The layout with the pieces where they are said to lie.
     pub fn given(&mut self, lying: &[Lying]) -> Layout {
         while lying.iter().any(|l| l.bin >= self.bins.open) {
             self.bins.open_next(self.field);
@@ -283,7 +283,7 @@ impl Explore<'_, '_, '_, '_> {
         if let Some(found) = found {
             self.field.put(i, found.spot);
         } else if !self.field.is_in(i) {
-            // Where it fits at few angles only, it is left where it was told to fit.
+            // Where it fits at few angles only, it is left where it was said to fit.
             let bin = bins[0];
             let angle = match &self.turns[i] {
                 Turns::Free { home } => *home,

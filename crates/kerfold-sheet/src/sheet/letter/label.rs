@@ -417,7 +417,7 @@ mod tests {
         );
         let hole = points([(10.0, 10.0), (10.0, 50.0), (50.0, 50.0), (50.0, 10.0)]);
         assert!(!is_clear(
-            &set("1", DVec2::splat(30.0), DVec2::X, 3.0).expect("a letter"),
+            &set("1", DVec2::splat(30.0), DVec2::X, 3.0).expect("a letter").frame,
             &obstacles([square(60.0), hole])
         ));
         let slit = points([(0.0, 50.0), (60.0, 50.0)]);

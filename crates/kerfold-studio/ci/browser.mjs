@@ -69,8 +69,7 @@ export async function open(context, address) {
 export const settled = (page) =>
   page.waitForFunction(() => {
     const { app } = window.studio;
-    const isSame = app.result?.revision === app.recipe.revision;
-    return app.recipe.steps.length === 0 || (isSame && app.model !== null);
+    return app.pending === 0 && app.recipe.steps.length > 0 && app.model !== null && app.result?.revision === app.recipe.revision;
   }, undefined, { timeout: 120000 });
 
 /** Where an element is drawn; throws when nothing of it can be seen. */
@@ -95,4 +94,10 @@ export async function drag(page, slider, share, steps = 12) {
   await page.mouse.down();
   await page.mouse.move(at(share), y, { steps });
   await page.mouse.up();
+}
+
+/** Puts a step to the recipe by its name in the list. */
+export async function add(page, title) {
+  await page.selectOption("#add", title);
+  await page.click("#add-step");
 }

@@ -93,6 +93,7 @@ impl Studio {
             && let Some(oldest) = tabs.pop_front()
         {
             oldest.stop_all();
+            oldest.keep();
         }
         tabs.push_back(tab.clone());
         Ok(tab)

@@ -36,6 +36,8 @@ pub(crate) struct Tab {
     events: broadcast::Sender<String>,
     /// Counts changes, so that the page knows which answer is the newest.
     revision: AtomicU64,
+    /// Whether the recipe will be kept soon.
+    is_keeping: AtomicBool,
 }
 
 impl Tab {
@@ -47,6 +49,7 @@ impl Tab {
             stops: Mutex::default(),
             events: broadcast::channel(64).0,
             revision: AtomicU64::new(0),
+            is_keeping: AtomicBool::new(false),
         }
     }
 
@@ -73,9 +76,22 @@ impl Tab {
 
     /// The recipe has changed: pieces and sheets on their way are not wanted any more, and the
     /// recipe is kept in case that nobody saves it.
-    pub fn changed(&self) {
+    pub fn changed(self: &Arc<Self>) {
         self.revision.fetch_add(1, Ordering::Relaxed);
         self.stop(Lane::Result);
+        // A slider in motion changes it fifty times a second; a disk need not follow.
+        if !self.is_keeping.swap(true, Ordering::Relaxed) {
+            let tab = self.clone();
+            tokio::spawn(async move {
+                tokio::time::sleep(KEEP_AFTER).await;
+                let _ = tokio::task::spawn_blocking(move || tab.keep()).await;
+            });
+        }
+    }
+
+    /// Writes the recipe where it is found again after a reload or a restart.
+    pub fn keep(&self) {
+        self.is_keeping.store(false, Ordering::Relaxed);
         let (folder, recipe) = {
             let session = self.session();
             (session.folder().join(KEPT), session.recipe().text())
@@ -138,6 +154,9 @@ pub(crate) struct Watch {
     stop: Arc<AtomicBool>,
     told: Mutex<Instant>,
 }
+
+/// How long after a change the recipe is kept, with all changes that came by then.
+const KEEP_AFTER: Duration = Duration::from_millis(300);
 
 /// Between two reports of work.
 const PAUSE: Duration = Duration::from_millis(100);

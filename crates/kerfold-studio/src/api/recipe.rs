@@ -86,7 +86,7 @@ pub(crate) async fn open(
     Ok(changed(&at.tab))
 }
 
-fn changed(tab: &Tab) -> Answer<Value> {
+fn changed(tab: &Arc<Tab>) -> Answer<Value> {
     tab.changed();
     tell(tab)
 }

@@ -1,5 +1,7 @@
 //! Pieces, sheets, the report, and how the pieces close.
 
+use std::sync::Arc;
+
 use axum::http::header::CONTENT_TYPE;
 use axum::response::{IntoResponse, Json as Answer, Response};
 use glam::{DVec2, DVec3};
@@ -40,34 +42,52 @@ pub(crate) async fn result(at: At, Asked(named): Asked<Named>) -> Result<Answer<
     let command = command(&at.tab, &named);
     let told = work(&at.tab, Lane::Result, move |tab, progress| {
         // The report does not wait for pieces, and is there when they cannot be made.
-        let bare = tab.run(None, false, progress)?;
-        let report = match bare.has_mesh() {
-            true => Some(check_json(&bare.report()?, &command)),
-            false => None,
+        let (bare, mut failed) = answered(tab.run(None, false, progress))?;
+        let report = match &bare {
+            Some(job) if job.has_mesh() => Some(check_json(&job.report()?, &command)),
+            _ => None,
         };
-        let (job, failure) = match tab.run(None, true, progress) {
-            Ok(job) => (job, None),
-            Err(error) if error.is_stopped() => return Err(error),
-            Err(error) => (bare, Some(failure(&error))),
-        };
-        let unclean: Vec<String> = job.with_findings.iter().map(ToString::to_string).collect();
-        let made = made(&job);
-        let panels = job.panelled.as_ref().map(|(p, _)| {
-            let layout = &p.fabrication.sheets.layout;
-            parsed(&panels_json(&p.schedule, &p.plates, layout, &p.findings, &command))
-        });
-        Ok(json!({
-            "revision": tab.revision(), "command": command, "notes": job.notes, "unclean": unclean,
-            "report": report.map(|text| parsed(&text)),
-            "verdict_counts": job.is_check_asked,
-            "pieces": made.map(|(m, _)| parsed(&write_pieces_json(&m.net, &command))),
-            "layout": made.map(|(m, _)| parsed(&write_layout_json(&m.sheets.layout, &command))),
-            "seconds": made.and_then(|(m, sheet)| m.sheets.seconds(sheet)),
-            "panels": panels, "failure": failure, "closing_seconds": END,
-        }))
+        let mut job = bare;
+        if job.is_some() {
+            let (whole, error) = answered(tab.run(None, true, progress))?;
+            (job, failed) = (whole.or(job), error);
+        }
+        let mut told = job.map_or_else(|| json!({}), |job| told(&job, &command));
+        told["revision"] = json!(tab.revision());
+        told["command"] = json!(command);
+        told["report"] = json!(report.map(|text| parsed(&text)));
+        told["failure"] = json!(failed);
+        told["closing_seconds"] = json!(END);
+        Ok(told)
     })
     .await?;
     Ok(Answer(told))
+}
+
+/// A job or why there is none; work that was stopped has no answer.
+fn answered(job: Result<Arc<Job>>) -> Result<(Option<Arc<Job>>, Option<Value>)> {
+    match job {
+        Ok(job) => Ok((Some(job), None)),
+        Err(error) if error.is_stopped() => Err(error),
+        Err(error) => Ok((None, Some(failure(&error)))),
+    }
+}
+
+/// What a job has made.
+fn told(job: &Job, command: &str) -> Value {
+    let unclean: Vec<String> = job.with_findings.iter().map(ToString::to_string).collect();
+    let made = made(job);
+    let panels = job.panelled.as_ref().map(|(p, _)| {
+        let layout = &p.fabrication.sheets.layout;
+        parsed(&panels_json(&p.schedule, &p.plates, layout, &p.findings, command))
+    });
+    json!({
+        "notes": job.notes, "unclean": unclean, "verdict_counts": job.is_check_asked,
+        "pieces": made.map(|(m, _)| parsed(&write_pieces_json(&m.net, command))),
+        "layout": made.map(|(m, _)| parsed(&write_layout_json(&m.sheets.layout, command))),
+        "seconds": made.and_then(|(m, sheet)| m.sheets.seconds(sheet)),
+        "panels": panels,
+    })
 }
 
 fn failure(error: &StudioError) -> Value {

@@ -135,6 +135,18 @@ export class App {
 
   /** Changes the recipe and follows: the model at once, pieces and sheets when it rests. */
   async change(method: string, rest: string, body?: unknown): Promise<boolean> {
+    this.pending++;
+    try {
+      return await this.changeNow(method, rest, body);
+    } finally {
+      this.pending--;
+    }
+  }
+
+  /** Changes that are on their way. */
+  pending = 0;
+
+  private async changeNow(method: string, rest: string, body?: unknown): Promise<boolean> {
     try {
       this.take(await api.post<Recipe>(this.path(rest), body, method));
     } catch (error) {
@@ -171,7 +183,8 @@ export class App {
   /** Sets a value; of those that come while one is on its way only the newest counts. */
   set(step: number, key: string, value: Value | undefined, gesture: number | null) {
     this.waiting = { step, key, value, gesture };
-    return this.send();
+    this.pending++;
+    return this.send().finally(() => this.pending--);
   }
 
   /** The model anew, and then what follows from it. */

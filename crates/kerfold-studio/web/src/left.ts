@@ -14,9 +14,11 @@ const SOLIDS = ["tetrahedron", "cube", "octahedron", "dodecahedron", "icosahedro
 export function left(app: App) {
   const pane = byId("left");
   const list = h("ol", { class: "steps", id: "steps" });
-  const add = h("select", { id: "add", "aria-label": "Add a step" });
+  const add = h("select", { id: "add", "aria-label": "A step to add" });
+  const addNow = h("button", { id: "add-step", disabled: true }, "Add");
+  const adding = h("div", { class: "adding" }, add, addNow);
   const cutting = h("section", { class: "cutting", "aria-label": "Cutting" });
-  pane.append(h("h2", {}, "Steps"), list, add, cutting);
+  pane.append(h("h2", {}, "Steps"), list, adding, cutting);
   let open: number | null = null;
 
   add.append(h("option", { value: "" }, "Add a step…"));
@@ -24,9 +26,11 @@ export function left(app: App) {
     const kinds = app.kinds.filter((kind) => kind.group === group);
     add.append(h("optgroup", { label: title }, ...kinds.map((kind) => h("option", { value: kind.title }, kind.title))));
   }
-  add.addEventListener("change", async () => {
+  add.addEventListener("change", () => (addNow.disabled = !add.value));
+  addNow.addEventListener("click", () => {
     const kind = app.kinds.find((kind) => kind.title === add.value);
     add.value = "";
+    addNow.disabled = true;
     if (kind) draft(kind);
   });
 
@@ -187,7 +191,7 @@ export function left(app: App) {
   app.on("marks", drawMarks);
   app.on("model", () => {
     cutting.hidden = !app.model;
-    add.hidden = !app.recipe.steps.length;
+    adding.hidden = !app.recipe.steps.length;
     drawMarks();
   });
   drawForms();

@@ -68,6 +68,5 @@ pub(super) fn obstacles_near(polygon: &[DVec2], obstacles: Obstacles<'_>) -> Vec
 /// Whether the frame of a label neither crosses an obstacle nor has one inside, nor lies in a notch
 /// or hole that is cut away.
 pub(super) fn is_clear(frame: &[DVec2; 4], obstacles: Obstacles<'_>) -> bool {
-    obstacles.iter().all(|o| o.has_material(frame[0]))
-        && obstacles.iter().all(|o| !o.enters(frame))
+    obstacles.iter().all(|o| o.has_material(frame[0])) && obstacles.iter().all(|o| !o.enters(frame))
 }

@@ -5,9 +5,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec2;
 
-use super::label::{
-    Label, Room, Taken, name_label, number_across, number_label, suited,
-};
+use super::label::{Label, Room, Taken, name_label, number_across, number_label, suited};
 use super::obstacle::{Obstacle, is_clear, obstacles_near};
 use super::params::{Angles, Labels, LetterParams};
 use crate::geom::polygon::{Location, locate};

@@ -125,7 +125,7 @@ pub(super) fn keep_cut_simple(mesh: &mut Mesh, made: &mut NewElements) {
 
 /// Pulls vertices apart through which several rims run, where nothing else keeps the mesh from
 /// being a file.
-fn part_rims(mesh: &mut Mesh, made: &mut NewElements) {
+pub(super) fn part_rims(mesh: &mut Mesh, made: &mut NewElements) {
     if has_pinches(mesh)
         && !is_unfinished(mesh)
         && mesh.file_faults().is_empty()

@@ -113,7 +113,8 @@ fn what_is_wrong_is_told_with_its_place() {
     for (params, given) in
         [(PanelizeParams::default(), 0), (PanelizeParams { count: Some(40), ..sized(1000.0) }, 2)]
     {
-        assert_eq!(panelize(&mesh, &params, &Silent), Err(PanelizeError::NoSize { given }));
+        let error = panelize(&mesh, &params, &Silent).expect_err("no size, or two");
+        assert_eq!(error, PanelizeError::NoSize { given });
     }
     let params = PanelizeParams { even: 0.7, ..sized(1000.0) };
     let error = panelize(&mesh, &params, &Silent).expect_err("out of range");

@@ -18,6 +18,7 @@ mod manual;
 mod nest;
 mod operator;
 mod output;
+mod panelize;
 mod panels;
 mod reference;
 mod render;
@@ -39,7 +40,6 @@ pub use reference::reference;
 use crate::op::{
     HandleParams, MengerParams, PlanarizeParams, RindParams, SierpinskiParams, SubdivideParams,
 };
-use crate::panelize::PanelizeParams;
 
 /// Carve planar 3-valence meshes, check them, and unfold them into sheets that a shop can cut.
 #[derive(Debug, Parser)]
@@ -74,11 +74,7 @@ enum Verb {
     #[command(after_help = "Example: kerfold planarize facade.obj --profile glass --rim fixed -o \
         planar.obj")]
     Planarize(operator::OperatorArgs<PlanarizeParams>),
-    /// Make planar panels of a freeform surface, three edges at every node; exit code 1 when some
-    /// do not come out well
-    #[command(after_help = "Example: kerfold panelize roof.obj --size 1.2m --rim walls -o \
-        panels.obj")]
-    Panelize(operator::OperatorArgs<PanelizeParams>),
+    Panelize(panelize::PanelizeArgs),
     /// Make a mesh finer: Doo–Sabin, Catmull–Clark, Loop, simplest, honeycomb, truncation, dual or
     /// triangles
     #[command(after_help = "Example: kerfold subdivide doo-sabin cube.obj --rounds 2 -o round.obj")]
@@ -157,7 +153,7 @@ pub fn run() -> ExitCode {
         Verb::Cut(args) => cut::run(&args, &console),
         Verb::Hull(args) => hull::run(&args, &console),
         Verb::Planarize(args) => operator::run(&args, &console),
-        Verb::Panelize(args) => operator::run(&args, &console),
+        Verb::Panelize(args) => panelize::run(&args, &console),
         Verb::Subdivide(args) => operator::run(&args, &console),
         Verb::Sierpinski(args) => operator::run(&args, &console),
         Verb::Rind(args) => operator::run(&args, &console),

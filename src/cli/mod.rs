@@ -19,6 +19,7 @@ mod manual;
 mod nest;
 mod operator;
 mod output;
+mod panelize;
 mod panels;
 mod reference;
 mod render;
@@ -43,7 +44,6 @@ use crate::op::{
     HandleParams, MengerParams, MergeParams, PlanarizeParams, RindParams, SierpinskiParams,
     SimplifyParams, SubdivideParams,
 };
-use crate::panelize::PanelizeParams;
 
 /// Carve planar 3-valence meshes, check them, and unfold them into sheets that a shop can cut.
 #[derive(Debug, Parser)]
@@ -85,11 +85,7 @@ enum Verb {
     /// Make fewer triangles, so many or within a deviation: a scan becomes a paper model
     #[command(after_help = "Example: kerfold simplify cat.stl --faces 300 -o paper-cat.obj")]
     Simplify(operator::OperatorArgs<SimplifyParams>),
-    /// Make planar panels of a freeform surface, three edges at every node; exit code 1 when some
-    /// do not come out well
-    #[command(after_help = "Example: kerfold panelize roof.obj --size 1.2m --rim walls -o \
-        panels.obj")]
-    Panelize(operator::OperatorArgs<PanelizeParams>),
+    Panelize(panelize::PanelizeArgs),
     /// Make a mesh finer: Doo–Sabin, Catmull–Clark, Loop, simplest, honeycomb, truncation, dual or
     /// triangles
     #[command(after_help = "Example: kerfold subdivide doo-sabin cube.obj --rounds 2 -o round.obj")]
@@ -177,7 +173,7 @@ pub fn run() -> ExitCode {
         Verb::Merge(args) => operator::run(&args, &console),
         Verb::Repair(args) => repair::run(&args, &console),
         Verb::Simplify(args) => operator::run(&args, &console),
-        Verb::Panelize(args) => operator::run(&args, &console),
+        Verb::Panelize(args) => panelize::run(&args, &console),
         Verb::Subdivide(args) => operator::run(&args, &console),
         Verb::Sierpinski(args) => operator::run(&args, &console),
         Verb::Rind(args) => operator::run(&args, &console),

@@ -16,6 +16,7 @@ use crate::make::{
 use crate::mesh::{Mesh, SplitVertex};
 use crate::op::{HullParams, HullStep, OpContext, OpError, hull};
 use crate::panel::PanelParams;
+use crate::panelize::height_field;
 use crate::picture::RenderParams;
 use crate::progress::Progress;
 use crate::select::{NewElements, Selection};
@@ -162,6 +163,9 @@ impl Job {
         }
         match step {
             Step::Solid(params) => self.start(solid(params)?)?,
+            Step::Height(params) => {
+                self.start(height_field(params).map_err(OpError::from)?)?;
+            }
             Step::Read(read) => {
                 let path: PathBuf = folder.join(&read.path);
                 let ReadMesh { mut mesh, notes, made, .. } = read_mesh(&path, &read.options)?;

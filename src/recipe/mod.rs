@@ -40,6 +40,7 @@ use crate::make::{
 };
 use crate::op::{HullParams, Operate};
 use crate::panel::PanelParams;
+use crate::panelize::HeightParams;
 use crate::picture::RenderParams;
 use crate::shape::SolidParams;
 use crate::sheet::SheetParams;
@@ -104,6 +105,8 @@ pub enum Step {
     Solid(SolidParams),
     /// `read = "model.obj"`: a mesh file.
     Read(ReadStep),
+    /// `height = "2*sin(x/3)"`: a surface given as heights over a rectangle.
+    Height(HeightParams),
     /// `planes = "planes.csv"`: the solid that half-spaces bound.
     Planes(PlanesStep),
     /// `cut = "edge"`, `planarize = "exact"`, `subdivide = "loop"` and all other operators that
@@ -169,6 +172,7 @@ impl Step {
         match self {
             Self::Solid(_) => "solid",
             Self::Read(_) => "read",
+            Self::Height(_) => "height",
             Self::Planes(_) => "planes",
             Self::Operator(step) => step.verb,
             Self::Hull(_) => "hull",

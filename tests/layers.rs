@@ -184,10 +184,15 @@ const DOORS: &[(&str, &[&str])] = &[
 /// What parameter structs anywhere may take from clap. The rule: whatever builds or runs a command
 /// line stays in `src/cli`.
 const CLAP_EVERYWHERE: &[&str] = &["Args", "ValueEnum", "value_parser", "builder"];
-/// The recipe reader asks the parameter structs for their field names, so that recipe and command
-/// line cannot part.
-const CLAP_COMMANDS: &[&str] =
-    &["src/cli/", "src/main.rs", "src/recipe/keys.rs", "src/recipe/fields.rs"];
+/// The recipe reader asks the parameter structs for their field names, and the schema for all that
+/// they say of them, so that recipe, forms and command line cannot part.
+const CLAP_COMMANDS: &[&str] = &[
+    "src/cli/",
+    "src/main.rs",
+    "src/recipe/keys.rs",
+    "src/recipe/fields.rs",
+    "src/recipe/schema.rs",
+];
 
 /// The rule: half-edge links are written in one file, so that every mesh stays manifold by
 /// construction.

@@ -19,6 +19,7 @@ mod manual;
 mod nest;
 mod operator;
 mod output;
+mod panelize;
 mod panels;
 mod reference;
 mod render;
@@ -27,6 +28,7 @@ mod run;
 mod seams;
 mod snippet;
 mod solid;
+mod studio;
 mod terminal;
 mod unfold;
 mod verify;
@@ -42,7 +44,6 @@ use crate::op::{
     HandleParams, MengerParams, MergeParams, PlanarizeParams, RindParams, SierpinskiParams,
     SimplifyParams, SubdivideParams,
 };
-use crate::panelize::PanelizeParams;
 
 /// Carve planar 3-valence meshes, check them, and unfold them into sheets that a shop can cut.
 #[derive(Debug, Parser)]
@@ -84,11 +85,7 @@ enum Verb {
     /// Make fewer triangles, so many or within a deviation: a scan becomes a paper model
     #[command(after_help = "Example: kerfold simplify cat.stl --faces 300 -o paper-cat.obj")]
     Simplify(operator::OperatorArgs<SimplifyParams>),
-    /// Make planar panels of a freeform surface, three edges at every node; exit code 1 when some
-    /// do not come out well
-    #[command(after_help = "Example: kerfold panelize roof.obj --size 1.2m --rim walls -o \
-        panels.obj")]
-    Panelize(operator::OperatorArgs<PanelizeParams>),
+    Panelize(panelize::PanelizeArgs),
     /// Make a mesh finer: Doo–Sabin, Catmull–Clark, Loop, simplest, honeycomb, truncation, dual or
     /// triangles
     #[command(after_help = "Example: kerfold subdivide doo-sabin cube.obj --rounds 2 -o round.obj")]
@@ -128,6 +125,7 @@ enum Verb {
     Run(run::RunArgs),
     Gallery(gallery::GalleryArgs),
     Render(render::RenderArgs),
+    Studio(studio::StudioArgs),
     Explain(explain::ExplainArgs),
     Help(help::HelpArgs),
     Completions(manual::CompletionsArgs),
@@ -175,7 +173,7 @@ pub fn run() -> ExitCode {
         Verb::Merge(args) => operator::run(&args, &console),
         Verb::Repair(args) => repair::run(&args, &console),
         Verb::Simplify(args) => operator::run(&args, &console),
-        Verb::Panelize(args) => operator::run(&args, &console),
+        Verb::Panelize(args) => panelize::run(&args, &console),
         Verb::Subdivide(args) => operator::run(&args, &console),
         Verb::Sierpinski(args) => operator::run(&args, &console),
         Verb::Rind(args) => operator::run(&args, &console),
@@ -192,6 +190,7 @@ pub fn run() -> ExitCode {
         Verb::Run(args) => run::run(&args, &console),
         Verb::Gallery(args) => gallery::run(&args, &console),
         Verb::Render(args) => render::run(&args, &console),
+        Verb::Studio(args) => studio::run(&args, &console),
         Verb::Explain(args) => explain::run(&args, &console),
         Verb::Help(args) => help::run(&args, &console),
         Verb::Completions(args) => manual::completions(&args),

@@ -31,6 +31,8 @@ const STEPS: usize = 400;
 const NEWTON: usize = 12;
 /// How near the curvatures must come, in parts of themselves.
 const NEAR: f64 = 0.02;
+/// And in parts of what the step is to change.
+const SHORT: f64 = 0.1;
 
 /// What the search took.
 #[derive(Debug, Clone, Copy, Default)]
@@ -93,7 +95,7 @@ impl Continuation {
                     {
                         return Err(flat);
                     }
-                    if self.step < 1e-6 || self.effort.steps > STEPS {
+                    if self.step < 1e-9 || self.effort.steps > STEPS {
                         return Err(lost(self.left, why));
                     }
                 }
@@ -114,7 +116,9 @@ fn newton(at: &mut Continuation, goal: f64) -> Result<(), &'static str> {
         at.effort.newton += 1;
         let kappa = curvatures(&at.surface, &at.r).ok_or("a pyramid has no height")?;
         let miss: Vec<f64> = kappa.iter().zip(&at.first).map(|(k, f)| goal * f - k).collect();
-        let is_near = |(m, f): (&f64, &f64)| m.abs() <= NEAR * goal * f.abs() + ROUNDING;
+        // A short step must not come near without moving.
+        let near = f64::min(NEAR * goal, SHORT * (at.left - goal));
+        let is_near = |(m, f): (&f64, &f64)| m.abs() <= near * f.abs() + ROUNDING;
         if miss.iter().zip(&at.first).all(is_near) {
             return Ok(());
         }

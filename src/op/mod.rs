@@ -2,6 +2,7 @@
 
 mod cavity;
 mod cut;
+mod divide;
 mod error;
 mod finding;
 mod handle;

@@ -58,6 +58,16 @@ pub trait Operate: fmt::Debug + Send + Sync {
         Vec::new()
     }
 
+    /// The same cut with its whole report, so that it can be shown before it is made; `None` for
+    /// operators that cut nothing.
+    fn cut(
+        &self,
+        _mesh: &Mesh,
+        _context: &OpContext<'_>,
+    ) -> Option<Result<(Mesh, CutReport), OpError>> {
+        None
+    }
+
     /// A file with points that has to be read first; operators read no files.
     fn points_file(&self) -> Option<&Path> {
         None
@@ -77,6 +87,10 @@ macro_rules! cuts {
                 let notes = report.notes($element);
                 let CutReport { made, cut_edges, .. } = report;
                 Ok(OperatorOutput { cut_edges, made: Some(made), ..OperatorOutput::new(mesh, notes) })
+            }
+
+            fn cut(&self, mesh: &Mesh, context: &OpContext<'_>) -> Option<Result<(Mesh, CutReport), OpError>> {
+                Some($operator(mesh, self, context))
             }
         }
     )*};
@@ -138,7 +152,7 @@ impl Operate for PanelizeParams {
     fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
         let (mesh, report) = panelize(mesh, self, context.progress)?;
         let is_clean = report.is_clean();
-        Ok(OperatorOutput { mesh, made: None, notes: report.notes(), is_clean })
+        Ok(OperatorOutput { is_clean, ..OperatorOutput::new(mesh, report.notes()) })
     }
 }
 

@@ -72,6 +72,29 @@ pub enum PanelizeError {
         /// Where, in mm.
         place: DVec3,
     },
+    /// A formula cannot be read.
+    #[error("`{text}` is no formula: at column {column} there should be {wanted}")]
+    Formula {
+        /// The formula.
+        text: String,
+        /// Where, from 1.
+        column: usize,
+        /// What should be there.
+        wanted: String,
+    },
+    /// A formula has no value somewhere.
+    #[error(
+        "`{text}` has no finite value at x = {x}, y = {y}; change the formula, or take a \
+        rectangle on which it has one"
+    )]
+    NoHeight {
+        /// The formula.
+        text: String,
+        /// Where.
+        x: f64,
+        /// Where.
+        y: f64,
+    },
     /// Ctrl-C before there was a result.
     #[error("stopped before there were any panels")]
     Cancelled,
@@ -85,6 +108,8 @@ codes!(error PanelizeError {
     NoField = 845,
     NoMesh = 846,
     Cancelled = 847,
+    Formula = 848,
+    NoHeight = 849,
 });
 
 /// What is wrong with panels that were made all the same.

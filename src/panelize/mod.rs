@@ -21,6 +21,8 @@ mod delaunay;
 mod error;
 mod field;
 mod flip;
+mod formula;
+mod height;
 mod lattice;
 mod layout;
 mod params;
@@ -57,6 +59,7 @@ use crate::mesh::{FaceId, Mesh, MeshBuilder};
 use crate::progress::Progress;
 
 pub use error::{PanelizeError, PanelizeFinding};
+pub use height::{Domain, HeightParams, height_field};
 pub use params::{Align, PanelizeParams, RimChoice, SheetSize};
 pub use report::{PanelizeReport, Place};
 

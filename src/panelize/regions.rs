@@ -70,6 +70,10 @@ pub(super) fn panels_of_sites(
     let mut bad = Vec::new();
     for round in 0..TRIES {
         let labels = regions(surface, sites);
+        // A part of the surface has lost all its sites: it is too small for panels.
+        if let Some(v) = labels.iter().position(|&label| label == NONE) {
+            return Err(vec![v]);
+        }
         let (panels, faulty) = extract(surface, &labels, sites);
         if faulty.is_empty() {
             return Ok(panels);

@@ -52,11 +52,11 @@ fn a_dome_a_saddle_and_a_vault_become_planar_panels_with_three_members_at_every_
     type Height = fn(f64, f64) -> f64;
     let roofs: [(Height, usize); 3] = [
         (|x, y| -(x * x + y * y) / 12_000.0, 0),
-        (|x, y| (x * x - y * y) / 14_000.0, 20),
+        (|x, y| (x * x - y * y) / 14_000.0, 8),
         (|x, _| -x * x / 12_000.0, 0),
     ];
     for (height, concave) in roofs {
-        let mesh = roof(7000.0, 6000.0, 250.0, height);
+        let mesh = roof(5000.0, 4000.0, 250.0, height);
         let (made, report) = panelize(&mesh, &sized(1000.0), &Silent).expect("panels");
         assert_good(&made, &report);
         assert!(report.deviation_mm[0] < 80.0, "{report:?}");
@@ -64,7 +64,7 @@ fn a_dome_a_saddle_and_a_vault_become_planar_panels_with_three_members_at_every_
         // Straight rims stay in their walls.
         for v in made.vertices().filter(|&v| made.is_rim_vertex(v)) {
             let p = made.position(v);
-            let off = (p.x.abs() - 3500.0).abs().min((p.y.abs() - 3000.0).abs());
+            let off = (p.x.abs() - 2500.0).abs().min((p.y.abs() - 2000.0).abs());
             assert!(off < 1e-9, "{p}");
         }
     }
@@ -72,7 +72,7 @@ fn a_dome_a_saddle_and_a_vault_become_planar_panels_with_three_members_at_every_
 
 #[test]
 fn the_same_seed_gives_the_same_bits_and_another_one_another_layout() {
-    let mesh = roof(5000.0, 5000.0, 250.0, |x, y| (x * y) / 9_000.0);
+    let mesh = roof(4000.0, 4000.0, 250.0, |x, y| (x * y) / 9_000.0);
     let run = |seed: u64| {
         let params = PanelizeParams { seed, ..sized(1000.0) };
         let (made, _) = panelize(&mesh, &params, &Silent).expect("panels");
@@ -97,7 +97,7 @@ fn a_count_and_a_sag_give_a_size() {
 
 #[test]
 fn what_is_wrong_is_told_with_its_place() {
-    let mesh = roof(4000.0, 4000.0, 300.0, |x, y| -(x * x + y * y) / 4_000.0);
+    let mesh = roof(4000.0, 4000.0, 300.0, |x, y| -(x * x + y * y) / 1_200.0);
     let (_, report) = panelize(&mesh, &sized(1200.0), &Silent).expect("panels");
     assert!(!report.is_clean());
     let told = report.notes().concat();
@@ -113,7 +113,8 @@ fn what_is_wrong_is_told_with_its_place() {
     for (params, given) in
         [(PanelizeParams::default(), 0), (PanelizeParams { count: Some(40), ..sized(1000.0) }, 2)]
     {
-        assert_eq!(panelize(&mesh, &params, &Silent), Err(PanelizeError::NoSize { given }));
+        let error = panelize(&mesh, &params, &Silent).expect_err("no size, or two");
+        assert_eq!(error, PanelizeError::NoSize { given });
     }
     let params = PanelizeParams { even: 0.7, ..sized(1000.0) };
     let error = panelize(&mesh, &params, &Silent).expect_err("out of range");

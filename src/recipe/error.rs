@@ -97,6 +97,13 @@ impl RecipeError {
         }
     }
 
+    /// The message without the place, for who knows the place already.
+    pub fn without_place(&self) -> String {
+        let text = self.to_string();
+        let place = self.at().map(|at| format!("{at}: ")).unwrap_or_default();
+        text.strip_prefix(&place).map_or(text.clone(), str::to_owned)
+    }
+
     /// What to do about it in a few words, where there are some.
     pub fn advice(&self) -> Option<&str> {
         match self {

@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use super::{Before, OperatorStep, Recipe, Step, StepError};
 use crate::check::{CheckParams, Report, check};
@@ -15,6 +16,7 @@ use crate::make::{
 use crate::mesh::{Mesh, SplitVertex};
 use crate::op::{HullParams, HullStep, OpContext, OpError, hull};
 use crate::panel::PanelParams;
+use crate::panelize::height_field;
 use crate::picture::RenderParams;
 use crate::progress::Progress;
 use crate::select::{NewElements, Selection};
@@ -37,12 +39,13 @@ impl fmt::Display for StepWithFindings {
     }
 }
 
-/// What a recipe has made so far.
-#[derive(Default)]
+/// What a recipe has made so far. A copy shares the mesh, so that the states between the steps can
+/// be kept.
+#[derive(Clone, Default)]
 pub struct Job {
     /// The name of the recipe, which stands on its sheets.
     title: String,
-    mesh: Option<Mesh>,
+    mesh: Option<Arc<Mesh>>,
     made: Option<NewElements>,
     /// Into how many pieces the strips of the last cut come apart, as the edges promised.
     promised: Option<PiecePromise>,
@@ -55,7 +58,7 @@ pub struct Job {
     /// What the picture points out.
     pub point_out: PointOut,
     /// The mesh before the last operator, where the recipe shows it.
-    pub before: Option<Mesh>,
+    pub before: Option<Arc<Mesh>>,
     keeps_before: bool,
     /// The dual hull on its way, as the last hull was asked for.
     pub hull_steps: Vec<HullStep>,
@@ -84,7 +87,7 @@ impl Job {
     /// are closed up, so that they are those of the model that will be written.
     pub fn with_mesh(mut mesh: Mesh, notes: Vec<String>) -> Self {
         mesh.compact();
-        Self { mesh: Some(mesh), notes, ..Self::default() }
+        Self { mesh: Some(Arc::new(mesh)), notes, ..Self::default() }
     }
 
     /// Runs the steps of a recipe on what there is.
@@ -102,13 +105,24 @@ impl Job {
         self.keeps_before = recipe.steps.iter().any(shows);
         self.title = recipe.name.clone().unwrap_or_default();
         for (i, step) in recipe.steps.iter().enumerate() {
-            self.step(i + 1, step, folder, progress).map_err(|cause| StepError {
-                step: i + 1,
-                verb: step.verb(),
-                cause: Box::new(cause),
-            })?;
+            self.carry_out(i + 1, step, folder, progress)?;
         }
         Ok(self)
+    }
+
+    /// Carries out one step; `number` is its place in the recipe, from 1.
+    pub(super) fn carry_out(
+        &mut self,
+        number: usize,
+        step: &Step,
+        folder: &Path,
+        progress: &dyn Progress,
+    ) -> Result<(), StepError> {
+        self.step(number, step, folder, progress).map_err(|cause| StepError {
+            step: number,
+            verb: step.verb(),
+            cause: Box::new(cause),
+        })
     }
 
     /// The mesh as it is by now.
@@ -116,7 +130,12 @@ impl Job {
     /// # Errors
     /// [`MakeError::NoMesh`] before the first step.
     pub fn mesh(&self) -> Result<&Mesh, MakeError> {
-        self.mesh.as_ref().ok_or(MakeError::NoMesh)
+        self.mesh.as_deref().ok_or(MakeError::NoMesh)
+    }
+
+    /// What the last step made, for the selections `made` and `strip` of the next one.
+    pub fn made(&self) -> Option<&NewElements> {
+        self.made.as_ref()
     }
 
     /// Whether there is a mesh; a job that only nests pieces has none.
@@ -132,11 +151,6 @@ impl Job {
         Ok(check(self.mesh()?, &self.check)?)
     }
 
-    /// What the last step made.
-    pub fn made(&self) -> Option<&NewElements> {
-        self.made.as_ref()
-    }
-
     fn step(
         &mut self,
         number: usize,
@@ -149,6 +163,9 @@ impl Job {
         }
         match step {
             Step::Solid(params) => self.start(solid(params)?)?,
+            Step::Height(params) => {
+                self.start(height_field(params).map_err(OpError::from)?)?;
+            }
             Step::Read(read) => {
                 let path: PathBuf = folder.join(&read.path);
                 let ReadMesh { mut mesh, notes, made, .. } = read_mesh(&path, &read.options)?;
@@ -172,7 +189,6 @@ impl Job {
             Step::Operator(OperatorStep { verb, params }) => {
                 let context = OpContext { made: self.made.as_ref(), progress };
                 let output = operate(params.as_ref(), folder, self.mesh()?, &context)?;
-                self.before = self.mesh.take().filter(|_| self.keeps_before);
                 self.notes.extend(output.notes);
                 // To planarize again is how to mend faces that did not become planar.
                 self.with_findings.retain(|u| u.verb != "planarize" || *verb != "planarize");
@@ -181,7 +197,8 @@ impl Job {
                 }
                 let cut = (&output.cut_edges[..], self.made.as_ref());
                 self.promised = PiecePromise::of(self.mesh()?, cut, self.promised);
-                (self.mesh, self.made) = (Some(output.mesh), output.made);
+                self.before = self.mesh.take().filter(|_| self.keeps_before);
+                (self.mesh, self.made) = (Some(Arc::new(output.mesh)), output.made);
             }
             Step::Hull(params) => {
                 let (mesh, report) =
@@ -190,7 +207,7 @@ impl Job {
                 self.hull_steps = report.steps;
                 // The hull is a solid of its own, whatever its corners came from.
                 self.with_findings.clear();
-                (self.mesh, self.made, self.promised) = (Some(mesh), None, None);
+                (self.mesh, self.made, self.promised) = (Some(Arc::new(mesh)), None, None);
             }
             Step::Check(params) => (self.check, self.is_check_asked) = (params.clone(), true),
             Step::Render { render, point_out, .. } => {
@@ -232,7 +249,7 @@ impl Job {
         if self.mesh.is_some() {
             return Err(MakeError::SecondMesh);
         }
-        self.mesh = Some(mesh);
+        self.mesh = Some(Arc::new(mesh));
         Ok(())
     }
 
@@ -244,7 +261,7 @@ impl Job {
     ) -> Result<(), MakeError> {
         let carved = carve_dform(self.mesh()?, params, progress)?;
         self.notes.extend(carved.notes);
-        self.mesh = Some(carved.mesh);
+        self.mesh = Some(Arc::new(carved.mesh));
         let folds = FabricateParams {
             folds: Selection::of_edges(carved.folds.iter().copied()),
             ..FabricateParams::default()

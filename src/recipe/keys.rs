@@ -20,7 +20,7 @@ use crate::op::{
     TruncateEdgeParams, TruncateFaceParams, TruncateVertexParams,
 };
 use crate::panel::PanelParams;
-use crate::panelize::PanelizeParams;
+use crate::panelize::{HeightParams, PanelizeParams};
 use crate::picture::RenderParams;
 use crate::shape::SolidParams;
 use crate::sheet::SheetParams;
@@ -66,6 +66,7 @@ pub fn steps() -> &'static [StepKind] {
 const STEPS: &[StepKind] = &[
     step("solid", "name", &[SolidParams::augment_args], |s| Ok(Step::Solid(s.read()?))),
     step("read", "path", &[ReadStep::augment_args], |s| Ok(Step::Read(s.read()?))),
+    step("height", "height", &[HeightParams::augment_args], |s| Ok(Step::Height(s.read()?))),
     step("planes", "path", &[PlanesStep::augment_args], |s| Ok(Step::Planes(s.read()?))),
     cut("vertex", &[TruncateVertexParams::augment_args], |s| {
         operator::<TruncateVertexParams>(s, "cut vertex")

@@ -5,6 +5,7 @@
 //! [`Job`]: the mesh as it is by then, what the last step made, and the results that are written at
 //! the end.
 
+mod draft;
 mod error;
 mod fields;
 mod job;
@@ -12,6 +13,8 @@ mod keys;
 mod outputs;
 mod parameters;
 mod parse;
+mod schema;
+mod session;
 
 #[cfg(test)]
 mod tests;
@@ -21,10 +24,13 @@ use std::sync::Arc;
 
 use serde::Deserialize;
 
+pub use draft::{RecipeDraft, StepDraft, Value};
 pub use error::{Position, RecipeError, StepError};
 pub use job::{Job, StepWithFindings};
 pub use keys::{StepKind, steps};
 pub use outputs::job_outputs;
+pub use schema::{ChoiceSchema, KeySchema, StepGroup, StepSchema, ValueKind, schema};
+pub use session::{Preview, Reached, Replay, Session, SessionError};
 
 use crate::check::CheckParams;
 use crate::io::ReadOptions;
@@ -34,6 +40,7 @@ use crate::make::{
 };
 use crate::op::{HullParams, Operate};
 use crate::panel::PanelParams;
+use crate::panelize::HeightParams;
 use crate::picture::RenderParams;
 use crate::shape::SolidParams;
 use crate::sheet::SheetParams;
@@ -98,6 +105,8 @@ pub enum Step {
     Solid(SolidParams),
     /// `read = "model.obj"`: a mesh file.
     Read(ReadStep),
+    /// `height = "2*sin(x/3)"`: a surface given as heights over a rectangle.
+    Height(HeightParams),
     /// `planes = "planes.csv"`: the solid that half-spaces bound.
     Planes(PlanesStep),
     /// `cut = "edge"`, `planarize = "exact"`, `subdivide = "loop"` and all other operators that
@@ -163,6 +172,7 @@ impl Step {
         match self {
             Self::Solid(_) => "solid",
             Self::Read(_) => "read",
+            Self::Height(_) => "height",
             Self::Planes(_) => "planes",
             Self::Operator(step) => step.verb,
             Self::Hull(_) => "hull",

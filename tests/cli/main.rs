@@ -16,6 +16,8 @@ mod recipe;
 mod rows;
 mod seams;
 mod streams;
+#[cfg(unix)]
+mod studio;
 mod unfold;
 mod verify;
 mod words;

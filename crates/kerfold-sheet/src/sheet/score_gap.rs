@@ -90,6 +90,7 @@ mod tests {
         super::super::Material {
             title: "Card".to_owned(),
             thickness: Length::from_mm(thickness),
+            rigid: false,
             density: None,
             kerf: Length::from_mm(0.1),
             web: Length::from_mm(0.1),

@@ -95,7 +95,6 @@ mod tests {
             kerf: Length::from_mm(0.1),
             web: Length::from_mm(0.1),
             speed: super::super::Speeds { cut: 1.0, score: 1.0, engrave: 1.0, travel: 1.0 },
-            rigid: false,
             colours: Default::default(),
         }
     }

@@ -91,6 +91,7 @@ fn what_outlines_cannot_be_is_told() {
         (&["circle", "circle"][..], "E880"),
         (&["trefoil-0.25", "trefoil-0.25", "--start", "1/6"], "E879"),
         (&["circle"], "E886"),
+        (&["circle", "ellipse-2x1", "--rounds", "2"], "E886"),
         (&["circle", "circle", "--zip", "0.1"], "E886"),
         (&["circle", "circel"], "E871"),
         (&["circle", "missing.svg"], "E887"),

@@ -14,7 +14,8 @@
 //! | E501–E599 | `sheet` |
 //! | E601–E699 | `panel` |
 //! | E701–E799 | `recipe` |
-//! | E801–E899 | `check`, `lint`, `picture` |
+//! | E801–E869 | `check`, `lint`, `picture` |
+//! | E871–E899 | `gluing`, and outlines in `make` |
 //! | F101–F199 | `check` |
 //! | F201–F299 | `lint` |
 //! | F301–F399 | `panel` |

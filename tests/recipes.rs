@@ -9,6 +9,9 @@ use kerfold::unfold::prove;
 
 /// Recipe, pieces, and the genus of the model. Figures are those of the thesis.
 const RECIPES: &[(&str, usize, usize)] = &[
+    ("d-form-outlines-one-piece.toml", 1, 0),
+    ("d-form-outlines-planes.toml", 2, 0),
+    ("d-form-outlines-two-ellipses.toml", 2, 0),
     ("gonen-fig-17-cones.toml", 2, 0),
     ("gonen-fig-17-leaning-cuts.toml", 2, 0),
     ("gonen-fig-17-one-sided-cuts.toml", 2, 0),

@@ -134,6 +134,8 @@ fn the_files_of_the_table_are_those_that_are_written() {
         &path("panels"),
     ]);
     run(&["dform", "tetrahedron", "--rounds", "1", "-o", &path("dform")]);
+    let outlines = ["dform", "--outlines", "circle", "ellipse-2x1", "--points", "24", "--list"];
+    run(&[&outlines[..], &["-o", &path("listed")]].concat());
     run(&["nest", &path("unfolded/pieces.json"), "-o", &path("nested")]);
     run(&["man", "-o", &path("manual")]);
     let steps = "[[step]]\nsolid = \"cube\"\n\n[[step]]\nhull = \"dual\"\nsteps = \
@@ -143,7 +145,7 @@ fn the_files_of_the_table_are_those_that_are_written() {
     run(&["run", &recipe, "-o", &path("made")]);
 
     let mut written = BTreeSet::new();
-    for name in ["unfolded", "panels", "dform", "nested", "manual", "made"] {
+    for name in ["unfolded", "panels", "dform", "listed", "nested", "manual", "made"] {
         for entry in fs::read_dir(path(name)).expect("a folder") {
             written.insert(general(&entry.expect("an entry").file_name().to_string_lossy()));
         }

@@ -11,7 +11,7 @@ use super::run::finish;
 use super::terminal::Terminal;
 use super::{Console, Outcome, seams};
 use crate::io::{ReadMesh, ReadOptions};
-use crate::make::{DformParams, OutlineParams, ShowParams, outline_list};
+use crate::make::{DformParams, MakeError, OutlineParams, OutlinesError, ShowParams, outline_list};
 use crate::picture::RenderParams;
 use crate::recipe::{Job, Recipe, Step};
 use crate::shape::{SolidName, SolidParams, solid};
@@ -57,6 +57,11 @@ pub(super) struct DformArgs {
 }
 
 pub(super) fn run(args: &DformArgs, console: &Console) -> Result<Outcome, CliError> {
+    if args.outlines.glue.is_some() && args.options.size.is_some() {
+        let what = "a gluing file and --size are given".to_owned();
+        let advice = "name sizes in the file, after @";
+        return Err(MakeError::from(OutlinesError::Options { what, advice }).into());
+    }
     if args.list && args.solid.is_some() {
         return list(args, console);
     } else if args.list {

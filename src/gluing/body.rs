@@ -74,6 +74,7 @@ pub fn glue(gluing: &Gluing, progress: &dyn Progress) -> Result<Glued, GluingErr
         }
     }
     let (surface, places, effort) = tried?;
+    let places = upright(&places, &rims);
     let traced = trace(&surface, &rims, &directions)?;
     let overlay = overlay(&surface, &rims, &traced, places)?;
     let mesh = mesh(&overlay)?;
@@ -113,6 +114,22 @@ fn placed(
         }
     }
     Err(last.unwrap_or(GluingError::Cancelled))
+}
+
+/// Turned so that the first piece lies on top, as nearly as can be as it was drawn.
+fn upright(places: &[DVec3], rims: &Rims) -> Vec<DVec3> {
+    let (mut x, mut y) = (DVec3::ZERO, DVec3::ZERO);
+    for (p, &v) in rims.pieces[0].points.iter().zip(&rims.pieces[0].vertex) {
+        x += p.x * places[v];
+        y += p.y * places[v];
+    }
+    let x = x.normalize_or_zero();
+    let y = (y - y.dot(x) * x).normalize_or_zero();
+    if x == DVec3::ZERO || y == DVec3::ZERO {
+        return places.to_vec();
+    }
+    let z = x.cross(y);
+    places.iter().map(|p| DVec3::new(p.dot(x), p.dot(y), p.dot(z))).collect()
 }
 
 fn mesh(overlay: &Overlay) -> Result<Mesh, GluingError> {

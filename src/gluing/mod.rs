@@ -15,6 +15,7 @@
 
 mod alexandrov;
 mod body;
+mod closing;
 mod error;
 mod named;
 mod outline;

@@ -29,8 +29,9 @@ const KINDS: [&str; 10] = [
 /// `circle`; `ellipse-2x1`; `superellipse-2x1-4` (with the exponent, 1.2 to 20);
 /// `rounded-rectangle-2x1-0.3` (with the radius as a part of half the short side, above 0 to 1);
 /// `rectangle-2x1`, from the lower left corner; `lens-0.5` (two arcs with so much width for its
-/// length, above 0 to 1, from the right tip); `regular-7` (corners, 3 to 200); `trefoil-0.25` and `peanut-0.25` (three and two lobes of so
-/// much, above 0 to 0.45); `egg-0.2` (how much thinner one end is, above 0 to 0.35).
+/// length, above 0 to 1, from the right tip); `regular-7` (corners, 3 to 200); `trefoil-0.25` and
+/// `peanut-0.25` (three and two lobes of so much, above 0 to 0.45); `egg-0.2` (how much thinner one
+/// end is, above 0 to 0.35).
 ///
 /// # Errors
 /// [`GluingError::UnknownName`], [`GluingError::NameNumbers`].

@@ -83,8 +83,8 @@ impl Gluing {
         format!("{} = {}", self.span_text(&seam.a), self.span_text(&seam.b))
     }
 
-    /// The same seams begun elsewhere: the side `b` of the first seam is moved along its rim, and of
-    /// a zip both sides. `None` for more than one seam, which have no such freedom.
+    /// The same seams begun elsewhere: the side `b` of the first seam is moved along its rim, and
+    /// of a zip both sides. `None` for more than one seam, which have no such freedom.
     fn moved(&self, by: f64) -> Option<Self> {
         let [seam] = self.seams.as_slice() else { return None };
         let moved = |span: &Span| Span { from: span.from + by, to: span.to + by, ..*span };

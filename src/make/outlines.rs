@@ -84,10 +84,11 @@ pub enum Fit {
 /// A D-form from flat outlines instead of a solid.
 #[derive(Debug, Clone, PartialEq, clap::Args, Deserialize)]
 pub struct OutlineParams {
-    /// Outlines that are joined rim to rim, two, or one with --zip: SVG or DXF files with one closed
-    /// line each, lists of points (.csv, x,y on each line), or names: circle, ellipse-2x1, superellipse-2x1-4, rounded-rectangle-2x1-0.3,
-    /// rectangle-2x1, lens-0.5, regular-7, trefoil-0.25, peanut-0.25, egg-0.2. A size may follow
-    /// after @, the largest extent: circle@180mm; names are 100 mm without
+    /// Outlines that are joined rim to rim, two, or one with --zip: SVG or DXF files with one
+    /// closed line each, lists of points (.csv, x,y on each line), or names: circle, ellipse-2x1,
+    /// superellipse-2x1-4, rounded-rectangle-2x1-0.3, rectangle-2x1, lens-0.5, regular-7,
+    /// trefoil-0.25, peanut-0.25, egg-0.2. A size may follow after @, the largest extent:
+    /// circle@180mm; names are 100 mm without
     #[arg(long, num_args = 1..=2, value_name = "OUTLINE")]
     #[serde(default)]
     pub outlines: Vec<String>,

@@ -217,6 +217,7 @@ impl Job {
                 self.show = show.clone();
                 let sheet = self.sheet(sheet, folder)?;
                 if outlines.is_given() {
+                    no_carving(dform)?;
                     self.outlines(outlines, folder, sheet, progress)?;
                 } else {
                     no_stray_option(outlines)?;
@@ -348,4 +349,16 @@ fn no_stray_option(outlines: &OutlineParams) -> Result<(), MakeError> {
         }
         .into()),
     }
+}
+
+/// Folds are carved on solids; outlines have none.
+fn no_carving(dform: &DformParams) -> Result<(), MakeError> {
+    if *dform == DformParams::default() {
+        return Ok(());
+    }
+    Err(OutlinesError::Options {
+        what: "options that carve folds are given with outlines".to_owned(),
+        advice: "outlines are joined as they are: leave out everything that is for solids",
+    }
+    .into())
 }

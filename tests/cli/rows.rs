@@ -115,6 +115,11 @@ pub const ROWS: &[Row] = &[
     row(Mesh, &["unfold", "IN", "--sheet", "none", "--assembly", "pictures", "-o", "OUT"], "shown"),
     row(Mesh, &["seams", "IN"], ""),
     row(Mesh, &["dform", "IN", "--rounds", "1", "-o", "OUT"], "out"),
+    row(
+        Word("ellipse-2x1", "elipse-2x1"),
+        &["dform", "--outlines", "IN", "--zip", "0.12", "--points", "24", "-o", "OUT"],
+        "zipped",
+    ),
     row(Mesh, &["panels", "IN", "--thickness", "2mm", "--gap", "1mm", "-o", "OUT"], "panels"),
     row(Pieces, &["verify", "IN", "MODEL"], ""),
     row(Pieces, &["nest", "IN", "--sheet", "900x900", "--effort", "1", "-o", "OUT"], "nested"),

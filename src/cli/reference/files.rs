@@ -14,9 +14,14 @@ const fn file(name: &'static str, by: &'static str, what: &'static str) -> File 
     File { name, by, what }
 }
 
-const FILES: [File; 29] = [
+const FILES: [File; 30] = [
     file("model.obj", "`run`, `dform`", "the model as it is at the end"),
     file("model.png", "`run`, `dform`", "its picture"),
+    file(
+        "list.png",
+        "`dform --list`",
+        "the outlines, and the bodies for starts all around the rim",
+    ),
     file(
         "model-after-NN.png",
         "`run` with `steps` of a `hull`",

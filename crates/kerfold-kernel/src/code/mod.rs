@@ -14,7 +14,9 @@
 //! | E501–E599 | `sheet` |
 //! | E601–E699 | `panel` |
 //! | E701–E799 | `recipe` |
-//! | E801–E899 | `check`, `lint`, `picture` |
+//! | E801–E839 | `check`, `lint`, `picture` |
+//! | E841–E869 | `panelize` |
+//! | E871–E899 | `gluing`, and outlines in `make` |
 //! | E901–E949 | the studio |
 //! | F101–F199 | `check` |
 //! | F201–F299 | `lint` |

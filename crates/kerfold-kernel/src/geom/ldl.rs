@@ -22,8 +22,8 @@ pub struct Ldl {
 }
 
 impl Ldl {
-    /// Factors the matrix whose rows are given in full, both triangles. `None` when a pivot vanishes
-    /// or a number is not finite.
+    /// Factors the matrix whose rows are given in full, both triangles. `None` when a pivot
+    /// vanishes or a number is not finite.
     pub fn new(rows: &[Row]) -> Option<Self> {
         let (order, fill) = least_degree(rows);
         let count = rows.len();

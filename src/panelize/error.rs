@@ -122,7 +122,7 @@ pub enum PanelizeFinding {
     GoesThrough,
     /// Panels are not planar up to rounding.
     NotPlanar,
-    /// The surface bends too much for panels of the size.
+    /// A panel leaves the surface by more than a fifth of its size.
     TooCurved,
     /// An edge is shorter than the limit.
     ShortEdge,

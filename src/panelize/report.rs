@@ -10,8 +10,9 @@ use super::{EXACT, Model, PanelizeFinding, PanelizeParams, Solved};
 use crate::check::short;
 use crate::code::Coded;
 
-/// A sag above this share of the panel size is too much.
-const MOST_SAG: f64 = 0.2;
+/// Panels that leave the surface by more than this share of their size do so because it bends too
+/// much for them; a sag of as much is the most that goes well.
+const MOST_OFF: f64 = 0.2;
 /// Plates may reach so many thicknesses from their node.
 const FARTHEST_NODE: f64 = 1.5;
 /// So many places of one kind are named.
@@ -163,7 +164,8 @@ impl PanelizeReport {
                 "panels did not become planar up to rounding; take a smaller size or another seed"
             }
             PanelizeFinding::TooCurved => {
-                "panels are too large for the curvature there; take a smaller size"
+                "panels leave the surface by more than a fifth of their size, since it bends too \
+                much for it; take a smaller size"
             }
             PanelizeFinding::ShortEdge => {
                 "panels have a shorter edge than allowed; take another seed or a smaller size"
@@ -193,9 +195,16 @@ impl PanelizeReport {
             let p = place.place;
             format!("{}{measured} at ({:.0}, {:.0}, {:.0})", place.element, p.x, p.y, p.z)
         };
+        let fitting = self.size_mm * MOST_OFF / (self.sag_mm / self.size_mm);
+        let advice = match kind {
+            PanelizeFinding::TooCurved if fitting < self.size_mm => {
+                format!(" (about {} mm fits)", short(fitting))
+            }
+            _ => String::new(),
+        };
         let names: Vec<String> = places.iter().take(NAMED).map(name).collect();
         let more = if places.len() > NAMED { ", …" } else { "" };
-        format!("{} {what}: {}{more} ({})", places.len(), names.join(", "), kind.code())
+        format!("{} {what}{advice}: {}{more} ({})", places.len(), names.join(", "), kind.code())
     }
 }
 
@@ -223,8 +232,9 @@ fn findings(model: &Model, solved: &Solved, params: &PanelizeParams) -> Vec<Plac
         };
         all.extend(faces(PanelizeFinding::NotPlanar, &|f| (off(f) > EXACT).then(|| off(f) * size)));
     }
-    let sag = |f: usize| model.quadrics[panels.sites[f]].sag();
-    all.extend(faces(PanelizeFinding::TooCurved, &|f| (sag(f) > MOST_SAG).then(|| sag(f) * size)));
+    all.extend(faces(PanelizeFinding::TooCurved, &|f| {
+        (m[f].deviation > MOST_OFF).then(|| m[f].deviation * size)
+    }));
     let mut short_edges = faces(PanelizeFinding::ShortEdge, &|f| {
         (m[f].shortest < params.min_edge / 2.0).then(|| m[f].shortest * size)
     });

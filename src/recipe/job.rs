@@ -8,8 +8,8 @@ use crate::check::{CheckParams, Report, check};
 use crate::io::{ReadMesh, read_mesh};
 use crate::make::{
     DformError, DformParams, FabricateParams, FabricateSettings, Fabrication, MakeError,
-    PanelFiles, PanelJob, Panelled, PiecePromise, PointOut, ShowParams, carve_dform, fabricate,
-    nest_files, operate, panel_model, solid_of_planes, with_material,
+    PanelFiles, PanelJob, Panelled, PiecePromise, PointOut, ShowParams, carve_dform_for_sheet,
+    fabricate, nest_files, operate, panel_model, solid_of_planes, with_material,
 };
 use crate::mesh::{Mesh, SplitVertex};
 use crate::op::{HullParams, HullStep, OpContext, OpError, hull};
@@ -230,7 +230,7 @@ impl Job {
         sheet: &SheetParams,
         progress: &dyn Progress,
     ) -> Result<(), MakeError> {
-        let carved = carve_dform(self.mesh()?, params, progress)?;
+        let carved = carve_dform_for_sheet(self.mesh()?, params, sheet, progress)?;
         self.notes.extend(carved.notes);
         self.mesh = Some(carved.mesh);
         let folds = FabricateParams {

@@ -65,7 +65,6 @@ pub use params::{PieceKind, SheetParams};
 pub use score::{ScoreParams, ScoreStyle};
 pub use stock::{SheetSize, StockParams};
 pub use stretch::Stretch;
-pub use stretch::Stretch;
 pub use verify::{clearance, verify};
 
 #[cfg(test)]

@@ -27,7 +27,12 @@ fn source_files(folder: &Path) -> Vec<PathBuf> {
 /// The source outside the room of codes itself, with the path of each file.
 fn source() -> Vec<(String, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let folders = ["src", "crates/kerfold-kernel/src", "crates/kerfold-sheet/src"];
+    let folders = [
+        "src",
+        "crates/kerfold-kernel/src",
+        "crates/kerfold-sheet/src",
+        "crates/kerfold-studio/src",
+    ];
     let files = folders.iter().flat_map(|folder| source_files(&root.join(folder)));
     let shown = |file: &Path| {
         file.strip_prefix(root)

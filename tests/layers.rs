@@ -63,14 +63,19 @@ const ROOMS: &[Room] = &[
     room(1, SHEET, "net", &[]),
     room(2, KERNEL, "measure", &["geom", "mesh"]),
     room(2, KERNEL, "shape", &["geom", "units", "random", "mesh"]),
+    room(2, TOP, "mend", &["geom", "units", "mesh", "measure"]),
     room(2, TOP, "seam", &["units", "mesh", "measure", "progress"]),
     room(2, TOP, "select", &["geom", "units", "mesh", "measure", "seam", "progress"]),
-    room(3, TOP, "check", &["geom", "units", "mesh", "measure"]),
+    room(3, TOP, "check", &["geom", "units", "mesh", "measure", "mend"]),
+    room(3, TOP, "panelize", &["geom", "units", "random", "mesh", "measure", "check", "progress"]),
     room(
         3,
         TOP,
         "op",
-        &["memory", "geom", "units", "mesh", "measure", "select", "check", "progress"],
+        &[
+            "memory", "geom", "units", "mesh", "measure", "mend", "select", "check", "panelize",
+            "progress",
+        ],
     ),
     room(
         3,
@@ -79,6 +84,7 @@ const ROOMS: &[Room] = &[
         &["geom", "random", "mesh", "measure", "seam", "check", "net", "progress"],
     ),
     room(3, TOP, "panel", &["geom", "units", "mesh", "measure", "check", "net", "progress"]),
+    room(3, TOP, "gluing", &["geom", "units", "mesh", "measure", "net", "progress"]),
     room(3, SHEET, "sheet", &["geom", "units", "random", "net", "progress"]),
     room(3, SHEET, "lint", &["geom", "units"]),
     room(3, TOP, "bloom", &["geom", "mesh", "net"]),
@@ -86,7 +92,10 @@ const ROOMS: &[Room] = &[
         4,
         TOP,
         "io",
-        &["geom", "units", "mesh", "net", "measure", "check", "panel", "sheet", "lint", "bloom"],
+        &[
+            "geom", "units", "mesh", "net", "measure", "mend", "select", "check", "panel", "sheet",
+            "lint", "bloom",
+        ],
     ),
     room(4, TOP, "picture", &["geom", "units", "mesh", "measure", "sheet"]),
     room(
@@ -95,7 +104,7 @@ const ROOMS: &[Room] = &[
         "make",
         &[
             "geom", "units", "progress", "mesh", "net", "measure", "shape", "seam", "select",
-            "check", "op", "unfold", "panel", "sheet", "bloom", "io", "picture",
+            "check", "op", "unfold", "panel", "gluing", "sheet", "lint", "bloom", "io", "picture",
         ],
     ),
     room(
@@ -103,8 +112,8 @@ const ROOMS: &[Room] = &[
         TOP,
         "recipe",
         &[
-            "units", "progress", "mesh", "shape", "select", "check", "op", "unfold", "panel",
-            "sheet", "io", "picture", "make",
+            "units", "progress", "mesh", "shape", "select", "check", "panelize", "op", "unfold",
+            "panel", "sheet", "io", "picture", "make",
         ],
     ),
     room(4, TOP, "gallery", &["units", "progress", "io", "make", "recipe"]),
@@ -114,8 +123,8 @@ const ROOMS: &[Room] = &[
         "cli",
         &[
             "units", "progress", "mesh", "net", "measure", "shape", "seam", "select", "check",
-            "op", "unfold", "panel", "sheet", "lint", "io", "picture", "make", "recipe", "gallery",
-            "explain",
+            "panelize", "op", "unfold", "panel", "sheet", "lint", "io", "picture", "make",
+            "recipe", "gallery", "explain",
         ],
     ),
 ];
@@ -143,6 +152,7 @@ const DOORS: &[(&str, &[&str])] = &[
     ("spade", &["crates/kerfold-kernel/src/geom/triangulate.rs", "src/op/cut/bridge.rs"]),
     ("batsat", &["src/seam/sat.rs"]),
     ("i_overlay", &["crates/kerfold-sheet/src/sheet/kerf.rs"]),
+    ("meshopt", &["src/op/simplify/"]),
     ("tobj", &["src/io/write/obj_check.rs"]),
     ("tempfile", &["src/io/output/"]),
     ("annotate_snippets", &["src/cli/"]),
@@ -164,7 +174,7 @@ const DOORS: &[(&str, &[&str])] = &[
     ("rust_xlsxwriter", &["src/io/panels_xlsx.rs"]),
     ("tiny_skia", &["src/picture/"]),
     ("serde_json", &["src/io/", "src/cli/"]),
-    ("toml", &["src/recipe/", "src/make/materials.rs"]),
+    ("toml", &["src/recipe/", "src/make/materials.rs", "src/make/glue_file.rs"]),
     ("clap_complete", &["src/cli/"]),
     ("clap_mangen", &["src/cli/"]),
     ("ctrlc", &["src/cli/"]),
@@ -174,10 +184,15 @@ const DOORS: &[(&str, &[&str])] = &[
 /// What parameter structs anywhere may take from clap. The rule: whatever builds or runs a command
 /// line stays in `src/cli`.
 const CLAP_EVERYWHERE: &[&str] = &["Args", "ValueEnum", "value_parser", "builder"];
-/// The recipe reader asks the parameter structs for their field names, so that recipe and command
-/// line cannot part.
-const CLAP_COMMANDS: &[&str] =
-    &["src/cli/", "src/main.rs", "src/recipe/keys.rs", "src/recipe/fields.rs"];
+/// The recipe reader asks the parameter structs for their field names, and the schema for all that
+/// they say of them, so that recipe, forms and command line cannot part.
+const CLAP_COMMANDS: &[&str] = &[
+    "src/cli/",
+    "src/main.rs",
+    "src/recipe/keys.rs",
+    "src/recipe/fields.rs",
+    "src/recipe/schema.rs",
+];
 
 /// The rule: half-edge links are written in one file, so that every mesh stays manifold by
 /// construction.

@@ -288,3 +288,35 @@ fn what_an_operator_makes_is_read_again_as_it_was() {
     assert!(written > 3 * refused, "{written} written, {refused} refused");
     assert!(written > 4 * refused_as_stl, "{written} written, {refused_as_stl} not as STL");
 }
+
+/// What fuzzing found: a rind of a rind, whose caps come twice to a vertex when edges are cut.
+#[test]
+fn chains_that_fuzzing_found_are_read_again() {
+    let peel = |mm: f64, peel: &[usize], shell| RindParams {
+        thickness: Length::from_mm(mm),
+        thickness_of: Vec::new(),
+        punch: None,
+        peel: faces(peel),
+        shell,
+    };
+    let edges = Selection::of_edges([0, 14].map(EdgeId::new)).expect("two edges");
+    let chain: [Box<dyn Operate>; 3] = [
+        Box::new(peel(5.0, &[2], ShellSource::New)),
+        Box::new(peel(0.5, &[], ShellSource::Given)),
+        Box::new(TruncateEdgeParams::new(edges, 0.2)),
+    ];
+    let mut read = 0;
+    for start in [shape::tetrahedron(20.0), shape::cube(20.0), shape::dodecahedron(20.0)] {
+        let mut mesh = start;
+        for operator in &chain {
+            let Ok(made) = operator.operate(&mesh, &OpContext::default()) else { break };
+            mesh = made.mesh;
+            let bytes = mesh_bytes(MeshFormat::Off, &mesh, &WriteOptions::default())
+                .unwrap_or_else(|error| panic!("{operator:?}: {error}"));
+            let again = read_mesh_bytes(Path::new("made.off"), &bytes, &ReadOptions::default());
+            assert_eq!(again.expect("written").mesh.counts(), mesh.counts(), "{operator:?}");
+            read += 1;
+        }
+    }
+    assert!(read >= 6, "{read}");
+}

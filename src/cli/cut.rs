@@ -87,8 +87,11 @@ fn both_parts(cut: &CutOf<SliceParams>, console: &Console) -> Result<Outcome, Cl
     }
     let read = cut.input.read()?;
     let progress = Terminal::new(console.quiet);
-    let parts =
-        slice_both(&read.mesh, &cut.params, &OpContext { made: None, progress: &progress })?;
+    let parts = slice_both(
+        &read.mesh,
+        &cut.params,
+        &OpContext { made: read.made.as_ref(), progress: &progress },
+    )?;
     console.notes(&read.notes);
     let mut models = Vec::new();
     for (part, side) in parts.into_iter().zip(["reverse", "normal"]) {
@@ -117,12 +120,14 @@ impl<T: Args> CutOf<T> {
     ) -> Result<Outcome, CliError> {
         let read = self.input.read()?;
         let progress = Terminal::new(console.quiet);
-        let context = OpContext { made: None, progress: &progress };
+        let context = OpContext { made: read.made.as_ref(), progress: &progress };
         let (mesh, report) = operator(&read.mesh, &self.params, &context)?;
         let notes =
             read.notes.iter().map(ToString::to_string).chain(report.notes(element)).collect();
         let (mesh, notes) = self.resolved(mesh, notes)?;
-        console.write_model(&self.output, &mesh, &notes)?;
+        // Resolving gives other ids.
+        let made = self.resolve.is_none().then_some(&report.made);
+        console.write_model(&self.output, &mesh, made, &notes)?;
         Ok(Outcome::Clean)
     }
 

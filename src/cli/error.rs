@@ -80,6 +80,15 @@ pub(super) enum CliError {
         -after-20.png is put to its name"
     )]
     PicturesToStdout,
+    #[error(
+        "the studio is not installed; install it from the sources with `cargo install --path \
+        crates/kerfold-studio`, which needs Node 20"
+    )]
+    NoStudio,
+    #[error("the studio ended with the error above")]
+    StudioFailed,
+    #[error("{}: the studio cannot be started: {error}", program.display())]
+    StudioNotStarted { program: PathBuf, error: io::Error },
     #[error("stopped; the recipes that were done by then are in their folders")]
     Stopped,
     #[error("writing to standard output: {0}")]
@@ -89,6 +98,8 @@ pub(super) enum CliError {
         did_you_mean(nearest.as_deref())
     )]
     NoSuchCode { word: String, nearest: Option<String> },
+    #[error("`{word}` is no verb; {}`kerfold help` lists all", did_you_mean(nearest.as_deref()))]
+    NoSuchVerb { word: String, nearest: Option<String> },
 }
 
 codes!(error CliError {
@@ -106,6 +117,10 @@ codes!(error CliError {
     UnknownRecipe = 12,
     Gallery = 13,
     Stopped = 14,
+    NoStudio = 15,
+    NoSuchVerb = 16,
+    StudioFailed = 17,
+    StudioNotStarted = 18,
 } through {
     Io.0,
     Shape.0,

@@ -54,7 +54,7 @@ pub(super) fn run(args: &HullArgs, console: &Console) -> Result<Outcome, CliErro
     let pictures: Vec<(PathBuf, Vec<u8>)> =
         report.steps.iter().map(picture).collect::<Result<_, _>>()?;
     if pictures.is_empty() {
-        console.write_model(&args.output, &mesh, &notes)?;
+        console.write_model(&args.output, &mesh, None, &notes)?;
         return Ok(Outcome::Clean);
     }
     notes.extend(pictures.iter().map(|(path, _)| format!("wrote {}", path.display())));

@@ -4,7 +4,7 @@ use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use super::error::CliError;
-use crate::io::{IoError, ReadMesh, ReadOptions, read_mesh, read_mesh_bytes};
+use crate::io::{IoError, ReadMesh, ReadOptions, read_mesh, read_mesh_bytes, size_note};
 use crate::sheet::SheetParams;
 
 /// A mesh file and how to read it.
@@ -25,7 +25,9 @@ impl Input {
     }
 
     pub(super) fn read(&self) -> Result<ReadMesh, CliError> {
-        Ok(read_model(&self.input, &self.options)?)
+        let mut read = read_model(&self.input, &self.options)?;
+        read.notes.extend(size_note(&read.mesh, &self.options));
+        Ok(read)
     }
 }
 

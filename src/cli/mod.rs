@@ -9,6 +9,7 @@ mod dform;
 mod error;
 mod explain;
 mod gallery;
+mod help;
 mod hull;
 mod info;
 mod input;
@@ -21,10 +22,12 @@ mod output;
 mod panels;
 mod reference;
 mod render;
+mod repair;
 mod run;
 mod seams;
 mod snippet;
 mod solid;
+mod studio;
 mod terminal;
 mod unfold;
 mod verify;
@@ -37,8 +40,10 @@ use output::Console;
 pub use reference::reference;
 
 use crate::op::{
-    HandleParams, MengerParams, PlanarizeParams, RindParams, SierpinskiParams, SubdivideParams,
+    HandleParams, MengerParams, MergeParams, PlanarizeParams, RindParams, SierpinskiParams,
+    SimplifyParams, SubdivideParams,
 };
+use crate::panelize::PanelizeParams;
 
 /// Carve planar 3-valence meshes, check them, and unfold them into sheets that a shop can cut.
 #[derive(Debug, Parser)]
@@ -73,6 +78,18 @@ enum Verb {
     #[command(after_help = "Example: kerfold planarize facade.obj --profile glass --rim fixed -o \
         planar.obj")]
     Planarize(operator::OperatorArgs<PlanarizeParams>),
+    /// Make one polygon of faces that lie flat beside each other, as triangles from STL and CAD do
+    #[command(after_help = "Example: kerfold merge dome.stl --tolerance 0.05mm -o panes.obj")]
+    Merge(operator::OperatorArgs<MergeParams>),
+    Repair(repair::RepairArgs),
+    /// Make fewer triangles, so many or within a deviation: a scan becomes a paper model
+    #[command(after_help = "Example: kerfold simplify cat.stl --faces 300 -o paper-cat.obj")]
+    Simplify(operator::OperatorArgs<SimplifyParams>),
+    /// Make planar panels of a freeform surface, three edges at every node; exit code 1 when some
+    /// do not come out well
+    #[command(after_help = "Example: kerfold panelize roof.obj --size 1.2m --rim walls -o \
+        panels.obj")]
+    Panelize(operator::OperatorArgs<PanelizeParams>),
     /// Make a mesh finer: Doo–Sabin, Catmull–Clark, Loop, simplest, honeycomb, truncation, dual or
     /// triangles
     #[command(after_help = "Example: kerfold subdivide doo-sabin cube.obj --rounds 2 -o round.obj")]
@@ -112,7 +129,9 @@ enum Verb {
     Run(run::RunArgs),
     Gallery(gallery::GalleryArgs),
     Render(render::RenderArgs),
+    Studio(studio::StudioArgs),
     Explain(explain::ExplainArgs),
+    Help(help::HelpArgs),
     Completions(manual::CompletionsArgs),
     Man(manual::ManArgs),
 }
@@ -137,7 +156,11 @@ fn command() -> clap::Command {
 
 /// Reads the arguments of the process, does what they say, and returns the exit code.
 pub fn run() -> ExitCode {
-    let parsed = command().try_get_matches().and_then(|matches| Cli::from_arg_matches(&matches));
+    let colour = output::asked_colour(std::env::args_os());
+    let parsed = command()
+        .color(colour.of_clap())
+        .try_get_matches()
+        .and_then(|matches| Cli::from_arg_matches(&matches));
     let cli = match parsed {
         Ok(cli) => cli,
         Err(refusal) => return explain::refuse(&refusal),
@@ -151,6 +174,10 @@ pub fn run() -> ExitCode {
         Verb::Cut(args) => cut::run(&args, &console),
         Verb::Hull(args) => hull::run(&args, &console),
         Verb::Planarize(args) => operator::run(&args, &console),
+        Verb::Merge(args) => operator::run(&args, &console),
+        Verb::Repair(args) => repair::run(&args, &console),
+        Verb::Simplify(args) => operator::run(&args, &console),
+        Verb::Panelize(args) => operator::run(&args, &console),
         Verb::Subdivide(args) => operator::run(&args, &console),
         Verb::Sierpinski(args) => operator::run(&args, &console),
         Verb::Rind(args) => operator::run(&args, &console),
@@ -167,7 +194,9 @@ pub fn run() -> ExitCode {
         Verb::Run(args) => run::run(&args, &console),
         Verb::Gallery(args) => gallery::run(&args, &console),
         Verb::Render(args) => render::run(&args, &console),
+        Verb::Studio(args) => studio::run(&args, &console),
         Verb::Explain(args) => explain::run(&args, &console),
+        Verb::Help(args) => help::run(&args, &console),
         Verb::Completions(args) => manual::completions(&args),
         Verb::Man(args) => manual::man(&args, &console),
     };

@@ -48,7 +48,7 @@ pub(super) fn run(args: &UnfoldArgs, console: &Console) -> Result<Outcome, CliEr
     let progress = Terminal::new(console.quiet);
     let source = MeshSource { scale: read.scale, split_vertices: &read.splits };
     let settings = FabricateSettings { unfold: &args.unfold, choice: &args.choice, sheet: &sheet };
-    let fabrication = fabricate(&read.mesh, None, &settings, &source, &progress)?;
+    let fabrication = fabricate(&read.mesh, read.made.as_ref(), &settings, &source, &progress)?;
     let command = command_line();
     let mut outputs = fabrication_outputs(&fabrication, Some(&read.mesh), &sheet, &command)?;
     let show = args.show.from_here();

@@ -86,7 +86,7 @@ pub enum IoError {
         fault: ContentFault,
     },
     /// The vertices and faces do not make a mesh.
-    #[error("{place}: {fault}{}{}", advice(fault), AlsoSee(also_lines))]
+    #[error("{place}: {fault}{}{}", advice(fault, &place.path), AlsoSee(also_lines))]
     Mesh {
         /// Where.
         place: Place,
@@ -157,6 +157,18 @@ pub enum IoError {
     /// The welding distance is below zero.
     #[error("cannot weld vertices {mm}mm apart; --weld takes a distance of 0mm or more")]
     BadWeld {
+        /// What was asked.
+        mm: f64,
+    },
+    /// The distance within which faces count as flat is below zero.
+    #[error("cannot merge faces {mm}mm off flat; --merge-flat takes a distance of 0mm or more")]
+    BadFlat {
+        /// What was asked.
+        mm: f64,
+    },
+    /// Holes to close have no width.
+    #[error("cannot close holes of {mm}mm; --close-holes takes a length above 0mm")]
+    BadHole {
         /// What was asked.
         mm: f64,
     },
@@ -291,6 +303,8 @@ codes!(error IoError {
     NotReadBack = 120,
     ReadAsOther = 121,
     NotForStl = 122,
+    BadFlat = 125,
+    BadHole = 126,
     Workbook = 128,
 } through {
     Content.fault,
@@ -314,6 +328,11 @@ impl IoError {
     }
 }
 
+/// How a file is mended, while it is read or for good.
+fn repair_advice(way: &str, path: &Path) -> String {
+    format!("; or read with {way}, or `kerfold repair {} -o repaired.obj`", path.display())
+}
+
 /// What is read instead.
 fn other(wanted: &FileCounts, found: Option<&FileCounts>) -> String {
     match found {
@@ -323,15 +342,23 @@ fn other(wanted: &FileCounts, found: Option<&FileCounts>) -> String {
 }
 
 /// What to do, where the fault itself does not say it.
-fn advice(fault: &BuildError) -> &'static str {
-    match fault {
+fn advice(fault: &BuildError, path: &Path) -> String {
+    let text = match fault {
         BuildError::NoFaces => "; export the model as a polygon mesh",
         BuildError::NotFinite { .. } => "; correct it or export the model again",
         BuildError::MissingVertex { .. } => "; correct the number or export the model again",
         BuildError::TooFewCorners { .. } => "; remove it",
         BuildError::TooMany { .. } => "; simplify the model first",
+        BuildError::FlippedFace { .. } => {
+            let way = "--orient (--mend where there is one side only)";
+            return repair_advice(way, path);
+        }
+        BuildError::ThreeFacesAtEdge { .. }
+        | BuildError::DegenerateFace { .. }
+        | BuildError::ZeroLengthEdge { .. } => return repair_advice("--mend", path),
         _ => "",
-    }
+    };
+    text.to_owned()
 }
 
 /// ` (see also line 3)`, ` (see also lines 3 and 7)`, or nothing.

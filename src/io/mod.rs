@@ -6,10 +6,12 @@
 
 mod base64;
 pub mod bloom_glb;
+mod csv_cell;
 mod error;
 mod format;
 pub mod map_files;
 mod number;
+pub mod order_artwork;
 pub mod order_json;
 pub mod output;
 pub mod panels_csv;
@@ -29,7 +31,8 @@ pub(crate) use number::xml as escaped;
 pub use read::artwork;
 pub use read::{
     MeshUnit, ReadMesh, ReadNote, ReadOptions, decode_text, read_mesh, read_mesh_bytes,
-    read_points, read_points_bytes, read_seams, read_seams_bytes, read_text,
+    read_points, read_points_bytes, read_seams, read_seams_bytes, read_text, repair_mesh_bytes,
+    size_note,
 };
 pub use write::glb;
 pub use write::plates;

@@ -6,10 +6,10 @@
 //! at most six decimals.
 
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
 
 use glam::{DVec2, DVec3};
 
+use super::csv_cell::cell;
 use crate::mesh::EdgeId;
 use crate::net::{EdgeLabel, PieceId};
 use crate::panel::{GroupRow, NodeRow, PanelRow, Plate, Plates, Schedule};
@@ -236,21 +236,13 @@ impl Table {
         let mut text = self.columns.join(",") + ",command\r\n";
         for (i, fields) in self.rows.iter().enumerate() {
             for field in fields {
-                quote_into(&mut text, field);
+                text += &cell(field);
                 text.push(',');
             }
-            quote_into(&mut text, if i == 0 { command } else { "" });
+            text += &cell(if i == 0 { command } else { "" });
             text += "\r\n";
         }
         text
-    }
-}
-
-fn quote_into(text: &mut String, field: &str) {
-    if field.contains([',', '"', '\r', '\n']) {
-        let _ = write!(text, "\"{}\"", field.replace('"', "\"\""));
-    } else {
-        *text += field;
     }
 }
 

@@ -14,12 +14,15 @@ use crate::mesh::{EdgeId, FaceMap, Mesh};
 use crate::net::{Net, PieceId, Seam};
 use crate::progress::Progress;
 use crate::select::{Context, NewElements, Selection};
-use crate::sheet::{SheetError, SheetParams, SheetSet, lay_out_watched};
+use crate::sheet::{FoldWay, SheetError, SheetParams, SheetSet, lay_out_watched};
 use crate::unfold::{
     FLAT, MeshSource, PiecesMode, Seams, UnfoldParams, check_folded, check_seams, seams_by_angle,
     unfold,
 };
-use crate::units::Angle;
+use crate::units::{Angle, Length};
+
+/// Living hinges are as wide as so many thicknesses, where nothing is said.
+const HINGE: f64 = 10.0;
 
 /// How the seams were chosen, in words.
 const STRIPS: &str = "the strips that the last cut made fold, all other edges open";
@@ -130,11 +133,25 @@ pub fn fabricate(
     sheet.check_sheets()?;
     let context = Context { mesh, made, progress };
     let keep = selected(&context, choice.keep.as_ref())?;
-    let (mut seams, words) = choose_seams(&context, source, params, choice)?;
+    let (mut seams, mut words) = choose_seams(&context, source, params, choice)?;
     let mut params = params.clone();
+    let is_open = matches!(seams, Seams::Free);
+    let rigid = sheet.stock.made_of.as_ref().filter(|m| m.rigid && sheet.score.fold.is_none());
+    if rigid.is_some() && is_open && params.pieces == PiecesMode::Auto {
+        params.pieces = PiecesMode::Faces;
+        words = "the material does not fold, so every face is a piece; --fold score or --fold \
+            hinge folds it all the same";
+    }
+    let sheet = &with_hinges(sheet);
     let mut divided = 0;
     loop {
         let net = unfold(mesh, &seams, &params, source, progress)?;
+        if let Some(material) = rigid
+            && net.folds.iter().any(|fold| fold.fold_angle.to_radians().abs() > FLAT)
+        {
+            let (material, folds) = (material.title.clone(), net.folds.len());
+            return Err(MakeError::RigidFolds { material, folds });
+        }
         match lay_out_watched(&net, sheet, progress) {
             Ok(sheets) => {
                 check_folded(&net, &keep)?;
@@ -163,6 +180,17 @@ pub fn fabricate(
             Err(error) => return Err(error.into()),
         }
     }
+}
+
+/// With `--fold hinge`, living hinges as wide as the material wants them, where nothing is said.
+fn with_hinges(sheet: &SheetParams) -> SheetParams {
+    let mut sheet = sheet.clone();
+    if let (Some(FoldWay::Hinge), None, Some(material)) =
+        (sheet.score.fold, sheet.score.hinge, &sheet.stock.made_of)
+    {
+        sheet.score.hinge = Some(Length::from_mm(HINGE * material.thickness.mm()));
+    }
+    sheet
 }
 
 fn choose_seams(

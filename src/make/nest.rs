@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 
 use super::{Fabrication, MakeError, NestError};
+use crate::io::artwork::read_artwork;
+use crate::io::order_artwork::pieces_of_artwork;
 use crate::io::order_json::Order;
 use crate::io::read_text;
 use crate::net::{Net, Piece};
@@ -15,8 +17,8 @@ use crate::sheet::{PieceKind, SheetParams, lay_out_watched};
 /// Which pieces are nested.
 #[derive(Debug, Clone, PartialEq, Eq, clap::Args, Deserialize)]
 pub struct NestStep {
-    /// Files of pieces, like the pieces.json that unfold writes; of a piece only its outline is
-    /// needed
+    /// Files of pieces, like the pieces.json that unfold writes, of which only the outlines are
+    /// needed; or drawings, SVG or DXF, whose closed cuts are outlines and holes
     #[arg(value_name = "PIECES", required = true)]
     #[serde(deserialize_with = "one_or_many")]
     pub pieces: Vec<PathBuf>,
@@ -62,6 +64,19 @@ fn kind_of(net: &Net) -> PieceKind {
     if net.pieces.iter().any(is_plate) { PieceKind::Panels } else { PieceKind::Faces }
 }
 
+/// The pieces of a file as JSON: as they stand, or the outlines of a drawing.
+fn pieces_text(path: &Path) -> Result<String, NestError> {
+    let unreadable = |error| NestError::Unreadable { path: path.to_owned(), error };
+    let ending = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
+    if !matches!(ending.as_deref(), Some("svg" | "svgz" | "dxf")) {
+        return read_text(path).map_err(unreadable);
+    }
+    let bytes = std::fs::read(path).map_err(unreadable)?;
+    let pages = read_artwork(path, &bytes)
+        .map_err(|error| NestError::Drawing { path: path.to_owned(), error })?;
+    pieces_of_artwork(&pages.1).map_err(|why| NestError::NoOutlines { path: path.to_owned(), why })
+}
+
 /// Nests the pieces of files, which are looked for from `folder`.
 ///
 /// # Errors
@@ -78,10 +93,7 @@ pub fn nest_files(
     let mut order = Order::default();
     for name in &step.pieces {
         let path = folder.join(name);
-        let text = match read_text(&path) {
-            Ok(text) => text,
-            Err(error) => return Err(NestError::Unreadable { path, error }.into()),
-        };
+        let text = pieces_text(&path)?;
         order
             .add(&text, step.quantity as usize)
             .map_err(|error| NestError::Order { path, error })?;

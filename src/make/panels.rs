@@ -6,7 +6,7 @@ use serde::Deserialize;
 use super::outputs::Output;
 use super::panel_error::PanelOptionError;
 use super::{Fabrication, MakeError, fabrication_outputs};
-use crate::check::short;
+use crate::check::{FlatNeighbours, short};
 use crate::io::map_files::{map_pdf, map_svg};
 use crate::io::panels_csv::{cutting_list_csv, edges_csv, nodes_csv, panels_csv};
 use crate::io::panels_json::panels_json;
@@ -115,6 +115,8 @@ pub struct Panelled {
     pub fabrication: Fabrication,
     /// What 3D files are wanted.
     pub files: PanelFiles,
+    /// Faces that lie flat beside each other, which would better be one panel.
+    pub flat: FlatNeighbours,
 }
 
 /// Makes the plates of a mesh in millimetres, lists them and lays them out on sheets. Without a
@@ -140,7 +142,8 @@ pub fn panel_model(
     let mut sheets = lay_out_watched(&net, &bare(job.sheet), progress)?;
     add_sides(&mut sheets, &plates);
     let fabrication = Fabrication { net, sheets, seams: "", divided: 0, sources: Vec::new() };
-    Ok(Panelled { plates, schedule, findings, fabrication, files: job.files.clone() })
+    let (files, flat) = (job.files.clone(), FlatNeighbours::of(mesh));
+    Ok(Panelled { plates, schedule, findings, fabrication, files, flat })
 }
 
 /// The outlines of both sides of bevelled plates, where they lie on the sheets.
@@ -327,7 +330,7 @@ impl Panelled {
     /// What the user should know about the plates and their sheets.
     pub fn notes(&self) -> Vec<String> {
         let plates = &self.plates;
-        let mut notes = Vec::new();
+        let mut notes: Vec<String> = self.flat.proposal().into_iter().collect();
         let mut note = |count: usize, text: &str| {
             if count > 0 {
                 notes.push(format!("{count} {text}"));

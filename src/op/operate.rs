@@ -7,13 +7,14 @@ use std::path::Path;
 use glam::DVec3;
 
 use super::{
-    CutReport, HandleAxis, HandleParams, HullParams, MengerParams, OpContext, OpError,
-    PlanarizeParams, ResolveParams, RindParams, SierpinskiParams, SliceParams, SubdivideParams,
-    TruncateEdgeParams, TruncateFaceParams, TruncateVertexParams, handle, hull, menger, planarize,
-    resolve, rind, sierpinski, sierpinski_preview, slice, subdivide, truncate_edges,
-    truncate_faces, truncate_vertices,
+    CutReport, HandleAxis, HandleParams, HullParams, MengerParams, MergeParams, OpContext, OpError,
+    PlanarizeParams, RepairParams, ResolveParams, RindParams, SierpinskiParams, SimplifyParams,
+    SliceParams, SubdivideParams, TruncateEdgeParams, TruncateFaceParams, TruncateVertexParams,
+    handle, hull, menger, merge, planarize, repair, resolve, rind, sierpinski, sierpinski_preview,
+    simplify, slice, subdivide, truncate_edges, truncate_faces, truncate_vertices,
 };
 use crate::mesh::{EdgeId, Mesh};
+use crate::panelize::{PanelizeParams, panelize};
 use crate::select::NewElements;
 
 /// What an operator made of a mesh.
@@ -57,6 +58,16 @@ pub trait Operate: fmt::Debug + Send + Sync {
         Vec::new()
     }
 
+    /// The same cut with its whole report, so that it can be shown before it is made; `None` for
+    /// operators that cut nothing.
+    fn cut(
+        &self,
+        _mesh: &Mesh,
+        _context: &OpContext<'_>,
+    ) -> Option<Result<(Mesh, CutReport), OpError>> {
+        None
+    }
+
     /// A file with points that has to be read first; operators read no files.
     fn points_file(&self) -> Option<&Path> {
         None
@@ -76,6 +87,10 @@ macro_rules! cuts {
                 let notes = report.notes($element);
                 let CutReport { made, cut_edges, .. } = report;
                 Ok(OperatorOutput { cut_edges, made: Some(made), ..OperatorOutput::new(mesh, notes) })
+            }
+
+            fn cut(&self, mesh: &Mesh, context: &OpContext<'_>) -> Option<Result<(Mesh, CutReport), OpError>> {
+                Some($operator(mesh, self, context))
             }
         }
     )*};
@@ -102,11 +117,42 @@ impl Operate for ResolveParams {
     }
 }
 
+impl Operate for MergeParams {
+    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
+        let (mesh, report) = merge(mesh, self, context)?;
+        let notes = report.notes();
+        Ok(OperatorOutput { made: Some(report.made), ..OperatorOutput::new(mesh, notes) })
+    }
+}
+
+impl Operate for RepairParams {
+    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
+        let (mesh, report) = repair(mesh, self, context)?;
+        Ok(OperatorOutput::new(mesh, report.notes()))
+    }
+}
+
+impl Operate for SimplifyParams {
+    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
+        let (mesh, report) = simplify(mesh, self, context)?;
+        let is_clean = report.is_clean();
+        Ok(OperatorOutput { is_clean, ..OperatorOutput::new(mesh, report.notes()) })
+    }
+}
+
 impl Operate for PlanarizeParams {
     fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
         let (mesh, report) = planarize(mesh, self, context)?;
         let notes = report.notes();
         Ok(OperatorOutput { is_clean: report.is_clean(), ..OperatorOutput::new(mesh, notes) })
+    }
+}
+
+impl Operate for PanelizeParams {
+    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
+        let (mesh, report) = panelize(mesh, self, context.progress)?;
+        let is_clean = report.is_clean();
+        Ok(OperatorOutput { is_clean, ..OperatorOutput::new(mesh, report.notes()) })
     }
 }
 

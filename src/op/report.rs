@@ -3,7 +3,7 @@
 use super::OpError;
 use super::cut::{Cutter, Lineage};
 use super::roll::{RollLimit, RolledEdge};
-use super::simple::part_rims;
+use super::simple::keep_cut_simple;
 use crate::code::Code;
 use crate::measure::{CrossingKind, CrossingPair, crossings_while};
 use crate::mesh::{EdgeId, FaceId, Mesh, Renumbering, VertexId};
@@ -284,7 +284,7 @@ impl RoundMarks {
 pub(super) fn finish(mut mesh: Mesh, mut report: CutReport) -> (Mesh, CutReport) {
     let map = report.made.compact(&mut mesh);
     report.origins = report.origins.renumbered(&map, mesh.face_slots());
-    part_rims(&mut mesh, &mut report.made);
+    keep_cut_simple(&mut mesh, &mut report.made);
     report.not_three_valent = mesh.vertices().filter(|&v| mesh.valence(v) != 3).collect();
     report.components = mesh.components().len();
     (mesh, report)

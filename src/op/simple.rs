@@ -3,6 +3,7 @@
 //! a vertex in between.
 
 use super::OpError;
+use super::divide::divide_repeated;
 use crate::mesh::{
     BuildError, EdgeId, FaceId, FileFault, HalfEdgeId, Mesh, MeshBuilder, VertexId, VertexMap,
 };
@@ -19,6 +20,8 @@ pub struct Mended {
     pub collapsed: usize,
     /// Faces without area, or with two sides, that went into a neighbour.
     pub dissolved: usize,
+    /// Edges that divide faces that came twice to a vertex.
+    pub divided: usize,
     /// Edges that got a vertex in between, since another one joins the same two vertices.
     pub split: usize,
 }
@@ -43,6 +46,11 @@ impl Mended {
             "faces without area went into their neighbours",
         );
         note(
+            self.divided,
+            "edge divides a face that came twice to a vertex",
+            "edges divide faces that came twice to a vertex",
+        );
+        note(
             self.split,
             "edge got a vertex in between, since another one joins the same two vertices",
             "edges got a vertex in between, since others join the same two vertices",
@@ -53,6 +61,7 @@ impl Mended {
     fn add(&mut self, other: Self) {
         self.collapsed += other.collapsed;
         self.dissolved += other.dissolved;
+        self.divided += other.divided;
         self.split += other.split;
     }
 
@@ -98,6 +107,20 @@ fn has_pinches(mesh: &Mesh) -> bool {
     let mut is_met = VertexMap::filled(mesh.vertex_slots(), false);
     let mut corners = mesh.holes().flat_map(|f| mesh.face_vertices(f));
     corners.any(|v| std::mem::replace(&mut is_met[v], true))
+}
+
+/// Makes a result of cuts one that files can hold: faces that come twice to a vertex are divided, and
+/// rims parted. Ids of faces stay, parts of faces get new ones.
+pub(super) fn keep_cut_simple(mesh: &mut Mesh, made: &mut NewElements) {
+    if !is_unfinished(mesh)
+        && divide_repeated(mesh, made) > 0
+        && is_unfinished(mesh)
+        && mesh.file_faults().is_empty()
+        && let Ok(parted) = as_polygons(mesh, made)
+    {
+        *mesh = parted;
+    }
+    part_rims(mesh, made);
 }
 
 /// Pulls vertices apart through which several rims run, where nothing else keeps the mesh from
@@ -190,6 +213,9 @@ fn make_simple(mesh: &mut Mesh, made: &mut NewElements) -> Mended {
             pass.dissolved += dissolve_lines(mesh, &faults);
         }
         if pass.collapsed == 0 && pass.dissolved == 0 {
+            pass.divided = divide_repeated(mesh, made);
+        }
+        if pass.collapsed == 0 && pass.dissolved == 0 && pass.divided == 0 {
             pass.split = split_parallels(mesh, &faults);
         }
         mended.add(pass);

@@ -70,6 +70,12 @@ pub enum RecipeError {
         /// What is wrong with it.
         message: String,
     },
+    /// A value for a parameter that the recipe does not have.
+    #[error("{message}")]
+    NoSuchParameter {
+        /// Which one, and what there is instead.
+        message: String,
+    },
     /// No step at all.
     #[error(
         "the recipe has no [[step]]; the first one names a solid or reads a file, e.g. solid = \
@@ -87,8 +93,15 @@ impl RecipeError {
             | Self::NoVerb { at, .. }
             | Self::TwoVerbs { at, .. }
             | Self::BadValue { at, .. } => Some(*at),
-            Self::NoSteps => None,
+            Self::NoSteps | Self::NoSuchParameter { .. } => None,
         }
+    }
+
+    /// The message without the place, for who knows the place already.
+    pub fn without_place(&self) -> String {
+        let text = self.to_string();
+        let place = self.at().map(|at| format!("{at}: ")).unwrap_or_default();
+        text.strip_prefix(&place).map_or(text.clone(), str::to_owned)
     }
 
     /// What to do about it in a few words, where there are some.
@@ -108,6 +121,7 @@ codes!(error RecipeError {
     TwoVerbs = 704,
     BadValue = 705,
     NoSteps = 706,
+    NoSuchParameter = 707,
 });
 
 /// Why a recipe could not be carried out. The step is counted from 1.

@@ -1,5 +1,6 @@
 //! The text of a recipe and the keys and values of a step, every complaint with line and column.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use clap::{Args, Command};
@@ -8,10 +9,12 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::error::{Position, RecipeError};
+use super::parameters::Parameters;
 use crate::units::nearest_word;
 
 pub(super) struct RecipeText<'a> {
     pub text: &'a str,
+    pub parameters: Parameters,
 }
 
 impl RecipeText<'_> {
@@ -100,7 +103,7 @@ impl StepFields<'_> {
 
     /// The value as it stands in the text. A key with a dot and a table with a header of its own
     /// have no such place, and no step takes them.
-    fn value_text<'t>(&'t self, entry: &Entry<'_>) -> Result<&'t str, RecipeError> {
+    fn value_text<'t>(&'t self, entry: &Entry<'_>) -> Result<Cow<'t, str>, RecipeError> {
         let opening = match entry.value.get_ref() {
             DeValue::Table(_) => "{",
             DeValue::Array(_) => "[",
@@ -116,8 +119,11 @@ impl StepFields<'_> {
             return Err(self.source.bad(entry.key_span.clone(), &message));
         };
         let words = if entry.key == self.verb.key { self.known.words } else { &[] };
-        let word = words.iter().find(|(word, _)| *word == text);
-        Ok(word.map_or(text, |(_, switch)| switch))
+        if let Some((_, switch)) = words.iter().find(|(word, _)| *word == text) {
+            return Ok(Cow::Borrowed(switch));
+        }
+        let filled = self.source.parameters.fill(text);
+        filled.map_err(|message| self.source.bad(entry.value.span(), &message))
     }
 
     /// Reads one parameter struct from those entries that are its fields. Each value is read from

@@ -2,14 +2,16 @@
 
 use std::fmt;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use super::{Before, OperatorStep, Recipe, Step, StepError};
 use crate::check::{CheckParams, Report, check};
-use crate::io::{ReadMesh, read_mesh};
+use crate::io::{ReadMesh, read_mesh, size_note};
 use crate::make::{
     DformError, DformParams, FabricateParams, FabricateSettings, Fabrication, MakeError,
-    PanelFiles, PanelJob, Panelled, PiecePromise, PointOut, ShowParams, carve_dform_for_sheet,
-    fabricate, nest_files, operate, panel_model, solid_of_planes, with_material,
+    OutlineParams, OutlinesError, PanelFiles, PanelJob, Panelled, PiecePromise, PointOut,
+    ShowParams, carve_dform_for_sheet, fabricate, nest_files, operate, outlined_dform, panel_model,
+    solid_of_planes, with_material,
 };
 use crate::mesh::{Mesh, SplitVertex};
 use crate::op::{HullParams, HullStep, OpContext, OpError, hull};
@@ -36,12 +38,13 @@ impl fmt::Display for StepWithFindings {
     }
 }
 
-/// What a recipe has made so far.
-#[derive(Default)]
+/// What a recipe has made so far. A copy shares the mesh, so that the states between the steps can
+/// be kept.
+#[derive(Clone, Default)]
 pub struct Job {
     /// The name of the recipe, which stands on its sheets.
     title: String,
-    mesh: Option<Mesh>,
+    mesh: Option<Arc<Mesh>>,
     made: Option<NewElements>,
     /// Into how many pieces the strips of the last cut come apart, as the edges promised.
     promised: Option<PiecePromise>,
@@ -54,7 +57,7 @@ pub struct Job {
     /// What the picture points out.
     pub point_out: PointOut,
     /// The mesh before the last operator, where the recipe shows it.
-    pub before: Option<Mesh>,
+    pub before: Option<Arc<Mesh>>,
     keeps_before: bool,
     /// The dual hull on its way, as the last hull was asked for.
     pub hull_steps: Vec<HullStep>,
@@ -83,7 +86,7 @@ impl Job {
     /// are closed up, so that they are those of the model that will be written.
     pub fn with_mesh(mut mesh: Mesh, notes: Vec<String>) -> Self {
         mesh.compact();
-        Self { mesh: Some(mesh), notes, ..Self::default() }
+        Self { mesh: Some(Arc::new(mesh)), notes, ..Self::default() }
     }
 
     /// Runs the steps of a recipe on what there is.
@@ -101,13 +104,24 @@ impl Job {
         self.keeps_before = recipe.steps.iter().any(shows);
         self.title = recipe.name.clone().unwrap_or_default();
         for (i, step) in recipe.steps.iter().enumerate() {
-            self.step(i + 1, step, folder, progress).map_err(|cause| StepError {
-                step: i + 1,
-                verb: step.verb(),
-                cause: Box::new(cause),
-            })?;
+            self.carry_out(i + 1, step, folder, progress)?;
         }
         Ok(self)
+    }
+
+    /// Carries out one step; `number` is its place in the recipe, from 1.
+    pub(super) fn carry_out(
+        &mut self,
+        number: usize,
+        step: &Step,
+        folder: &Path,
+        progress: &dyn Progress,
+    ) -> Result<(), StepError> {
+        self.step(number, step, folder, progress).map_err(|cause| StepError {
+            step: number,
+            verb: step.verb(),
+            cause: Box::new(cause),
+        })
     }
 
     /// The mesh as it is by now.
@@ -115,7 +129,12 @@ impl Job {
     /// # Errors
     /// [`MakeError::NoMesh`] before the first step.
     pub fn mesh(&self) -> Result<&Mesh, MakeError> {
-        self.mesh.as_ref().ok_or(MakeError::NoMesh)
+        self.mesh.as_deref().ok_or(MakeError::NoMesh)
+    }
+
+    /// What the last step made, for the selections `made` and `strip` of the next one.
+    pub fn made(&self) -> Option<&NewElements> {
+        self.made.as_ref()
     }
 
     /// Whether there is a mesh; a job that only nests pieces has none.
@@ -129,11 +148,6 @@ impl Job {
     /// [`MakeError::NoMesh`], or [`MakeError::Check`] for a limit that is none.
     pub fn report(&self) -> Result<Report, MakeError> {
         Ok(check(self.mesh()?, &self.check)?)
-    }
-
-    /// What the last step made.
-    pub fn made(&self) -> Option<&NewElements> {
-        self.made.as_ref()
     }
 
     fn step(
@@ -150,9 +164,14 @@ impl Job {
             Step::Solid(params) => self.start(solid(params)?)?,
             Step::Read(read) => {
                 let path: PathBuf = folder.join(&read.path);
-                let ReadMesh { mut mesh, notes, .. } = read_mesh(&path, &read.options)?;
-                self.notes.extend(notes.iter().map(ToString::to_string));
+                let ReadMesh { mut mesh, notes, made, .. } = read_mesh(&path, &read.options)?;
+                let notes = notes.into_iter().chain(size_note(&mesh, &read.options));
+                self.notes.extend(notes.map(|note| note.to_string()));
                 // From here on ids are those of the model.obj that will be written.
+                self.made = made.map(|mut made| {
+                    made.compact(&mut mesh);
+                    made
+                });
                 mesh.compact();
                 self.start(mesh)?;
             }
@@ -166,7 +185,6 @@ impl Job {
             Step::Operator(OperatorStep { verb, params }) => {
                 let context = OpContext { made: self.made.as_ref(), progress };
                 let output = operate(params.as_ref(), folder, self.mesh()?, &context)?;
-                self.before = self.mesh.take().filter(|_| self.keeps_before);
                 self.notes.extend(output.notes);
                 // To planarize again is how to mend faces that did not become planar.
                 self.with_findings.retain(|u| u.verb != "planarize" || *verb != "planarize");
@@ -175,7 +193,8 @@ impl Job {
                 }
                 let cut = (&output.cut_edges[..], self.made.as_ref());
                 self.promised = PiecePromise::of(self.mesh()?, cut, self.promised);
-                (self.mesh, self.made) = (Some(output.mesh), output.made);
+                self.before = self.mesh.take().filter(|_| self.keeps_before);
+                (self.mesh, self.made) = (Some(Arc::new(output.mesh)), output.made);
             }
             Step::Hull(params) => {
                 let (mesh, report) =
@@ -184,15 +203,21 @@ impl Job {
                 self.hull_steps = report.steps;
                 // The hull is a solid of its own, whatever its corners came from.
                 self.with_findings.clear();
-                (self.mesh, self.made, self.promised) = (Some(mesh), None, None);
+                (self.mesh, self.made, self.promised) = (Some(Arc::new(mesh)), None, None);
             }
             Step::Check(params) => (self.check, self.is_check_asked) = (params.clone(), true),
             Step::Render { render, point_out, .. } => {
                 (self.render, self.point_out) = (render.clone(), point_out.clone());
             }
-            Step::Dform { dform, sheet, show } => {
+            Step::Dform { dform, outlines, sheet, show } => {
                 self.show = show.clone();
-                self.dform(dform, &self.sheet(sheet, folder)?, progress)?;
+                let sheet = self.sheet(sheet, folder)?;
+                if outlines.is_given() {
+                    self.outlines(outlines, folder, sheet, progress)?;
+                } else {
+                    no_stray_option(outlines)?;
+                    self.dform(dform, &sheet, progress)?;
+                }
             }
             Step::Unfold { unfold, fabricate, sheet, show } => {
                 self.show = show.clone();
@@ -220,7 +245,7 @@ impl Job {
         if self.mesh.is_some() {
             return Err(MakeError::SecondMesh);
         }
-        self.mesh = Some(mesh);
+        self.mesh = Some(Arc::new(mesh));
         Ok(())
     }
 
@@ -232,13 +257,27 @@ impl Job {
     ) -> Result<(), MakeError> {
         let carved = carve_dform_for_sheet(self.mesh()?, params, sheet, progress)?;
         self.notes.extend(carved.notes);
-        self.mesh = Some(carved.mesh);
+        self.mesh = Some(Arc::new(carved.mesh));
         let folds = FabricateParams {
             folds: Selection::of_edges(carved.folds.iter().copied()),
             ..FabricateParams::default()
         };
         (self.made, self.promised) = (Some(carved.made), None);
         self.unfold(&UnfoldParams::default(), &folds, sheet, Path::new(""), progress)
+    }
+
+    fn outlines(
+        &mut self,
+        params: &OutlineParams,
+        folder: &Path,
+        sheet: SheetParams,
+        progress: &dyn Progress,
+    ) -> Result<(), MakeError> {
+        let made = outlined_dform(params, folder, &sheet, progress)?;
+        self.start(made.mesh)?;
+        self.notes.extend(made.notes);
+        (self.fabrication, self.panelled) = (Some((made.fabrication, sheet)), None);
+        Ok(())
     }
 
     /// Panels take the place of pieces unfolded before, since both would go to the same files.
@@ -292,5 +331,17 @@ impl Job {
         self.notes.extend(fabrication.notes());
         (self.fabrication, self.panelled) = (Some((fabrication, sheet.clone())), None);
         Ok(())
+    }
+}
+
+/// Options of outlines mean nothing for a D-form of a solid.
+fn no_stray_option(outlines: &OutlineParams) -> Result<(), MakeError> {
+    match outlines.without_outlines() {
+        None => Ok(()),
+        Some(option) => Err(OutlinesError::Options {
+            what: format!("`{option}` is given without outlines"),
+            advice: "name outlines or a gluing file, or leave it out",
+        }
+        .into()),
     }
 }

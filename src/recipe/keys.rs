@@ -10,16 +10,17 @@ use serde::de::DeserializeOwned;
 use super::error::RecipeError;
 use super::fields::{KnownKeys, StepFields};
 use super::{
-    DformParams, FabricateParams, NestStep, OperatorStep, PanelFiles, PlanesStep, PointOut,
-    ReadStep, ShowParams, Step, StoryParams,
+    DformParams, FabricateParams, NestStep, OperatorStep, OutlineParams, PanelFiles, PlanesStep,
+    PointOut, ReadStep, ShowParams, Step, StoryParams,
 };
 use crate::check::CheckParams;
 use crate::op::{
-    HandleParams, HullParams, MengerParams, Operate, PlanarizeParams, ResolveParams, RindParams,
-    SierpinskiParams, SliceParams, SubdivideParams, TruncateEdgeParams, TruncateFaceParams,
-    TruncateVertexParams,
+    HandleParams, HullParams, MengerParams, MergeParams, Operate, PlanarizeParams, RepairParams,
+    ResolveParams, RindParams, SierpinskiParams, SimplifyParams, SliceParams, SubdivideParams,
+    TruncateEdgeParams, TruncateFaceParams, TruncateVertexParams,
 };
 use crate::panel::PanelParams;
+use crate::panelize::PanelizeParams;
 use crate::picture::RenderParams;
 use crate::shape::SolidParams;
 use crate::sheet::SheetParams;
@@ -86,6 +87,18 @@ const STEPS: &[StepKind] = &[
     step("planarize", "profile", &[PlanarizeParams::augment_args], |s| {
         operator::<PlanarizeParams>(s, "planarize")
     }),
+    step("merge", "tolerance", &[MergeParams::augment_args], |s| {
+        operator::<MergeParams>(s, "merge")
+    }),
+    step("repair", "close_holes", &[RepairParams::augment_args], |s| {
+        operator::<RepairParams>(s, "repair")
+    }),
+    step("simplify", "faces", &[SimplifyParams::augment_args], |s| {
+        operator::<SimplifyParams>(s, "simplify")
+    }),
+    step("panelize", "size", &[PanelizeParams::augment_args], |s| {
+        operator::<PanelizeParams>(s, "panelize")
+    }),
     step("subdivide", "scheme", &[SubdivideParams::augment_args], |s| {
         operator::<SubdivideParams>(s, "subdivide")
     }),
@@ -118,12 +131,27 @@ const STEPS: &[StepKind] = &[
             })
         },
     ),
-    step(
-        "dform",
-        "matching",
-        &[DformParams::augment_args, SheetParams::augment_args, ShowParams::augment_args],
-        |s| Ok(Step::Dform { dform: s.read()?, sheet: s.read()?, show: s.read()? }),
-    ),
+    StepKind {
+        words: &[("\"outlines\"", "\"hamiltonian\"")],
+        ..step(
+            "dform",
+            "matching",
+            &[
+                DformParams::augment_args,
+                OutlineParams::augment_args,
+                SheetParams::augment_args,
+                ShowParams::augment_args,
+            ],
+            |s| {
+                Ok(Step::Dform {
+                    dform: s.read()?,
+                    outlines: s.read()?,
+                    sheet: s.read()?,
+                    show: s.read()?,
+                })
+            },
+        )
+    },
     step(
         "panels",
         "side",

@@ -5,12 +5,16 @@
 //! [`Job`]: the mesh as it is by then, what the last step made, and the results that are written at
 //! the end.
 
+mod draft;
 mod error;
 mod fields;
 mod job;
 mod keys;
 mod outputs;
+mod parameters;
 mod parse;
+mod schema;
+mod session;
 
 #[cfg(test)]
 mod tests;
@@ -20,15 +24,19 @@ use std::sync::Arc;
 
 use serde::Deserialize;
 
+pub use draft::{RecipeDraft, StepDraft, Value};
 pub use error::{Position, RecipeError, StepError};
 pub use job::{Job, StepWithFindings};
 pub use keys::{StepKind, steps};
 pub use outputs::job_outputs;
+pub use schema::{ChoiceSchema, KeySchema, StepGroup, StepSchema, ValueKind, schema};
+pub use session::{Preview, Reached, Replay, Session, SessionError};
 
 use crate::check::CheckParams;
 use crate::io::ReadOptions;
 use crate::make::{
-    DformParams, FabricateParams, NestStep, PanelFiles, PlanesStep, PointOut, ShowParams,
+    DformParams, FabricateParams, NestStep, OutlineParams, PanelFiles, PlanesStep, PointOut,
+    ShowParams,
 };
 use crate::op::{HullParams, Operate};
 use crate::panel::PanelParams;
@@ -116,10 +124,13 @@ pub enum Step {
         /// What is made to be looked at.
         show: ShowParams,
     },
-    /// `dform = "hamiltonian"`: carves the folds of a D-form and unfolds it.
+    /// `dform = "hamiltonian"`: carves the folds of a D-form and unfolds it. `dform = "outlines"`:
+    /// joins flat outlines, as a first step.
     Dform {
         /// Which folds, and how to carve them.
         dform: DformParams,
+        /// The outlines, where it is made from these.
+        outlines: OutlineParams,
         /// Where the pieces go.
         sheet: SheetParams,
         /// What is made to be looked at.

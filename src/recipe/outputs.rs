@@ -61,7 +61,7 @@ fn pictures(job: &Job, mesh: &Mesh) -> Result<Vec<Output>, MakeError> {
     };
     let mut outputs =
         vec![("model.png".to_owned(), render_with(&shown, &render, &marks)?.to_png())];
-    let before = job.before.as_ref();
+    let before = job.before.as_deref();
     if let Some((both, marks)) = before.and_then(|b| before_and_sections(b, mesh, job.made())) {
         let picture = render_with(&both, &x_ray(&job.render), &marks)?;
         outputs.push(("before.png".to_owned(), picture.to_png()));

@@ -10,6 +10,7 @@ use toml::de::{DeTable, DeValue};
 use super::error::RecipeError;
 use super::fields::{Entry, RecipeText, StepFields};
 use super::keys::{StepKind, cuts, steps, verbs};
+use super::parameters::{Parameters, is_name};
 use super::{Recipe, Step};
 use crate::units::nearest_word;
 
@@ -19,9 +20,35 @@ impl Recipe {
     /// # Errors
     /// [`RecipeError`] with line and column, and the nearest known name for an unknown one.
     pub fn parse(text: &str) -> Result<Self, RecipeError> {
+        Self::parse_with(text, &[])
+    }
+
+    /// Reads a recipe with other values than its own for some of its parameters, as names and
+    /// values (`size`, `200mm`).
+    ///
+    /// # Errors
+    /// As [`Self::parse`]; [`RecipeError::NoSuchParameter`] for a name that the recipe does not
+    /// have.
+    ///
+    /// # Example
+    /// ```
+    /// use kerfold::recipe::Recipe;
+    ///
+    /// let text = "[parameters]\nsize = \"80mm\"\n[[step]]\nsolid = \"cube\"\nsize = \"{size}\"\n";
+    /// assert!(Recipe::parse_with(text, &[("size".into(), "200mm".into())]).is_ok());
+    /// assert!(Recipe::parse_with(text, &[("sise".into(), "200mm".into())]).is_err());
+    /// ```
+    pub fn parse_with(text: &str, set: &[(String, String)]) -> Result<Self, RecipeError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let source = RecipeText { text };
+        let mut source = RecipeText { text, parameters: Parameters::default() };
         let table = DeTable::parse(text).map_err(|e| source.syntax(&e))?;
+        source.parameters = source.read_parameters(table.get_ref())?;
+        for (name, value) in set {
+            if !source.parameters.set(name, value) {
+                let message = source.parameters.unknown(name);
+                return Err(RecipeError::NoSuchParameter { message });
+            }
+        }
         let mut recipe = Self { name: None, steps: Vec::new() };
         for (key, value) in table.get_ref().iter() {
             match (key.get_ref().as_ref(), value.get_ref()) {
@@ -31,6 +58,7 @@ impl Recipe {
                         source.bad(value.span(), "the name of a recipe is a text, in quotes")
                     );
                 }
+                ("parameters", _) => {}
                 ("step", DeValue::Array(steps)) => {
                     for step in steps.iter() {
                         recipe.steps.push(source.step(step)?);
@@ -46,7 +74,7 @@ impl Recipe {
                         key.span(),
                         key.get_ref(),
                         "in a recipe",
-                        &["name", "step"],
+                        &["name", "parameters", "step"],
                     ));
                 }
             }
@@ -56,6 +84,33 @@ impl Recipe {
 }
 
 impl RecipeText<'_> {
+    fn read_parameters(&self, table: &DeTable<'_>) -> Result<Parameters, RecipeError> {
+        let mut parameters = Parameters::default();
+        let Some((_, value)) = table.iter().find(|(key, _)| key.get_ref() == "parameters") else {
+            return Ok(parameters);
+        };
+        let DeValue::Table(entries) = value.get_ref() else {
+            return Err(self.bad(value.span(), "parameters are a table: [parameters]"));
+        };
+        for (key, value) in entries.iter() {
+            let name = key.get_ref().as_ref();
+            if !is_name(name) {
+                let message = "a parameter is called by letters, digits, - and _";
+                return Err(self.bad(key.span(), message));
+            }
+            let text = match value.get_ref() {
+                DeValue::String(text) => text.to_string(),
+                DeValue::Integer(_) | DeValue::Float(_) => self.text[value.span()].to_owned(),
+                _ => {
+                    let message = "a parameter is a number or a text, such as \"180mm\"";
+                    return Err(self.bad(value.span(), message));
+                }
+            };
+            parameters.add(name.to_owned(), text);
+        }
+        Ok(parameters)
+    }
+
     fn step(&self, step: &Spanned<DeValue<'_>>) -> Result<Step, RecipeError> {
         let DeValue::Table(table) = step.get_ref() else {
             return Err(self.bad(step.span(), "a step is a table of keys and values"));

@@ -12,6 +12,7 @@
 //!   there is none.
 //! - [`two_piece_bound`] tells how good a two-piece seam is, by branch and bound.
 //! - [`one_piece_folds`] finds, on surfaces with handles, the seams that leave one piece.
+//! - [`edge_symmetries`] lists the symmetries of a mesh.
 //! - [`seam_cycles`], [`piece_count`], [`piece_of_faces`] and [`is_perfect_matching`] show what a
 //!   choice of folds means.
 
@@ -41,5 +42,6 @@ pub use factor::{is_perfect_matching, piece_count, piece_of_faces, seam_cycles};
 pub use hamiltonian::hamiltonian_folds;
 pub use least::{flattest_matching, least_matching, least_matching_by};
 pub use one_piece::one_piece_folds;
+pub use symmetry::edge_symmetries;
 pub use two_piece::TwoPieceSearch;
 pub use weight::{fold_sum, fold_weight};

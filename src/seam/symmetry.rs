@@ -50,6 +50,22 @@ fn snapped(values: &[f64], bound: f64) -> Vec<f64> {
     snapped
 }
 
+/// The symmetries of a mesh, turns and mirrors, each as the image of every edge; the identity is
+/// left out. Between equal components those that swap two of them; with these all others can be
+/// made. The work grows with the number of edges times that of symmetries.
+pub fn edge_symmetries(mesh: &Mesh) -> Vec<EdgeMap<EdgeId>> {
+    let graph = Graph::new(mesh);
+    let classes = EdgeClasses::new(mesh, &graph);
+    let image = |permutation: Vec<u32>| {
+        let mut image = EdgeMap::filled(mesh.edge_slots(), EdgeId::new(0));
+        for (&e, k) in graph.edge_ids.iter().zip(permutation) {
+            image[e] = graph.edge_ids[k as usize];
+        }
+        image
+    };
+    symmetries(mesh, &graph, &classes).into_iter().map(image).collect()
+}
+
 /// Symmetries that generate all others: permutations of the edges (by their numbers in the graph)
 /// that keep what is next to what and the class of every edge; turns and mirrors, of each component
 /// and between equal components. For a connected mesh these are all symmetries but the identity.

@@ -74,7 +74,9 @@ pub enum SelectError {
         known: Vec<String>,
     },
     /// There was no step before.
-    #[error("`{atom}` means what the last step made, but no step came before")]
+    #[error(
+        "`{atom}` means what the last step made, but no step came before: OBJ files tell it, others do not"
+    )]
     NothingMade {
         /// The condition.
         atom: String,

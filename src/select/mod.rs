@@ -10,6 +10,7 @@
 //! millionth of a degree are equal. A group name with `&`, `|`, brackets or blanks at its ends goes
 //! in quotes: `group="top (left)"`.
 
+mod alike;
 mod conditions;
 mod error;
 mod evaluate;
@@ -18,6 +19,7 @@ mod found;
 mod parse;
 mod seams;
 
+pub use alike::{Likeness, alike};
 pub use conditions::{CONDITIONS, Condition, NOTHING};
 pub use error::{ElementKind, SelectError};
 pub use parse::ParseError;

@@ -11,9 +11,13 @@ mod help;
 mod hull;
 mod lint;
 mod nest;
+mod notices;
 mod recipe;
 mod rows;
 mod seams;
 mod streams;
+#[cfg(unix)]
+mod studio;
 mod unfold;
 mod verify;
+mod words;

@@ -13,6 +13,9 @@ use tempfile::{NamedTempFile, TempPath};
 use super::IoError;
 
 mod stale;
+mod temporary;
+
+pub use temporary::TemporaryFolder;
 
 /// The letters and digits of temporary names, drawn by the system's randomness: runs in containers
 /// that share a folder and not their process numbers never meet.

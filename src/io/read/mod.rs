@@ -5,7 +5,10 @@ use std::path::Path;
 
 use super::error::IoError;
 use super::format::MeshFormat;
+use crate::measure::volume;
+use crate::mend::{RepairParams, merge_flat};
 use crate::mesh::{Mesh, SplitVertex};
+use crate::select::NewElements;
 use crate::units::Length;
 use source::SourceFile;
 
@@ -13,6 +16,8 @@ pub mod artwork;
 mod content;
 mod decode;
 mod keyhole;
+mod made;
+mod mended;
 mod note;
 mod obj;
 mod off;
@@ -25,13 +30,14 @@ mod seams;
 mod source;
 mod stl;
 mod text;
+mod unit;
 mod weld;
 
 #[cfg(test)]
 mod tests;
 
 pub use decode::{decode_text, read_text};
-pub use note::ReadNote;
+pub use note::{ReadNote, size_note};
 pub(super) use plain::polygons_in;
 pub use points::{read_points, read_points_bytes};
 pub use seams::{read_seams, read_seams_bytes};
@@ -53,6 +59,29 @@ pub struct ReadOptions {
     #[arg(long)]
     #[serde(default)]
     pub weld: Option<Length>,
+    /// Turn all faces around, so that those that look inwards look outwards
+    #[arg(long)]
+    #[serde(default)]
+    pub flip: bool,
+    /// Turn faces until neighbours look the same way and closed parts look outwards
+    #[arg(long)]
+    #[serde(default)]
+    pub orient: bool,
+    /// Mend what is no surface as `kerfold repair` does, which closes no holes unless asked to
+    #[arg(long)]
+    #[serde(default)]
+    pub mend: bool,
+    /// Make one face of those that lie flat beside each other, as `kerfold merge` does; how far
+    /// from flat is flat, 0 or more [default: none are merged; 0.01mm when nothing is said]
+    #[arg(
+        long,
+        value_name = "TOLERANCE",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "0.01mm"
+    )]
+    #[serde(default)]
+    pub merge_flat: Option<Length>,
 }
 
 /// The unit of the numbers in a mesh file, which carries none itself.
@@ -71,6 +100,16 @@ pub enum MeshUnit {
 }
 
 impl MeshUnit {
+    /// The name as it is typed.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mm => "mm",
+            Self::Cm => "cm",
+            Self::M => "m",
+            Self::In => "in",
+        }
+    }
+
     /// The unit in millimetres.
     pub fn mm(self) -> f64 {
         match self {
@@ -94,6 +133,9 @@ pub struct ReadMesh {
     pub notes: Vec<ReadNote>,
     /// The factor from the numbers of the file to millimetres.
     pub scale: f64,
+    /// What the step before made that wrote the file, for the selections `made` and `strip`; only
+    /// OBJ says it, and merging and welding end it.
+    pub made: Option<NewElements>,
 }
 
 /// Reads a mesh from a file.
@@ -140,6 +182,47 @@ pub fn read_mesh_bytes(
     bytes: &[u8],
     options: &ReadOptions,
 ) -> Result<ReadMesh, IoError> {
+    read_and_mend(path, bytes, options, None)
+}
+
+/// Reads a mesh from the content of a file whose faces need not be a surface, and mends it: what was
+/// done are notes.
+///
+/// # Errors
+/// As [`read_mesh`]; [`IoError::BadHole`] for holes to close of no width.
+///
+/// # Example
+/// ```
+/// use kerfold::io::{ReadOptions, repair_mesh_bytes};
+/// use kerfold::mend::RepairParams;
+/// use std::path::Path;
+///
+/// // The last face runs the wrong way around.
+/// let text = "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 2 3\n";
+/// let (name, options) = (Path::new("mine.off"), ReadOptions::default());
+/// let read = repair_mesh_bytes(name, text.as_bytes(), &options, &RepairParams::default())?;
+/// assert!(read.mesh.is_closed());
+/// assert!(read.notes[0].to_string().starts_with("1 face looked the other way"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn repair_mesh_bytes(
+    path: &Path,
+    bytes: &[u8],
+    options: &ReadOptions,
+    params: &RepairParams,
+) -> Result<ReadMesh, IoError> {
+    match params.close_holes {
+        Some(width) if width.mm() <= 0.0 => Err(IoError::BadHole { mm: width.mm() }),
+        _ => read_and_mend(path, bytes, options, Some(params)),
+    }
+}
+
+fn read_and_mend(
+    path: &Path,
+    bytes: &[u8],
+    options: &ReadOptions,
+    repair: Option<&RepairParams>,
+) -> Result<ReadMesh, IoError> {
     check_options(options)?;
     let text = decode::as_utf8(bytes);
     if text.trim_ascii().is_empty() {
@@ -158,20 +241,65 @@ pub fn read_mesh_bytes(
     };
     let mut source = SourceFile { path, raw: raw.map_err(|located| located.in_file(path))? };
     let mut notes = std::mem::take(&mut source.raw.notes);
+    let is_binary = matches!(format, Some(MeshFormat::Stl)) && stl::is_binary(bytes);
+    let stated = unit::stated_unit(if is_binary { bytes } else { &text }, is_binary);
+    let other = stated.filter(|&unit| unit != options.units && options.size.is_none());
+    notes.extend(other.map(|stated| ReadNote::OtherUnit { stated, taken: options.units }));
     let scale = source.scale(options)?;
     source.weld(options, &mut notes)?;
     source.raw.make_faces_simple();
     notes.append(&mut source.raw.notes);
+    mended::mend(&mut source.raw, options, repair);
+    let is_asked = repair.is_some() || options.mend || options.orient;
+    if is_asked && source.raw.notes.is_empty() {
+        notes.push(ReadNote::NothingToMend);
+    }
+    notes.append(&mut source.raw.notes);
     let (mesh, splits) = source.build()?;
     source.note_torn(&mesh, &mut notes)?;
     source.note_vertices(&mesh, &splits, &mut notes);
-    Ok(ReadMesh { mesh, splits, notes, scale })
+    note_inside_out(&mesh, &mut notes);
+    let is_changed = options.weld.is_some() || options.mend || repair.is_some();
+    let made = if is_changed { None } else { made::of_raw(&source.raw, &mesh, &splits) };
+    merged(ReadMesh { mesh, splits, notes, scale, made }, options)
+}
+
+/// A closed model of which the faces look inwards.
+fn note_inside_out(mesh: &Mesh, notes: &mut Vec<ReadNote>) {
+    if mesh.is_closed() {
+        let volume = volume(mesh);
+        if volume < 0.0 {
+            notes.push(ReadNote::InsideOut { volume });
+        }
+    }
+}
+
+fn merged(read: ReadMesh, options: &ReadOptions) -> Result<ReadMesh, IoError> {
+    let Some(tolerance) = options.merge_flat else { return Ok(read) };
+    // What was built from a file has nothing that a file could not hold; where merging would make
+    // such a thing, the mesh stays.
+    let ReadMesh { mesh, splits, mut notes, scale, made } = read;
+    match merge_flat(&mesh, tolerance.mm()) {
+        Ok((merged, _)) if merged.file_faults().is_empty() => {
+            let (before, after) = (mesh.face_count(), merged.face_count());
+            notes.push(ReadNote::Merged { before, after });
+            Ok(ReadMesh { mesh: merged, splits: Vec::new(), notes, scale, made: None })
+        }
+        _ => {
+            let after = mesh.face_count();
+            notes.push(ReadNote::Merged { before: after, after });
+            Ok(ReadMesh { mesh, splits, notes, scale, made })
+        }
+    }
 }
 
 fn check_options(options: &ReadOptions) -> Result<(), IoError> {
     match (options.size, options.weld) {
         (Some(size), _) if size.mm() <= 0.0 => Err(IoError::BadSize { mm: size.mm() }),
         (_, Some(weld)) if weld.mm() < 0.0 => Err(IoError::BadWeld { mm: weld.mm() }),
-        _ => Ok(()),
+        _ => match options.merge_flat {
+            Some(flat) if flat.mm() < 0.0 => Err(IoError::BadFlat { mm: flat.mm() }),
+            _ => Ok(()),
+        },
     }
 }

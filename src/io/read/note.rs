@@ -1,13 +1,18 @@
-//! What happened on the way in and the user should know.
+//! What should be known about a file and is no fault, in words.
 
 use std::fmt;
 
-use crate::mesh::VertexId;
+use super::{MeshUnit, ReadOptions};
+use crate::check::{CheckKind, short};
+use crate::code::Coded;
+use crate::measure::size;
+use crate::mend::Mending;
+use crate::mesh::{Mesh, VertexId};
 use crate::units::counted;
 
 /// Something about a file that is no fault, but should be known. Vertices and faces are numbered
 /// from 0 in the order of the file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum ReadNote {
     /// Vertices went into others.
@@ -87,6 +92,34 @@ pub enum ReadNote {
         /// The first, from 1.
         first_line: usize,
     },
+    /// Faces were mended, since that was asked for.
+    Mended(Mending),
+    /// There was nothing to mend.
+    NothingToMend,
+    /// Faces that lie flat beside each other became one.
+    Merged {
+        /// How many faces there were.
+        before: usize,
+        /// How many there are.
+        after: usize,
+    },
+    /// The faces of a closed model look inwards.
+    InsideOut {
+        /// Its volume, in mm³; below 0.
+        volume: f64,
+    },
+    /// The file names another unit than the one that it was read with.
+    OtherUnit {
+        /// What its comments say.
+        stated: MeshUnit,
+        /// What it was read with.
+        taken: MeshUnit,
+    },
+    /// The model is so small or so large that the unit may be wrong.
+    OddSize {
+        /// The largest extent, in mm.
+        largest: f64,
+    },
     /// The file goes on after its last element.
     Rest {
         /// How many bytes follow, white space at the ends not counted.
@@ -164,6 +197,32 @@ impl fmt::Display for ReadNote {
                 line {first_line}",
                 counted(*count, "line has", "lines have")
             ),
+            Self::Mended(mending) => mending.fmt(f),
+            Self::NothingToMend => f.write_str("there was nothing to mend"),
+            Self::Merged { before, after } => write!(
+                f,
+                "{} became {after}, flat neighbours merged; numbers are those of the merged mesh",
+                counted(*before, "face", "faces")
+            ),
+            Self::OtherUnit { stated, taken } => write!(
+                f,
+                "the file says that its unit is {}, and it was read with {}; --units {0} takes it \
+                at its word ({})",
+                stated.name(),
+                taken.name(),
+                CheckKind::OtherUnit.code()
+            ),
+            Self::OddSize { largest } => write!(
+                f,
+                "the model is {} mm in its largest extent: is the unit right? --units m, cm or in \
+                says what the numbers of the file are, --size 300mm how large it is to be",
+                short(*largest)
+            ),
+            Self::InsideOut { volume } => write!(
+                f,
+                "the faces of this closed model look inwards (its volume is {volume:.4e} mm³); \
+                --flip turns them around, and `kerfold repair` does for good"
+            ),
             Self::Rest { bytes } => write!(
                 f,
                 "{} after the last element and {} passed over",
@@ -177,3 +236,14 @@ impl fmt::Display for ReadNote {
 fn were(count: usize) -> &'static str {
     if count == 1 { "was" } else { "were" }
 }
+
+/// A question for whoever reads a model smaller than 10 mm or larger than 50 m without saying its
+/// size: the unit may be wrong. [`read_mesh`] does not ask, since a program knows its units.
+pub fn size_note(mesh: &Mesh, options: &ReadOptions) -> Option<ReadNote> {
+    let largest = size(mesh).max_element();
+    let is_odd = largest > 0.0 && !ORDINARY_MM.contains(&largest);
+    (is_odd && options.size.is_none()).then_some(ReadNote::OddSize { largest })
+}
+
+/// Sizes of models that nobody wonders about, in mm.
+const ORDINARY_MM: std::ops::RangeInclusive<f64> = 10.0..=50_000.0;

@@ -120,7 +120,8 @@ impl SourceFile<'_> {
             notes.push(ReadNote::SplitVertices { count: splits.len(), first: first.given });
         }
         // Welded vertices have a note of their own.
-        let is_welded = notes.iter().any(|note| matches!(note, ReadNote::Welded { .. }));
+        let is_welded =
+            notes.iter().any(|n| matches!(n, ReadNote::Welded { .. } | ReadNote::Mended(_)));
         let unused =
             || (0..self.raw.positions.len()).map(VertexId::new).filter(|&v| !mesh.has_vertex(v));
         if let Some(first) = unused().next().filter(|_| !is_welded) {

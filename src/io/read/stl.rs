@@ -6,8 +6,8 @@ use glam::{DVec3, Vec3};
 use super::ReadNote;
 use super::raw::RawMesh;
 use super::text::{Commas, Lines, words};
-use super::weld::first_equal;
 use crate::io::error::{ContentFault, Located, excerpt};
+use crate::mend::first_equal;
 
 const HEADER: usize = 80;
 const TRIANGLE: usize = 50;

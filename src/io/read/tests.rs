@@ -10,7 +10,12 @@ const CUBE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 
     f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
 
 fn options(units: MeshUnit, size: Option<f64>, weld: Option<f64>) -> ReadOptions {
-    ReadOptions { units, size: size.map(Length::from_mm), weld: weld.map(Length::from_mm) }
+    ReadOptions {
+        units,
+        size: size.map(Length::from_mm),
+        weld: weld.map(Length::from_mm),
+        ..ReadOptions::default()
+    }
 }
 
 fn read_text(text: &str, options: &ReadOptions) -> Result<ReadMesh, IoError> {

@@ -7,6 +7,7 @@ use super::error::IoError;
 use super::format::MeshFormat;
 use super::output;
 use crate::mesh::Mesh;
+use crate::select::NewElements;
 
 pub mod glb;
 mod obj;
@@ -25,6 +26,9 @@ pub struct WriteOptions {
     /// The whole command line that made the mesh (`kerfold solid cube -o cube.obj`), for a comment
     /// in the file.
     pub command: Option<String>,
+    /// What the last step made, for OBJ: groups `made` and `strip`, which the selections of those
+    /// names find again when the file is read.
+    pub made: Option<NewElements>,
     /// How PLY files are encoded.
     pub ply: PlyEncoding,
 }
@@ -48,6 +52,9 @@ impl WriteOptions {
         self.command.as_ref().map(|command| one_line(command))
     }
 }
+
+/// What the comments of mesh files say about their numbers; `--units` is compared with it.
+const UNITS: &str = "units: mm";
 
 /// The text without control characters, which would end a line.
 fn one_line(text: &str) -> String {

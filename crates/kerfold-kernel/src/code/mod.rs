@@ -15,6 +15,7 @@
 //! | E601–E699 | `panel` |
 //! | E701–E799 | `recipe` |
 //! | E801–E899 | `check`, `lint`, `picture` |
+//! | E901–E949 | the studio |
 //! | F101–F199 | `check` |
 //! | F201–F299 | `lint` |
 //! | F301–F399 | `panel` |

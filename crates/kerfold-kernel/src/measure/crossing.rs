@@ -87,6 +87,31 @@ struct Piece {
     /// The edge from each corner to the next; `None` inside a face.
     edges: Vec<Option<EdgeId>>,
     bounds: AxisBox,
+    /// In its plane along the longest side and across it: the box of a slanted strip says little
+    /// of where it lies, and thousands of them side by side are the wall of a tube.
+    spans: [Span; 2],
+}
+
+/// How far something reaches along a direction.
+struct Span {
+    along: DVec3,
+    from: f64,
+    to: f64,
+}
+
+impl Span {
+    fn of(along: DVec3, corners: &[DVec3]) -> Self {
+        let places = || corners.iter().map(|p| along.dot(*p));
+        let (from, to) =
+            (places().fold(f64::INFINITY, f64::min), places().fold(f64::NEG_INFINITY, f64::max));
+        Self { along, from, to }
+    }
+
+    /// Whether all points lie beyond one end.
+    fn is_clear_of(&self, corners: &[DVec3], near: f64) -> bool {
+        let other = Self::of(self.along, corners);
+        other.from > self.to + near || other.to < self.from - near
+    }
 }
 
 impl Piece {
@@ -121,7 +146,18 @@ impl Piece {
     fn new(face: FaceId, corners: Vec<DVec3>, edges: Vec<Option<EdgeId>>) -> Option<Self> {
         let plane = Plane::newell(&corners)?;
         let bounds = AxisBox::of(corners.iter().copied())?;
-        Some(Self { face, plane, corners, edges, bounds })
+        let n = corners.len();
+        let sides = (0..n).map(|i| corners[(i + 1) % n] - corners[i]);
+        let longest =
+            sides.reduce(|a, b| if b.length_squared() > a.length_squared() { b } else { a })?;
+        let along = longest.normalize_or_zero();
+        let spans = [along, plane.normal().cross(along)].map(|along| Span::of(along, &corners));
+        Some(Self { face, plane, corners, edges, bounds, spans })
+    }
+
+    /// Whether another piece lies apart from this one in the directions of its plane.
+    fn is_apart(&self, other: &Self, near: f64) -> bool {
+        self.spans.iter().any(|span| span.is_clear_of(&other.corners, near))
     }
 
     /// How far each corner lies in front of a plane; zero within rounding.
@@ -163,6 +199,9 @@ struct Found {
 
 impl Found {
     fn compare(&mut self, a: &Piece, b: &Piece, near: f64) {
+        if a.is_apart(b, near) || b.is_apart(a, near) {
+            return;
+        }
         let on_b = a.heights(&b.plane, near);
         if is_beside(&on_b) {
             return;

@@ -11,13 +11,23 @@ pub enum Joint {
     #[default]
     None,
     /// A trapezoid to glue on one side of every seam.
+    #[value(alias = "flap")]
+    #[serde(alias = "flap")]
     Flaps,
     /// Flaps with holes, and holes in the partner that lie under them.
+    #[value(alias = "rivet")]
+    #[serde(alias = "rivet")]
     Rivets,
     /// Holes at equal places on both sides.
+    #[value(alias = "stitches")]
+    #[serde(alias = "stitches")]
     Stitch,
     /// Interlocking fingers for plates of the given thickness.
+    #[value(alias = "finger")]
+    #[serde(alias = "finger")]
     Fingers,
     /// Tabs on one side, and slots for them in the partner, for plates of the given thickness.
+    #[value(alias = "tab")]
+    #[serde(alias = "tab")]
     Tabs,
 }

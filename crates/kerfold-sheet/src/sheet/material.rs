@@ -25,6 +25,9 @@ pub struct Material {
     pub web: Length,
     /// How fast it is machined.
     pub speed: Speeds,
+    /// Whether it breaks rather than folds along a scored line, as plywood, acrylic and glass do.
+    #[serde(default)]
+    pub rigid: bool,
     /// Colours that take the place of the preset's, as `#RRGGBB`.
     #[serde(default)]
     pub colours: MaterialColours,

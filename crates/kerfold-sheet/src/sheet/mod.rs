@@ -62,7 +62,7 @@ pub use nest::{
     StockList,
 };
 pub use params::{PieceKind, SheetParams};
-pub use score::{ScoreParams, ScoreStyle};
+pub use score::{FoldWay, ScoreParams, ScoreStyle};
 pub use stock::{SheetSize, StockParams};
 pub use stretch::Stretch;
 pub use verify::{clearance, verify};

@@ -49,6 +49,22 @@ pub struct ScoreParams {
     #[arg(long, value_name = "LENGTH")]
     #[serde(default)]
     pub hinge: Option<Length>,
+    /// How a material folds that does not by itself, as plywood, acrylic and glass: without it every
+    /// face is a piece of its own
+    #[arg(long, value_name = "WAY", value_enum)]
+    #[serde(default)]
+    pub fold: Option<FoldWay>,
+}
+
+/// How a rigid material folds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FoldWay {
+    /// Along scored lines: grooves to be milled or steamed.
+    Score,
+    /// Along living hinges: faces between two folds that are narrower than --hinge, ten times the
+    /// thickness unless given, are slit.
+    Hinge,
 }
 
 /// How folds are scored.

@@ -170,11 +170,26 @@ impl ArtFormat {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn read_artwork(path: &Path, bytes: &[u8]) -> Result<(ArtFormat, Vec<Artwork>), ArtError> {
+    read(path, bytes, Budget::default())
+}
+
+/// The same with curves flattened to within another distance, in mm, than [`FLATNESS`].
+///
+/// # Errors
+/// As [`read_artwork`].
+pub fn read_artwork_within(
+    path: &Path,
+    bytes: &[u8],
+    flatness: f64,
+) -> Result<(ArtFormat, Vec<Artwork>), ArtError> {
+    read(path, bytes, Budget::within(flatness))
+}
+
+fn read(path: &Path, bytes: &[u8], budget: Budget) -> Result<(ArtFormat, Vec<Artwork>), ArtError> {
     if bytes.len() as u64 > LARGEST_FILE {
         let limit = LARGEST_FILE as usize;
         return Err(ArtError::TooMuch { what: "bytes", limit });
     }
-    let budget = Budget::default();
     let unpacked = decode::gunzipped(bytes, &budget)?;
     let bytes = unpacked.as_deref().unwrap_or(bytes);
     if bytes.iter().all(u8::is_ascii_whitespace) {

@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 use glam::DVec2;
 
 use super::glyph::lettering;
+use super::obstacle::{Obstacle, Obstacles, is_clear};
 use crate::geom::polygon::{Location, borders_meet, bounds, centroid, locate, signed_area};
 use crate::net::{FlatFace, Piece, Segment};
 use crate::sheet::distance::{distance_to_contour, edges};
@@ -81,22 +82,6 @@ pub(super) fn suited(letter: f64, length: f64) -> f64 {
 /// What is already lettered on the faces of a piece, by their index.
 pub(super) type Taken = BTreeMap<usize, Vec<[DVec2; 4]>>;
 
-/// Contours of joints that lettering must keep clear of: the cut of a piece where it differs from
-/// its faces, and slits.
-pub(super) type Obstacles<'a> = &'a [Vec<DVec2>];
-
-/// What of the obstacles of a piece may come near a label in a face: the rest lies beyond the box
-/// of the face, and a label lies inside.
-pub(super) fn obstacles_near(polygon: &[DVec2], obstacles: Obstacles<'_>) -> Vec<Vec<DVec2>> {
-    let Some((low, high)) = bounds(polygon) else { return Vec::new() };
-    // Slits are few, and stay.
-    let is_near = |obstacle: &&Vec<DVec2>| {
-        obstacle.len() <= 2
-            || bounds(*obstacle).is_some_and(|(l, h)| l.cmple(high).all() && low.cmple(h).all())
-    };
-    obstacles.iter().filter(is_near).cloned().collect()
-}
-
 /// The name of a piece, as large as fits beside what is taken, reading along `upright` where
 /// possible and else along a face's longest edge; with the index of the face that holds it.
 /// Obstacles are those near each of the faces.
@@ -104,7 +89,7 @@ pub(super) fn name_label(
     piece: &Piece,
     upright: DVec2,
     taken: &Taken,
-    (obstacles, letter): (&[Vec<Vec<DVec2>>], f64),
+    (obstacles, letter): (&[Vec<Obstacle>], f64),
 ) -> Result<Option<(usize, Label)>, SheetError> {
     let text = piece.id.to_string();
     let largest = NAME_SHARE * letter;
@@ -123,7 +108,7 @@ pub(super) fn name_label(
             let beaten = best.as_ref().map_or(0.0, |(_, b)| b.height);
             let free = |l: &Label| {
                 is_free(polygon, l, taken.get(&i).map_or(&[], Vec::as_slice))
-                    && is_clear(l, obstacles)
+                    && is_clear(&l.frame, obstacles)
             };
             if let Some(label) = largest_name(&text, &centres, direction, [beaten, largest], free)?
             {
@@ -203,7 +188,7 @@ fn beside(
             // Notches and holes of a joint lie along the edge: further in it may be free.
             let tries = if obstacles.is_empty() { 1 } else { 8 };
             for _ in 0..tries {
-                if is_free(&face.polygon, &label, taken) && is_clear(&label, obstacles) {
+                if is_free(&face.polygon, &label, taken) && is_clear(&label.frame, obstacles) {
                     return Ok(Some(label));
                 }
                 label = label.moved(inwards * (0.5 * height));
@@ -253,19 +238,20 @@ fn inner_point(polygon: &[DVec2], obstacles: Obstacles<'_>) -> DVec2 {
     let Some((low, high)) = bounds(polygon) else { return DVec2::ZERO };
     let n = polygon.len();
     let depth = |p: DVec2| {
-        if locate(polygon, p) != Location::Inside || !obstacles.iter().all(|o| is_on_material(o, p))
-        {
+        if locate(polygon, p) != Location::Inside || !obstacles.iter().all(|o| o.has_material(p)) {
             return -1.0;
         }
-        let all = obstacles.iter().map(|o| distance_to_contour(p, o));
-        all.fold(distance_to_contour(p, polygon), f64::min)
+        let own = distance_to_contour(p, polygon);
+        obstacles.iter().fold(own, |least, obstacle| obstacle.distance_below(p, least))
     };
     let cell = (high - low) / GRID as f64;
     let on_grid = |i: usize| low + cell * (DVec2::new((i % GRID) as f64, (i / GRID) as f64) + 0.5);
     let ears = (0..n).map(|i| (polygon[i] + polygon[(i + 1) % n] + polygon[(i + 2) % n]) / 3.0);
     let candidates = (0..GRID * GRID).map(on_grid).chain(ears).chain([centroid(polygon)]);
-    let deeper =
-        |best: (f64, DVec2), p: DVec2| if depth(p) > best.0 { (depth(p), p) } else { best };
+    let deeper = |best: (f64, DVec2), p: DVec2| {
+        let here = depth(p);
+        if here > best.0 { (here, p) } else { best }
+    };
     let mut best = candidates.fold((-1.0, low), deeper);
     let mut step = cell;
     for _ in 0..16 {
@@ -281,22 +267,6 @@ fn inner_point(polygon: &[DVec2], obstacles: Obstacles<'_>) -> DVec2 {
 /// Whether a label lies inside a face and on nothing else.
 fn is_free(polygon: &[DVec2], label: &Label, taken: &[[DVec2; 4]]) -> bool {
     taken.iter().all(|frame| !overlap(frame, &label.frame)) && frame_inside(polygon, &label.frame)
-}
-
-/// Whether a label neither crosses an obstacle nor has one inside, nor lies in a notch or hole that
-/// is cut away.
-pub(super) fn is_clear(label: &Label, obstacles: Obstacles<'_>) -> bool {
-    obstacles.iter().all(|o| is_on_material(o, label.frame[0]))
-        && obstacles.iter().all(|o| {
-            !borders_meet(o, &label.frame)
-                && o.first().is_none_or(|&p| locate(&label.frame, p) == Location::Outside)
-        })
-}
-
-/// Whether a point lies on the material side of an obstacle: outlines run counter-clockwise, holes
-/// clockwise, slits have no inside.
-fn is_on_material(obstacle: &[DVec2], p: DVec2) -> bool {
-    (locate(obstacle, p) == Location::Inside) == (obstacle.len() > 2 && signed_area(obstacle) > 0.0)
 }
 
 /// Whether a convex frame lies in the interior of a polygon, exactly.
@@ -332,6 +302,10 @@ mod tests {
         assert_eq!((on(210.0, 297.0), on(600.0, 400.0)), (2.5, 4.0));
         assert!((on(6000.0, 3210.0) - 20.0).abs() < 0.1, "{}", on(6000.0, 3210.0));
         assert!(on(1220.0, 2440.0) > 10.0 && on(50.0, 50.0) == 2.5);
+    }
+
+    fn obstacles<const N: usize>(contours: [Vec<DVec2>; N]) -> Vec<Obstacle> {
+        contours.iter().filter_map(|contour| Obstacle::of(contour)).collect()
     }
 
     fn assert_clear(piece: &Piece, label: &Label) {
@@ -377,10 +351,10 @@ mod tests {
         let mut frame = piece(PieceId(0), square(120.0));
         frame.holes = vec![hole.clone()];
         let contours = [square(120.0), hole];
-        let (_, label) =
-            name_label(&frame, DVec2::X, &Taken::new(), (&[contours.to_vec()], NUMBER_HEIGHT))
-                .expect("letters")
-                .expect("room");
+        let near = [obstacles(contours)];
+        let (_, label) = name_label(&frame, DVec2::X, &Taken::new(), (&near, NUMBER_HEIGHT))
+            .expect("letters")
+            .expect("room");
         assert_clear(&frame, &label);
         assert_eq!(label.height, NAME_SHARE * NUMBER_HEIGHT);
     }
@@ -432,13 +406,8 @@ mod tests {
         let cut =
             [vec![DVec2::ZERO], points(notch), points([(60.0, 0.0), (60.0, 60.0), (0.0, 60.0)])]
                 .concat();
-        let label = number_label(
-            "12",
-            &piece.faces[0],
-            [0, 1],
-            segment,
-            room(&[], std::slice::from_ref(&cut)),
-        );
+        let cuts = obstacles([cut.clone()]);
+        let label = number_label("12", &piece.faces[0], [0, 1], segment, room(&[], &cuts));
         let label = label.expect("letters").expect("room beside or behind the notch");
         let in_notch = label.frame.iter().all(|p| locate(&points(notch), *p) == Location::Inside);
         assert!(
@@ -448,11 +417,12 @@ mod tests {
         );
         let hole = points([(10.0, 10.0), (10.0, 50.0), (50.0, 50.0), (50.0, 10.0)]);
         assert!(!is_clear(
-            &set("1", DVec2::splat(30.0), DVec2::X, 3.0).expect("a letter"),
-            &[square(60.0), hole]
+            &set("1", DVec2::splat(30.0), DVec2::X, 3.0).expect("a letter").frame,
+            &obstacles([square(60.0), hole])
         ));
         let slit = points([(0.0, 50.0), (60.0, 50.0)]);
-        assert!(is_clear(&set("1", DVec2::splat(30.0), DVec2::X, 3.0).expect("a letter"), &[slit]));
+        let label = set("1", DVec2::splat(30.0), DVec2::X, 3.0).expect("a letter");
+        assert!(is_clear(&label.frame, &obstacles([slit])));
     }
 
     #[test]

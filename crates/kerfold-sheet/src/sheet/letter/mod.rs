@@ -2,6 +2,7 @@
 
 mod glyph;
 mod label;
+mod obstacle;
 mod params;
 mod piece;
 

@@ -5,9 +5,8 @@ use std::collections::BTreeMap;
 
 use glam::DVec2;
 
-use super::label::{
-    Label, Room, Taken, is_clear, name_label, number_across, number_label, obstacles_near, suited,
-};
+use super::label::{Label, Room, Taken, name_label, number_across, number_label, suited};
+use super::obstacle::{Obstacle, is_clear, obstacles_near};
 use super::params::{Angles, Labels, LetterParams};
 use crate::geom::polygon::{Location, locate};
 use crate::net::{FlatFace, FoldKind, Net, Piece, Seam};
@@ -41,7 +40,7 @@ pub(crate) struct PieceLettering<'a> {
     here: &'a Features<'a>,
     placed: &'a Placed,
     /// For each face what its labels must keep clear of.
-    obstacles: Vec<Vec<Vec<DVec2>>>,
+    obstacles: Vec<Vec<Obstacle>>,
     params: LetterParams,
     /// Height of numbers that suits the sheet, in mm.
     letter: f64,
@@ -61,7 +60,8 @@ impl<'a> PieceLettering<'a> {
         obstacles: &[Vec<DVec2>],
         (params, letter): (LetterParams, f64),
     ) -> Self {
-        let near = |face: &FlatFace| obstacles_near(&face.polygon, obstacles);
+        let obstacles: Vec<Obstacle> = obstacles.iter().filter_map(|o| Obstacle::of(o)).collect();
+        let near = |face: &FlatFace| obstacles_near(&face.polygon, &obstacles);
         let obstacles = piece.faces.iter().map(near).collect();
         Self { net, piece, here, placed, obstacles, params, letter }
     }
@@ -194,7 +194,7 @@ impl<'a> PieceLettering<'a> {
         let inside = line.iter().all(|&p| locate(&face.polygon, p) == Location::Inside);
         let frame = [line[0], line[1], line[1], line[0]];
         let label = Label { strokes: vec![line], frame, height: MARK[0] };
-        (inside && is_clear(&label, &self.obstacles[index])).then_some(label)
+        (inside && is_clear(&label.frame, &self.obstacles[index])).then_some(label)
     }
 
     fn angles(&self, lettered: &mut Lettered) -> Result<(), SheetError> {

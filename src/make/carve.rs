@@ -6,8 +6,11 @@ use std::collections::HashMap;
 use super::MakeError;
 use super::candidates::{Candidates, candidates};
 use super::dform::{Carving, DformError, DformParams};
+use super::divide::Room;
+use super::fabricate::room;
 use crate::measure::{concave_edges, edge_length, fold_angle};
 use crate::mesh::{EdgeId, EdgeMap, FaceId, Mesh, VertexId};
+use crate::net::Net;
 use crate::op::{
     OpContext, OpError, Origins, Roll, RollParams, Scope, TruncateEdgeParams, largest_roll,
     truncate_edges,
@@ -15,6 +18,7 @@ use crate::op::{
 use crate::progress::Progress;
 use crate::seam::{SeamError, fold_sum, piece_count, piece_of_faces, seam_cycles};
 use crate::select::{NewElements, Selection};
+use crate::sheet::SheetParams;
 use crate::unfold::{MeshSource, Seams, UnfoldParams, unfold};
 use crate::units::{Length, counted};
 
@@ -75,26 +79,50 @@ pub fn carve_dform(
     params: &DformParams,
     progress: &dyn Progress,
 ) -> Result<CarvedDform, MakeError> {
+    carve_candidates(mesh, params, None, progress)
+}
+
+/// As [`carve_dform`], for pieces that go onto sheets: of the choices that keep their promise the
+/// first whose pieces fit is taken, so that none has to be divided; where none fits, the first.
+///
+/// # Errors
+/// As [`carve_dform`].
+pub fn carve_dform_for_sheet(
+    mesh: &Mesh,
+    params: &DformParams,
+    sheet: &SheetParams,
+    progress: &dyn Progress,
+) -> Result<CarvedDform, MakeError> {
+    carve_candidates(mesh, params, room(sheet), progress)
+}
+
+fn carve_candidates(
+    mesh: &Mesh,
+    params: &DformParams,
+    room: Option<Room>,
+    progress: &dyn Progress,
+) -> Result<CarvedDform, MakeError> {
     params.carving()?;
     let Candidates { folds, notes } = candidates(mesh, params.matching, progress)?;
-    Ok(carve_folds(mesh, folds, params, progress)?.after(notes))
+    Ok(carve_folds(mesh, folds, (params, room), progress)?.after(notes))
 }
 
 /// Carves the first of these choices that keeps its promise, as [`carve_dform`].
 pub(super) fn carve_folds(
     mesh: &Mesh,
     folds: Vec<Vec<EdgeId>>,
-    params: &DformParams,
+    (params, room): (&DformParams, Option<Room>),
     progress: &dyn Progress,
 ) -> Result<CarvedDform, MakeError> {
     let carving = params.carving()?;
     let mut notes = Vec::new();
-    let broken = match carve_first_whole(mesh, &folds[..folds.len().min(TRIED)], carving, progress)
-    {
+    let few = &folds[..folds.len().min(TRIED)];
+    let broken = match carve_first_whole(mesh, few, (carving, room), progress) {
         Tried::Whole { passed, carved } => {
             if passed > 0 {
                 notes.push(format!(
-                    "{} passed over: carved, the pieces do not lie flat as they are",
+                    "{} passed over: carved, the pieces do not lie flat as they are, or do not fit \
+                    on the sheet",
                     counted(
                         passed,
                         "choice of folds with no larger fold sum was",
@@ -147,28 +175,36 @@ struct BrokenPromise {
 fn carve_first_whole(
     mesh: &Mesh,
     choices: &[Vec<EdgeId>],
-    carving: Carving,
+    (carving, room): (Carving, Option<Room>),
     progress: &dyn Progress,
 ) -> Tried {
-    let (mut first, mut failure) = (None, None);
+    let (mut first, mut failure, mut too_large) = (None, None, None);
     for (i, folds) in choices.iter().enumerate() {
         progress.report("trying folds", i, choices.len());
         let promised = piece_count(mesh, folds);
         match carve(mesh, folds, carving, progress) {
-            Ok(carved) => match pieces_flat(&carved, progress) {
-                Some(made) if made == promised => {
-                    return Tried::Whole { passed: i, carved: Box::new(carved) };
-                }
-                made => {
-                    let made = made.unwrap_or(carved.mesh.face_count());
+            Ok(carved) => {
+                let net = laid_flat(&carved, progress);
+                let made = net.as_ref().map_or(carved.mesh.face_count(), |net| net.pieces.len());
+                let fits = |net: &Net| {
+                    room.is_none_or(|room| net.pieces.iter().all(|p| room.holds(&p.outline)))
+                };
+                if made != promised {
                     first = first.or(Some(BrokenPromise { promised, made }));
+                } else if net.as_ref().is_some_and(fits) {
+                    return Tried::Whole { passed: i, carved: Box::new(carved) };
+                } else if too_large.is_none() {
+                    too_large = Some(Tried::Whole { passed: i, carved: Box::new(carved) });
                 }
-            },
+            }
             Err(error) => failure = failure.or(Some(error)),
         }
         if progress.is_cancelled() {
             break;
         }
+    }
+    if let Some(whole) = too_large {
+        return whole;
     }
     match (first, failure) {
         (Some(first), _) => Tried::Broken(first),
@@ -224,7 +260,9 @@ fn smaller_offset(
         progress.report("trying smaller offsets", count - hundredths as usize, count);
         let offset = f64::from(hundredths) / 100.0;
         let carving = Carving::Cut { offset, bend, rounds };
-        if let Tried::Whole { carved, .. } = carve_first_whole(mesh, choices, carving, progress) {
+        if let Tried::Whole { carved, .. } =
+            carve_first_whole(mesh, choices, (carving, None), progress)
+        {
             let note = format!(
                 "the offset is {offset} instead of {asked}: the largest that keeps the pieces whole"
             );
@@ -259,7 +297,8 @@ fn smaller_roll(
     };
     let choice = [folds.to_vec()];
     let carving = Carving::Rolled(RollParams { roll, ..params });
-    let Tried::Whole { carved, .. } = carve_first_whole(mesh, &choice, carving, progress) else {
+    let Tried::Whole { carved, .. } = carve_first_whole(mesh, &choice, (carving, None), progress)
+    else {
         return None;
     };
     let note = format!(
@@ -270,13 +309,11 @@ fn smaller_roll(
     Some(Smaller { carved: *carved, size: radii[0].max(radii[1]), note })
 }
 
-/// How many pieces the carved mesh comes apart into along its seams, and along folds that have to
+/// The pieces that the carved mesh comes apart into along its seams, and along folds that have to
 /// open for an overlap; nothing where it cannot be unfolded.
-fn pieces_flat(carved: &CarvedDform, progress: &dyn Progress) -> Option<usize> {
+fn laid_flat(carved: &CarvedDform, progress: &dyn Progress) -> Option<Net> {
     let seams = Seams::Folds(carved.folds.clone());
-    let net =
-        unfold(&carved.mesh, &seams, &UnfoldParams::default(), &MeshSource::default(), progress);
-    net.ok().map(|net| net.pieces.len())
+    unfold(&carved.mesh, &seams, &UnfoldParams::default(), &MeshSource::default(), progress).ok()
 }
 
 fn carve(

@@ -65,10 +65,11 @@ fn cell(
     progress: &dyn Progress,
 ) -> Result<Cell, MakeError> {
     let params = DformParams { strips: Some(STRIPS), ..DformParams::default() };
-    let (carved, sign) = match carve_folds(mesh, vec![choice.folds.clone()], &params, progress) {
-        Ok(carved) => (carved, ""),
-        Err(_) => (CarvedDform::uncarved(mesh, &choice.folds), " #"),
-    };
+    let (carved, sign) =
+        match carve_folds(mesh, vec![choice.folds.clone()], (&params, None), progress) {
+            Ok(carved) => (carved, ""),
+            Err(_) => (CarvedDform::uncarved(mesh, &choice.folds), " #"),
+        };
     let seams = Seams::Folds(carved.folds.clone());
     let source = MeshSource::default();
     let net = unfold(&carved.mesh, &seams, &UnfoldParams::default(), &source, progress)?;

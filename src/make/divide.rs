@@ -17,7 +17,8 @@ pub(super) struct Room {
 }
 
 impl Room {
-    fn holds(self, points: &[DVec2]) -> bool {
+    /// Whether a piece with these corners fits, turned as suits it best.
+    pub fn holds(self, points: &[DVec2]) -> bool {
         let needed = smallest_box(points);
         needed.width <= self.longer && needed.height <= self.shorter
     }

@@ -280,7 +280,7 @@ fn strips_reach_every_face(mesh: &Mesh, strip: &[EdgeId]) -> bool {
 
 /// The room inside the margin of a sheet for a piece with its joints, kerf included; `None` without
 /// sheets.
-fn room(sheet: &SheetParams) -> Option<Room> {
+pub(super) fn room(sheet: &SheetParams) -> Option<Room> {
     let inside = sheet.stock.sheet.mm()?
         - 2.0 * (sheet.stock.margin.mm() + sheet.joint_reach())
         - sheet.stock.kerf.mm();

@@ -32,7 +32,7 @@ mod report_pictures;
 mod seam_choice;
 mod show;
 
-pub use carve::{CarvedDform, carve_dform};
+pub use carve::{CarvedDform, carve_dform, carve_dform_for_sheet};
 pub use choices::{FoldChoice, MOST_CHOICES, choices_picture};
 pub use dform::{DformError, DformParams, MatchingChoice, MatchingChoiceError};
 pub use error::MakeError;

@@ -10,7 +10,7 @@ use crate::io::{ReadMesh, read_mesh, size_note};
 use crate::make::{
     DformError, DformParams, FabricateParams, FabricateSettings, Fabrication, MakeError,
     OutlineParams, OutlinesError, PanelFiles, PanelJob, Panelled, PiecePromise, PointOut,
-    ShowParams, carve_dform, fabricate, nest_files, operate, outlined_dform, panel_model,
+    ShowParams, carve_dform_for_sheet, fabricate, nest_files, operate, outlined_dform, panel_model,
     solid_of_planes, with_material,
 };
 use crate::mesh::{Mesh, SplitVertex};
@@ -260,7 +260,7 @@ impl Job {
         sheet: &SheetParams,
         progress: &dyn Progress,
     ) -> Result<(), MakeError> {
-        let carved = carve_dform(self.mesh()?, params, progress)?;
+        let carved = carve_dform_for_sheet(self.mesh()?, params, sheet, progress)?;
         self.notes.extend(carved.notes);
         self.mesh = Some(Arc::new(carved.mesh));
         let folds = FabricateParams {

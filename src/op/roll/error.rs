@@ -49,7 +49,7 @@ pub enum RollError {
     },
     /// The radius leaves nothing of an edge or face that must stay.
     #[error("{asked} is too large: the rolls would take all of {place}{}; {}",
-        of_edges(edges), advice(*largest))]
+        of_edges(edges), advice(asked, *largest))]
     TooLarge {
         /// The roll that was asked for.
         asked: String,
@@ -109,10 +109,12 @@ fn of_edges(edges: &[EdgeId]) -> String {
     }
 }
 
-fn advice(largest: f64) -> String {
-    if largest > 0.0 {
-        format!("take {largest} mm at most, or `max`")
-    } else {
+fn advice(asked: &str, largest: f64) -> String {
+    if largest <= 0.0 {
         "leave the edge out of the selection".to_owned()
+    } else if asked.contains(',') {
+        format!("take {largest} mm at most at the wider end and less alike at the other")
+    } else {
+        format!("take {largest} mm at most, or `max`")
     }
 }

@@ -81,6 +81,33 @@ fn folds_of_every_3_valent_solid_are_rolled() {
     }
 }
 
+/// Solids without any symmetry, whose ends lean in all ways: the same, and cones on top.
+#[test]
+fn folds_of_random_solids_are_rolled() {
+    for seed in 0..8 {
+        let solid = crate::shape::random_tangent_polytope(6 + 2 * seed as usize, seed);
+        for roll in ["max", "each"] {
+            let (mesh, report) = rolled(&solid, &params("matching", roll))
+                .unwrap_or_else(|e| panic!("{seed} {roll}: {e}"));
+            assert!(report.not_three_valent.is_empty(), "{seed} {roll}");
+            assert!(convexity(&mesh).is_convex(), "{seed} {roll}");
+            assert!(report.roll_limit.is_some_and(|limit| !limit.edges.is_empty()));
+        }
+        let edges = params("matching", "max").select.edges(&OpContext::default().select(&solid));
+        let largest = largest_roll(&solid, &edges.expect("folds")).expect("a radius").radius;
+        // A cone may take more of an edge than a cylinder; then what the error names must fit.
+        let cone = |wide: f64| params("matching", &format!("{wide}mm,{}mm", wide / 3.0));
+        let first = rolled(&solid, &cone(largest * 0.9));
+        let (mesh, report) = match first {
+            Err(OpError::Roll(RollError::TooLarge { largest, .. })) => {
+                rolled(&solid, &cone(largest)).unwrap_or_else(|e| panic!("{seed}: {e}"))
+            }
+            first => first.unwrap_or_else(|e| panic!("{seed}: {e}")),
+        };
+        assert!(report.not_three_valent.is_empty() && convexity(&mesh).is_convex(), "{seed}");
+    }
+}
+
 /// Every strip is at the distance r from the axis, and as wide as the formula says.
 #[test]
 fn strips_touch_one_cylinder_and_one_cone() {

@@ -10,7 +10,7 @@ mod clock;
 
 use clock::{peak_megabytes, process_seconds};
 use kerfold::io::sheet::svg::write_svg;
-use kerfold::make::{PanelFiles, PanelJob, SolidFile, panel_model, panel_outputs};
+use kerfold::make::{PaneFile, PanelFiles, PanelJob, SolidFile, panel_model, panel_outputs};
 use kerfold::mesh::Mesh;
 use kerfold::panel::{PanelParams, ReferenceSide, panel_net, plates, schedule};
 use kerfold::progress::Silent;
@@ -87,10 +87,10 @@ fn facade() {
         vec![SolidFile::None],
         vec![SolidFile::Step, SolidFile::Obj, SolidFile::Glb, SolidFile::Stl],
     ] {
-        let files = PanelFiles { solids };
+        let files = PanelFiles { solids, drawings: vec![PaneFile::None] };
         let job = PanelJob { panels: &params, files: &files, sheet: &sheet };
         let panelled = panel_model(&mesh, job, &source, &Silent).expect("panels");
-        let outputs = panel_outputs(&panelled, &sheet, "bench").expect("files");
+        let outputs = panel_outputs(&panelled, &mesh, &sheet, "bench").expect("files");
         let bytes: usize = outputs.iter().map(|(_, bytes)| bytes.len()).sum();
         clock.lap(&format!("all {} files, {} MB", outputs.len(), bytes / 1_000_000));
     }

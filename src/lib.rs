@@ -39,14 +39,17 @@ pub use kerfold_sheet::{lint, net, sheet};
 pub mod explain;
 pub mod memory;
 
+pub mod mend;
 pub mod seam;
 pub mod select;
 pub mod shape;
 
 pub mod bloom;
 pub mod check;
+pub mod gluing;
 pub mod op;
 pub mod panel;
+pub mod panelize;
 pub mod unfold;
 
 pub mod io;
@@ -65,10 +68,11 @@ pub mod prelude {
     pub use crate::io::{ReadOptions, WriteOptions, read_mesh, write_mesh};
     pub use crate::mesh::{EdgeId, FaceId, HalfEdgeId, Mesh, MeshBuilder, VertexId};
     pub use crate::op::{
-        HandleParams, HullParams, MengerParams, OpContext, PlanarizeParams, ResolveParams,
-        RindParams, SierpinskiParams, SliceParams, SubdivideParams, TruncateEdgeParams,
-        TruncateFaceParams, TruncateVertexParams, handle, hull, menger, planarize, resolve, rind,
-        sierpinski, slice, subdivide, truncate_edges, truncate_faces, truncate_vertices,
+        HandleParams, HullParams, MengerParams, MergeParams, OpContext, PlanarizeParams,
+        RepairParams, ResolveParams, RindParams, SierpinskiParams, SimplifyParams, SliceParams,
+        SubdivideParams, TruncateEdgeParams, TruncateFaceParams, TruncateVertexParams, handle,
+        hull, menger, merge, planarize, repair, resolve, rind, sierpinski, simplify, slice,
+        subdivide, truncate_edges, truncate_faces, truncate_vertices,
     };
     pub use crate::progress::{Progress, Silent};
     pub use crate::select::Selection;
@@ -77,6 +81,11 @@ pub mod prelude {
     pub use crate::unfold::{MeshSource, Seams, UnfoldParams, prove, unfold};
     pub use crate::units::{Angle, Length};
 }
+
+/// The example of the README, which is tested as those of the two lower crates are.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}
 
 /// Small meshes for tests, shared with the kernel's own.
 #[cfg(test)]

@@ -1,5 +1,5 @@
-//! The order of assembly of models that the unfolder laid out: every seam is closed once, pieces are
-//! attached before anything is closed, and closing goes on like a zip.
+//! The order of assembly of models that the unfolder laid out: every seam is closed once, pieces
+//! are attached before anything is closed, and closing goes on like a zip.
 
 use std::collections::BTreeSet;
 

@@ -1,5 +1,5 @@
-//! What the program leaves on the disk: whole files or none, nothing of an earlier run unsaid, names
-//! in any letters; and what it says of files that are not right.
+//! What the program leaves on the disk: whole files or none, nothing of an earlier run unsaid,
+//! names in any letters; and what it says of files that are not right.
 
 #![cfg(unix)]
 

@@ -155,10 +155,7 @@ fn readers_take_or_refuse_any_bytes() {
     }
 }
 
-// Taken up as soon as every operator makes meshes without parallel edges (`sierpinski` and others
-// still do), which files cannot hold.
 #[test]
-#[ignore = "operators still make parallel edges"]
 fn chains_of_operators_are_sound_and_their_files_are_read_back() {
     let mut dice = Dice(1);
     for _ in 0..rounds() / 8 {

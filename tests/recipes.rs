@@ -9,13 +9,18 @@ use kerfold::unfold::prove;
 
 /// Recipe, pieces, and the genus of the model. Figures are those of the thesis.
 const RECIPES: &[(&str, usize, usize)] = &[
+    ("gonen-fig-17-cones.toml", 2, 0),
     ("gonen-fig-17-leaning-cuts.toml", 2, 0),
     ("gonen-fig-17-one-sided-cuts.toml", 2, 0),
     ("gonen-fig-18-three-piece-dodecahedron.toml", 3, 0),
+    ("gonen-fig-19-two-piece-dodecahedron-front.toml", 2, 0),
+    ("gonen-fig-19-two-piece-dodecahedron-top.toml", 2, 0),
     ("gonen-fig-19-two-piece-dodecahedron.toml", 2, 0),
     ("gonen-fig-20-two-y-pieces-octahedron.toml", 2, 0),
     ("gonen-fig-21-five-piece-truncated-tetrahedron.toml", 5, 0),
     ("gonen-fig-21-four-piece-dodecahedron.toml", 4, 0),
+    ("gonen-fig-21-four-piece-hexagonal-prism.toml", 4, 0),
+    ("gonen-fig-21-six-piece-truncated-cube.toml", 6, 0),
     ("one-piece-d-form-torus.toml", 1, 1),
     ("one-piece-torus.toml", 1, 1),
     ("two-piece-d-form.toml", 2, 0),
@@ -58,6 +63,40 @@ fn every_recipe_gives_its_pieces_without_overlap() {
         assert_eq!(proof.overlaps, 0, "{name}");
         assert!(!fabrication.sheets.drawings.is_empty(), "{name}");
     }
+}
+
+/// The figures that the thesis shows smooth: three edges at every vertex, no cut meets another, and
+/// all pieces lie on their sheets with even strips.
+#[test]
+fn smooth_figures_are_rolled_with_clean_seams() {
+    for &(name, ..) in RECIPES.iter().filter(|r| r.0.starts_with("gonen") || r.0.starts_with("two"))
+    {
+        let job = run(name);
+        let mesh = job.mesh().expect("a mesh");
+        assert!(mesh.vertices().all(|v| mesh.valence(v) == 3), "{name}");
+        let note = job.notes.iter().find(|note| note.contains("met each other"));
+        assert_eq!(note, None, "{name}");
+        let is_rolled = job.notes.iter().any(|note| note.contains("rolled with a radius"));
+        assert!(is_rolled || name.ends_with("cuts.toml"), "{name}");
+        assert!(kerfold::measure::convexity(mesh).is_convex(), "{name}");
+    }
+}
+
+/// What `cut edge` promises `unfold` keeps, or nothing is made.
+#[test]
+fn a_recipe_that_cannot_keep_its_pieces_is_refused() {
+    let with = |cut: &str| {
+        let text = format!(
+            "[[step]]\nsolid = \"truncated-tetrahedron\"\n[[step]]\ncut = \"edge\"\nselect = \
+            \"matching:1\"\n{cut}\n[[step]]\nunfold = \"auto\"\n"
+        );
+        let recipe = Recipe::parse(&text).expect("a recipe");
+        Job::run(&recipe, Path::new(""), &Silent)
+    };
+    let refused = with("offset = 0.9\nrepeat = 2").err().expect("pieces are lost").to_string();
+    assert!(refused.contains("leave 3 pieces") && refused.contains("roll"), "{refused}");
+    let rolled = with("roll = \"max\"").expect("pieces are kept");
+    assert_eq!(rolled.fabrication.expect("pieces").0.net.pieces.len(), 3);
 }
 
 #[test]

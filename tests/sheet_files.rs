@@ -30,7 +30,7 @@ fn pairs(text: &str) -> Vec<(u16, &str)> {
 #[test]
 fn dxf_has_every_stroke_closed_cuts_and_no_handle_twice() {
     let drawing = drawing();
-    let text = write_dxf(&drawing, COMMAND);
+    let text = write_dxf(&drawing, Preset::RedCut, COMMAND);
     let pairs = pairs(&text);
     assert_eq!(pairs[0], (999, r#"kerfold unfold "a&b".obj --score (x) \U+00E4  "#));
     let value = |name: &str| pairs.iter().position(|p| *p == (9, name)).map(|i| pairs[i + 1].1);

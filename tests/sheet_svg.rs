@@ -170,7 +170,7 @@ fn assert_contract(text: &str) {
         assert!(!node.has_tag_name("text") && node.attribute("transform").is_none());
         assert!(node.attribute("id").is_none_or(|id| ids.insert(id.to_owned())), "id twice");
         if let Some(width) = node.attribute("stroke-width") {
-            assert!(width.parse::<f64>().expect("a number") <= 0.1);
+            assert!(width.parse::<f64>().expect("a number") <= 0.2);
         }
         if let Some(data) = node.attribute("d") {
             assert_path(data, node.attribute("class").expect("a class"));

@@ -9,8 +9,8 @@ use kerfold::io::order_json::Order;
 use kerfold::io::pieces_json::{read_pieces_json, write_pieces_json};
 use kerfold::io::planes_csv::parse_planes;
 use kerfold::io::{
-    MeshFormat, ReadOptions, WriteOptions, artwork, decode_text, mesh_bytes, read_mesh_bytes,
-    read_points_bytes, read_seams_bytes,
+    IoError, MeshFormat, ReadOptions, WriteOptions, artwork, decode_text, mesh_bytes,
+    read_mesh_bytes, read_points_bytes, read_seams_bytes,
 };
 use kerfold::mesh::{Mesh, assert_sound};
 use kerfold::op::{
@@ -69,26 +69,33 @@ fn mesh_file(name: &str, bytes: &[u8]) {
     let Ok(read) = read_mesh_bytes(Path::new(name), bytes, &plain) else { return };
     assert_sound(&read.mesh);
     read.notes.iter().for_each(|note| assert!(!note.to_string().is_empty()));
-    same_after_files(&read.mesh);
+    same_after_files(&read.mesh, name);
     let welding = ReadOptions { weld: Some(Length::from_mm(0.1)), ..plain };
     if let Ok(welded) = read_mesh_bytes(Path::new(name), bytes, &welding) {
         assert_sound(&welded.mesh);
     }
 }
 
-/// Writes a mesh in the formats that keep every digit and reads it back.
-fn same_after_files(mesh: &Mesh) {
-    let counts = |mesh: &Mesh| (mesh.vertex_count(), mesh.edge_count(), mesh.face_count());
+/// Writes a mesh in the formats that keep every digit and reads it back. Self-loops and faces of two
+/// sides, which operators may leave for the next, are no part of files.
+fn same_after_files(mesh: &Mesh, what: &str) {
+    let is_loop = |h| mesh.origin(h) == mesh.target(h);
+    let is_simple =
+        !mesh.edges().any(|e| is_loop(e.half_edge())) && mesh.faces().all(|f| mesh.sides(f) > 2);
+    let expected = if is_simple { Some(mesh.counts()) } else { mesh.file_counts() };
     for (format, name) in
         [(MeshFormat::Obj, "x.obj"), (MeshFormat::Ply, "x.ply"), (MeshFormat::Off, "x.off")]
     {
-        let bytes =
-            mesh_bytes(format, mesh, &WriteOptions::default()).expect("any mesh is written");
+        let bytes = match mesh_bytes(format, mesh, &WriteOptions::default()) {
+            Ok(bytes) => bytes,
+            Err(IoError::NotForFiles { .. }) if !is_simple => return,
+            Err(error) => panic!("{what}: {name}: {error}"),
+        };
         let back = read_mesh_bytes(Path::new(name), &bytes, &ReadOptions::default());
-        let back =
-            back.unwrap_or_else(|error| panic!("{name} was written and is refused: {error}"));
-        assert_eq!(counts(&back.mesh), counts(mesh), "{name}");
-        assert_eq!(back.mesh.bounds(), mesh.bounds(), "{name}");
+        let back = back
+            .unwrap_or_else(|error| panic!("{what}: {name} was written and is refused: {error}"));
+        assert_eq!(Some(back.mesh.counts()), expected, "{what}: {name}");
+        assert_eq!(back.mesh.bounds(), mesh.bounds(), "{what}: {name}");
     }
 }
 
@@ -229,6 +236,7 @@ pub fn chains(bytes: &[u8]) {
         4 => shape::antiprism(4, 20.0),
         _ => shape::dodecahedron(20.0),
     };
+    let mut done: Vec<String> = Vec::new();
     for _ in 0..MOST_STEPS {
         if choices.0.len() == 0 || mesh.face_count() > MOST_FACES {
             return;
@@ -236,7 +244,8 @@ pub fn chains(bytes: &[u8]) {
         let Some(operator) = operator(&mut choices, &mesh) else { return };
         let Ok(output) = operator.operate(&mesh, &OpContext::default()) else { continue };
         assert_sound(&output.mesh);
-        same_after_files(&output.mesh);
+        done.push(format!("{operator:?}"));
+        same_after_files(&output.mesh, &done.join(", then "));
         mesh = output.mesh;
     }
 }

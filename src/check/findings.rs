@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
-use super::{CheckFinding, CheckKind, Element, Report, Requirement, Unit, short};
+use super::{CheckFinding, CheckKind, Element, Report, Requirement, Unit, short, surface};
 use crate::geom::RoundingBound;
 use crate::measure::{self, edge_length, face_diameter, face_width, self_contact};
 use crate::mesh::{EdgeId, FaceId, Mesh, VertexId};
@@ -21,6 +21,8 @@ pub(super) fn all(mesh: &Mesh, report: &Report) -> Vec<CheckFinding> {
     }
     findings.extend(mesh.faces().filter_map(|f| self_intersection(mesh, f)));
     findings.extend(planarity(report));
+    findings.extend(surface::always(mesh));
+    findings.extend(surface::limits(mesh, &report.limits));
     type Check = fn(&Mesh, &Report) -> Vec<CheckFinding>;
     let on_request: [(Requirement, Check); 6] = [
         (Requirement::Valence3, valence),

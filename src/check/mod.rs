@@ -11,13 +11,14 @@ mod profile;
 mod report;
 mod run;
 mod short;
+mod surface;
 
 pub use details::{Details, EdgeDetail, VertexDetail, details};
 pub use params::{CheckError, CheckParams, Requirement};
-pub use profile::{Breach, Limits, Profile, Unit};
+pub use profile::{Breach, Limits, Profile, ROUNDED, Unit};
 pub use report::{
-    CheckFinding, CheckKind, ConicalNode, Element, FaceReport, MOST_CROSSINGS, ModelCounts, Report,
-    ValenceReport, Verdict,
+    CheckFinding, CheckKind, ConicalNode, Element, FaceReport, FlatNeighbours, MOST_CROSSINGS,
+    ModelCounts, Report, ValenceReport, Verdict,
 };
 pub use run::check;
 pub(crate) use short::short;

@@ -18,14 +18,16 @@ use crate::units::{Angle, Length};
 #[derive(Debug, Clone, PartialEq, Default, clap::Args, Deserialize)]
 pub struct CheckParams {
     /// How planar faces must be: `exact` (1e-9 of the face's diameter), `glass` (2 per mille and 1
-    /// mm), `plywood` (1 mm) or `paper` (0.5 degrees). These are kerfold's defaults, not norms.
+    /// mm), `plywood` (1 mm) or `paper` (0.5 degrees). `glazier` and `joiner` hold to `glass` and
+    /// `plywood`, and limit corners, edges and mitres as such shops do. These are kerfold's
+    /// defaults, not norms.
     #[arg(long, value_enum, default_value = "glass")]
     #[serde(default)]
     pub profile: Profile,
 
     /// What else the model must be, separated by commas: `planar` (always checked), `valence3`,
-    /// `closed`, `convex`, `manifold`, `one-component`, `simple` (no face goes through another). What
-    /// is broken becomes a finding.
+    /// `closed`, `convex`, `manifold`, `one-component`, `simple` (no face goes through another).
+    /// What is broken becomes a finding.
     #[arg(
         long,
         value_enum,
@@ -51,6 +53,22 @@ pub struct CheckParams {
     #[arg(long, value_name = "ANGLE")]
     #[serde(default)]
     pub max_degrees: Option<Angle>,
+
+    /// Smallest angle at a corner of a face, instead of the profile's; 0 or more.
+    #[arg(long, value_name = "ANGLE")]
+    #[serde(default)]
+    pub min_angle: Option<Angle>,
+
+    /// Shortest edge, instead of the profile's; 0 or more.
+    #[arg(long, value_name = "LENGTH")]
+    #[serde(default)]
+    pub min_edge: Option<Length>,
+
+    /// Largest mitre, half of the angle by which two faces fold, instead of the profile's; 0 or
+    /// more.
+    #[arg(long, value_name = "ANGLE")]
+    #[serde(default)]
+    pub max_mitre: Option<Angle>,
 }
 
 /// A property that a model must have.
@@ -118,6 +136,11 @@ impl CheckParams {
             permille: limit("max_permille", self.max_permille)?.or(profile.permille),
             degrees: limit("max_degrees", self.max_degrees.map(Angle::degrees))?
                 .or(profile.degrees),
+            min_angle_degrees: limit("min_angle", self.min_angle.map(Angle::degrees))?
+                .or(profile.min_angle_degrees),
+            min_edge_mm: limit("min_edge", self.min_edge.map(Length::mm))?.or(profile.min_edge_mm),
+            max_mitre_degrees: limit("max_mitre", self.max_mitre.map(Angle::degrees))?
+                .or(profile.max_mitre_degrees),
         })
     }
 
@@ -241,7 +264,7 @@ mod tests {
         assert_eq!(toml::from_str::<CheckParams>(text).expect("good keys"), wanted);
         assert_eq!(
             wanted.limits().expect("good limits"),
-            Limits { mm: Some(3.175), degrees: Some(0.5), permille: None }
+            Limits { mm: Some(3.175), degrees: Some(0.5), ..Limits::default() }
         );
     }
 

@@ -4,6 +4,10 @@ use std::fmt;
 
 use crate::measure::Planarity;
 
+/// A corner that lies off the plane of its face by no more than this part of the face's diameter is
+/// rounding of the file: single precision, or seven digits.
+pub const ROUNDED: f64 = 1e-5;
+
 /// A named set of planarity limits (`operators.md` 11). They are kerfold's own defaults, not norms:
 /// ask your supplier.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, clap::ValueEnum)]
@@ -18,10 +22,16 @@ pub enum Profile {
     Plywood,
     /// 0.5 degrees.
     Paper,
+    /// As glass, with what a glass shop grinds: corners of 15 degrees, edges of 50 mm, mitres of 60
+    /// degrees.
+    Glazier,
+    /// As plywood, with what a saw cuts: corners of 10 degrees, edges of 20 mm, mitres of 60
+    /// degrees.
+    Joiner,
 }
 
 impl Profile {
-    /// All profiles.
+    /// The profiles of planarity; those of shops hold to one of them.
     pub const ALL: [Self; 4] = [Self::Exact, Self::Glass, Self::Plywood, Self::Paper];
 
     /// The limits that the profile sets.
@@ -31,6 +41,18 @@ impl Profile {
             Self::Glass => Limits { mm: Some(1.0), permille: Some(2.0), ..Limits::default() },
             Self::Plywood => Limits { mm: Some(1.0), ..Limits::default() },
             Self::Paper => Limits { degrees: Some(0.5), ..Limits::default() },
+            Self::Glazier => Limits {
+                min_angle_degrees: Some(15.0),
+                min_edge_mm: Some(50.0),
+                max_mitre_degrees: Some(60.0),
+                ..Self::Glass.limits()
+            },
+            Self::Joiner => Limits {
+                min_angle_degrees: Some(10.0),
+                min_edge_mm: Some(20.0),
+                max_mitre_degrees: Some(60.0),
+                ..Self::Plywood.limits()
+            },
         }
     }
 
@@ -41,6 +63,8 @@ impl Profile {
             Self::Glass => "glass",
             Self::Plywood => "plywood",
             Self::Paper => "paper",
+            Self::Glazier => "glazier",
+            Self::Joiner => "joiner",
         }
     }
 }
@@ -61,6 +85,12 @@ pub struct Limits {
     pub permille: Option<f64>,
     /// Angle between the face's normal and a corner normal, in degrees.
     pub degrees: Option<f64>,
+    /// Smallest angle at a corner of a face, in degrees.
+    pub min_angle_degrees: Option<f64>,
+    /// Shortest edge, in mm.
+    pub min_edge_mm: Option<f64>,
+    /// Largest mitre, half of the fold angle, in degrees.
+    pub max_mitre_degrees: Option<f64>,
 }
 
 /// A limit that a face breaks.
@@ -138,6 +168,8 @@ pub enum Unit {
     Contacts,
     /// A number of times that a surface winds around its middle.
     Windings,
+    /// Cubic millimetres.
+    CubicMm,
 }
 
 impl Unit {
@@ -156,6 +188,7 @@ impl Unit {
             Self::Faces => "faces",
             Self::Contacts => "contacts",
             Self::Windings => "windings",
+            Self::CubicMm => "mm³",
         }
     }
 }

@@ -8,7 +8,9 @@ use glam::DVec3;
 use super::{Breach, Limits, Profile, Requirement, Unit};
 use crate::code::codes;
 use crate::measure::{Convexity, CrossingPair, Planarity};
-use crate::mesh::{FaceId, VertexId};
+use crate::mend::{FLAT_MM, flat_patches};
+use crate::mesh::{FaceId, Mesh, VertexId};
+use crate::units::counted;
 
 /// More pairs of crossing faces than this are not looked for.
 pub const MOST_CROSSINGS: usize = 1000;
@@ -44,8 +46,39 @@ pub struct Report {
     /// Pairs of faces that go through each other or cover each other, ascending; at most
     /// [`MOST_CROSSINGS`] of them.
     pub crossings: Vec<CrossingPair>,
+    /// Faces that lie flat beside each other, as triangles of a CAD program do.
+    pub flat: FlatNeighbours,
     /// What breaks a limit or a requirement, in the order of [`CheckKind`] and ascending by id.
     pub findings: Vec<CheckFinding>,
+}
+
+/// How many faces lie flat beside each other, within [`crate::mend::FLAT_MM`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct FlatNeighbours {
+    /// Faces with a neighbour in their plane.
+    pub faces: usize,
+    /// The regions that they make.
+    pub regions: usize,
+}
+
+impl FlatNeighbours {
+    /// Those of a mesh.
+    pub fn of(mesh: &Mesh) -> Self {
+        let flat = flat_patches(mesh, FLAT_MM);
+        Self { faces: flat.faces_to_merge(), regions: flat.regions_to_merge() }
+    }
+
+    /// What to do about them, in one line; `None` when there are none.
+    pub fn proposal(&self) -> Option<String> {
+        (self.regions > 0).then(|| {
+            format!(
+                "{} flat beside others and would be {}: kerfold merge IN -o OUT, or --merge-flat \
+                when reading",
+                counted(self.faces, "face lies", "faces lie"),
+                counted(self.regions, "polygon", "polygons")
+            )
+        })
+    }
 }
 
 /// Counts and size of the model.
@@ -113,6 +146,20 @@ pub enum CheckKind {
     SelfIntersection,
     /// A face that is not planar within the profile.
     Planarity,
+    /// A closed model of which the faces look inwards.
+    InsideOut,
+    /// A vertex on an edge that it does not belong to.
+    Junction,
+    /// A face that is there twice.
+    Doubled,
+    /// A corner sharper than allowed.
+    SharpCorner,
+    /// An edge shorter than allowed.
+    ShortEdge,
+    /// An edge that needs a steeper mitre than allowed.
+    Mitre,
+    /// The file names another unit than the one that it was read with.
+    OtherUnit,
     /// A vertex without exactly three edges.
     Valence,
     /// A rim.
@@ -138,6 +185,13 @@ codes!(finding CheckKind {
     Manifold = 108,
     OneComponent = 109,
     Simple = 110,
+    InsideOut = 111,
+    Junction = 112,
+    Doubled = 113,
+    SharpCorner = 114,
+    ShortEdge = 115,
+    Mitre = 116,
+    OtherUnit = 117,
 });
 
 /// What a finding is about.
@@ -225,6 +279,13 @@ impl CheckKind {
             Self::Manifold => "manifold",
             Self::OneComponent => "one-component",
             Self::Simple => "simple",
+            Self::InsideOut => "inside-out",
+            Self::Junction => "t-junction",
+            Self::Doubled => "doubled-face",
+            Self::SharpCorner => "sharp-corner",
+            Self::ShortEdge => "short-edge",
+            Self::Mitre => "mitre",
+            Self::OtherUnit => "other-unit",
         }
     }
 }

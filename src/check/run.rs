@@ -2,7 +2,9 @@
 
 use glam::DVec3;
 
-use super::report::{ConicalNode, FaceReport, MOST_CROSSINGS, ModelCounts, Report, ValenceReport};
+use super::report::{
+    ConicalNode, FaceReport, FlatNeighbours, MOST_CROSSINGS, ModelCounts, Report, ValenceReport,
+};
 use super::{CheckError, CheckParams, Limits, Profile, findings};
 use crate::measure::{self, Planarity, planarity, plane_deviation};
 use crate::mesh::{EdgeId, FaceId, FaceMap, Mesh, VertexId};
@@ -10,9 +12,10 @@ use crate::mesh::{EdgeId, FaceId, FaceMap, Mesh, VertexId};
 /// Measures a mesh and compares it with the limits and requirements of `params`.
 ///
 /// Always findings: faces beyond the planarity limits, without area or with an outline that meets
-/// itself, and edges without length (shorter than the rounding bound, 1e-12 of the model). Only
-/// when required: valence, rims, convexity, vertices at one place, several components, faces that go
-/// through each other; these are still reported as data.
+/// itself, edges without length (shorter than the rounding bound, 1e-12 of the model), faces that
+/// look inwards, T-junctions and doubled faces; and what breaks the limits of shapes, where the
+/// profile or the user sets some. Only when required: valence, rims, convexity, vertices at one
+/// place, several components, faces that go through each other; these are still reported as data.
 ///
 /// # Errors
 /// [`CheckError::BadLimit`] when a limit is negative or not finite.
@@ -48,6 +51,7 @@ pub fn check(mesh: &Mesh, params: &CheckParams) -> Result<Report, CheckError> {
             .collect(),
         conical: conical_nodes(mesh),
         crossings: measure::crossings(mesh, MOST_CROSSINGS),
+        flat: FlatNeighbours::of(mesh),
         convexity,
         faces,
         findings: Vec::new(),

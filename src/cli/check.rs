@@ -6,7 +6,8 @@ use super::error::CliError;
 use super::input::Input;
 use super::output::command_line;
 use super::{Console, Outcome};
-use crate::check::{CheckParams, Report, check, details};
+use crate::check::{CheckFinding, CheckKind, CheckParams, Element, Report, Unit, check, details};
+use crate::io::ReadNote;
 use crate::io::output::write_file;
 use crate::io::report::csv::check_csv;
 use crate::io::report::html::check_html;
@@ -49,7 +50,8 @@ pub(super) struct CheckArgs {
 pub(super) fn run(args: &CheckArgs, console: &Console) -> Result<Outcome, CliError> {
     let format = args.report.as_deref().map(report_format).transpose()?;
     let read = args.input.read()?;
-    let report = check(&read.mesh, &args.check)?;
+    let mut report = check(&read.mesh, &args.check)?;
+    report.findings.extend(read.notes.iter().filter_map(unit_finding));
     let command = command_line();
     if let Some((path, format)) = args.report.as_ref().zip(format) {
         let bytes = match format {
@@ -70,6 +72,20 @@ pub(super) fn run(args: &CheckArgs, console: &Console) -> Result<Outcome, CliErr
     };
     console.result(&text)?;
     Ok(if report.has_findings() { Outcome::Findings } else { Outcome::Clean })
+}
+
+/// A finding where the file names another unit than the one that it was read with.
+fn unit_finding(note: &ReadNote) -> Option<CheckFinding> {
+    let ReadNote::OtherUnit { stated, taken } = *note else { return None };
+    Some(CheckFinding {
+        check: CheckKind::OtherUnit,
+        element: Element::Model,
+        id: 0,
+        measured: taken.mm(),
+        limit: stated.mm(),
+        unit: Unit::Mm,
+        message: note.to_string(),
+    })
 }
 
 fn json(args: &CheckArgs, mesh: &Mesh, report: &Report, command: &str) -> String {

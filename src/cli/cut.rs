@@ -56,7 +56,13 @@ struct CutOf<T: Args> {
     params: T,
     /// Afterwards split vertices with more than three edges into 3-valent ones by moving faces
     /// inwards, by 0.01mm at most or as far as given
-    #[arg(long, value_name = "DEPTH", num_args = 0..=1, require_equals = true, default_missing_value = "0.01mm")]
+    #[arg(
+        long,
+        value_name = "DEPTH",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "0.01mm"
+    )]
     resolve: Option<Length>,
     /// The mesh to write: OBJ, PLY, STL or OFF; `-` writes OBJ to standard output. With `--keep
     /// both` two meshes are written, OUT-reverse and OUT-normal
@@ -81,8 +87,11 @@ fn both_parts(cut: &CutOf<SliceParams>, console: &Console) -> Result<Outcome, Cl
     }
     let read = cut.input.read()?;
     let progress = Terminal::new(console.quiet);
-    let parts =
-        slice_both(&read.mesh, &cut.params, &OpContext { made: None, progress: &progress })?;
+    let parts = slice_both(
+        &read.mesh,
+        &cut.params,
+        &OpContext { made: read.made.as_ref(), progress: &progress },
+    )?;
     console.notes(&read.notes);
     let mut models = Vec::new();
     for (part, side) in parts.into_iter().zip(["reverse", "normal"]) {
@@ -111,12 +120,14 @@ impl<T: Args> CutOf<T> {
     ) -> Result<Outcome, CliError> {
         let read = self.input.read()?;
         let progress = Terminal::new(console.quiet);
-        let context = OpContext { made: None, progress: &progress };
+        let context = OpContext { made: read.made.as_ref(), progress: &progress };
         let (mesh, report) = operator(&read.mesh, &self.params, &context)?;
         let notes =
             read.notes.iter().map(ToString::to_string).chain(report.notes(element)).collect();
         let (mesh, notes) = self.resolved(mesh, notes)?;
-        console.write_model(&self.output, &mesh, &notes)?;
+        // Resolving gives other ids.
+        let made = self.resolve.is_none().then_some(&report.made);
+        console.write_model(&self.output, &mesh, made, &notes)?;
         Ok(Outcome::Clean)
     }
 

@@ -2,37 +2,53 @@
 
 use std::path::{Path, PathBuf};
 
+use serde_json::json;
+
 use super::error::CliError;
 use super::input::read_model;
-use super::output::Clean;
+use super::output::{Clean, command_line, model_text};
 use super::run::finish;
 use super::terminal::Terminal;
-use super::{Console, Outcome};
+use super::{Console, Outcome, seams};
 use crate::io::{ReadMesh, ReadOptions};
-use crate::make::{DformParams, ShowParams};
+use crate::make::{DformParams, OutlineParams, ShowParams, outline_list};
+use crate::picture::RenderParams;
 use crate::recipe::{Job, Recipe, Step};
 use crate::shape::{SolidName, SolidParams, solid};
 use crate::sheet::SheetParams;
 
-/// Make a D-form of a solid: choose the folds, carve them into smooth strips, unfold, and lay the
-/// pieces out
+/// Make a D-form of a solid (choose the folds, roll them into even strips) or of flat outlines (the
+/// one convex body that their rims close to), unfold it, and lay the pieces out
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Example: kerfold dform dodecahedron --size 180mm --rounds 4 --offset 0.3 -o out"
+    after_help = "Example: kerfold dform dodecahedron --size 180mm --roll max --strips 9 -o out\n\
+        Example: kerfold dform --outlines ellipse-2x1@180mm ellipse-2x1@180mm --start 0.125 -o out\n\
+        Example: kerfold dform --outlines ellipse-2x1@180mm --zip 0.12 -o out"
 )]
 pub(super) struct DformArgs {
     /// A solid by name, or a closed 3-valent mesh: OBJ, PLY, STL or OFF; `-` reads OBJ from
     /// standard input
-    #[arg(value_name = "SOLID")]
-    solid: PathBuf,
+    #[arg(
+        value_name = "SOLID",
+        required_unless_present_any = ["outlines", "glue"],
+        conflicts_with_all = ["outlines", "glue"]
+    )]
+    solid: Option<PathBuf>,
     #[command(flatten)]
     options: ReadOptions,
     #[command(flatten)]
     dform: DformParams,
     #[command(flatten)]
+    outlines: OutlineParams,
+    #[command(flatten)]
     sheet: SheetParams,
     #[command(flatten)]
     show: ShowParams,
+    /// Only show what there is to choose from. Of a solid: the table of `kerfold seams`, and
+    /// choices.png with the body and the pieces of each choice of folds; of outlines: list.png with
+    /// the bodies for starts all around the rim
+    #[arg(long, conflicts_with_all = ["glue", "planar"])]
+    list: bool,
     /// The folder for model, picture, report, pieces and sheets; made if it is missing
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
@@ -41,9 +57,15 @@ pub(super) struct DformArgs {
 }
 
 pub(super) fn run(args: &DformArgs, console: &Console) -> Result<Outcome, CliError> {
+    if args.list && args.solid.is_some() {
+        return list(args, console);
+    } else if args.list {
+        return list_outlines(args, console);
+    }
     let dform = Step::Dform {
         dform: args.dform.clone(),
-        sheet: args.sheet.clone(),
+        outlines: args.outlines(),
+        sheet: args.sheet.clone().titled(&args.title()),
         show: args.show.from_here(),
     };
     let recipe = Recipe { name: None, steps: vec![dform] };
@@ -54,20 +76,76 @@ pub(super) fn run(args: &DformArgs, console: &Console) -> Result<Outcome, CliErr
     finish(&job, None, (&args.output, args.clean), console)
 }
 
+/// The choices as a table and as pictures.
+fn list(args: &DformArgs, console: &Console) -> Result<Outcome, CliError> {
+    let job = args.start()?;
+    let (mesh, progress) = (job.mesh()?, Terminal::new(console.quiet));
+    let (rows, why) = seams::rows(mesh, seams::LIMIT, &progress)?;
+    let picture = seams::picture(mesh, &rows, &progress)?;
+    let outputs = vec![("choices.png".to_owned(), picture)];
+    let written = console.write_folder(&args.output, outputs, args.clean)?;
+    let notes: Vec<String> = job.notes.iter().cloned().chain(why).collect();
+    if console.json {
+        let rows: Vec<_> = rows.iter().map(seams::row_json).collect();
+        let told = json!({ "command": command_line(), "matchings": rows, "notes": notes, "written": written });
+        console.result(&format!("{told:#}\n"))?;
+    } else {
+        console.notes(&notes);
+        let wrote: String = written.iter().map(|path| format!("wrote {path}\n")).collect();
+        console.result(&format!("{}\n{}{wrote}", model_text(mesh), seams::table_text(&rows)))?;
+    }
+    Ok(Outcome::Clean)
+}
+
+/// The bodies for starts all around the rim.
+fn list_outlines(args: &DformArgs, console: &Console) -> Result<Outcome, CliError> {
+    let progress = Terminal::new(console.quiet);
+    let (picture, lines) =
+        outline_list(&args.outlines(), Path::new(""), &RenderParams::default(), &progress)?;
+    let written = console.write_folder(&args.output, vec![picture], args.clean)?;
+    if console.json {
+        let command = command_line();
+        let told = json!({ "command": command, "written": written, "places": lines });
+        console.result(&format!("{told:#}\n"))?;
+    } else {
+        let paths: String = written.iter().map(|path| format!("wrote {path}\n")).collect();
+        console.result(&format!("{}\n{paths}", lines.join("\n")))?;
+    }
+    Ok(Outcome::Clean)
+}
+
 impl DformArgs {
+    /// The project's name on sheets, unless there is another: that of the solid's file.
+    fn title(&self) -> String {
+        let file = self.solid.as_ref().filter(|file| file.as_os_str() != "-");
+        let stem = file.and_then(|file| file.file_stem());
+        stem.unwrap_or_default().to_string_lossy().into_owned()
+    }
+
+    /// The outlines; `--size` is that of the first which names none.
+    fn outlines(&self) -> OutlineParams {
+        let mut outlines = self.outlines.clone();
+        if let (Some(size), Some(first)) = (self.options.size, outlines.outlines.first_mut())
+            && !first.contains('@')
+        {
+            *first += &format!("@{}mm", size.mm());
+        }
+        outlines
+    }
+
     /// A file wins over a solid of the same name; a word without dots and slashes is meant as a
-    /// name.
+    /// name. Outlines begin with nothing.
     fn start(&self) -> Result<Job, CliError> {
-        let word =
-            self.solid.to_str().filter(|text| !text.contains(['.', '/', '\\']) && *text != "-");
-        match word.filter(|_| !self.solid.is_file()) {
+        let Some(file) = &self.solid else { return Ok(Job::default()) };
+        let word = file.to_str().filter(|text| !text.contains(['.', '/', '\\']) && *text != "-");
+        match word.filter(|_| !file.is_file()) {
             Some(name) => {
                 let name: SolidName = name.parse()?;
                 let params = SolidParams { name, edge: None, size: self.options.size };
                 Ok(Job::with_mesh(solid(&params)?, Vec::new()))
             }
             None => {
-                let ReadMesh { mesh, notes, .. } = read_model(&self.solid, &self.options)?;
+                let ReadMesh { mesh, notes, .. } = read_model(file, &self.options)?;
                 Ok(Job::with_mesh(mesh, notes.iter().map(ToString::to_string).collect()))
             }
         }

@@ -45,7 +45,10 @@ pub(super) enum CliError {
     Step(#[from] MakeError),
     #[error("{}: {error}", path.display())]
     Recipe { path: PathBuf, error: Box<RecipeError>, text: String },
-    #[error("{}: there are no recipes in this folder; put files that end in .toml into it", path.display())]
+    #[error(
+        "{}: there are no recipes in this folder; put files that end in .toml into it",
+        path.display()
+    )]
     NoRecipes { path: PathBuf },
     #[error("no recipe is named {name}; known are {known}")]
     UnknownRecipe { name: String, known: String },
@@ -62,7 +65,7 @@ pub(super) enum CliError {
     Scale { path: PathBuf, scale: f64 },
     #[error("{}: this must be text in UTF-8, but byte {at} is not", path.display())]
     NotText { path: PathBuf, at: usize },
-    #[error("{}: pictures are written as PNG; name the file something.png", path.display())]
+    #[error("{}: pictures are written as PNG, SVG or PDF; name the file something.png, .svg or .pdf", path.display())]
     NotPng { path: PathBuf },
     #[error("{}: reports are written as HTML, PDF, JSON or CSV; name the file something.html, \
     .pdf, .json or .csv", path.display())]
@@ -90,8 +93,13 @@ pub(super) enum CliError {
     Stopped,
     #[error("writing to standard output: {0}")]
     Stdout(io::Error),
-    #[error("`{word}` is no code and no finding; {}`kerfold explain` lists all", did_you_mean(nearest.as_deref()))]
+    #[error(
+        "`{word}` is no code and no finding; {}`kerfold explain` lists all",
+        did_you_mean(nearest.as_deref())
+    )]
     NoSuchCode { word: String, nearest: Option<String> },
+    #[error("`{word}` is no verb; {}`kerfold help` lists all", did_you_mean(nearest.as_deref()))]
+    NoSuchVerb { word: String, nearest: Option<String> },
 }
 
 codes!(error CliError {
@@ -110,8 +118,9 @@ codes!(error CliError {
     Gallery = 13,
     Stopped = 14,
     NoStudio = 15,
-    StudioFailed = 16,
-    StudioNotStarted = 17,
+    NoSuchVerb = 16,
+    StudioFailed = 17,
+    StudioNotStarted = 18,
 } through {
     Io.0,
     Shape.0,

@@ -154,6 +154,13 @@ mod tests {
             K::Manifold,
             K::OneComponent,
             K::Simple,
+            K::InsideOut,
+            K::Junction,
+            K::Doubled,
+            K::SharpCorner,
+            K::ShortEdge,
+            K::Mitre,
+            K::OtherUnit,
         ];
         let of_lint = [
             Check::OpenContour,
@@ -185,7 +192,7 @@ mod tests {
         let all = pages();
         for (typed, near) in [
             ("E999", Some("E831")),
-            ("f150", Some("F110")),
+            ("f150", Some("F117")),
             ("E130", Some("E131")),
             ("planarty", Some("planarity")),
             ("X301", Some("E301")),

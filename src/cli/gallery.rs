@@ -91,7 +91,10 @@ fn tell(
 ) -> Result<(), CliError> {
     if console.json {
         let rows: Vec<_> = exhibits.iter().map(row).collect();
-        let told = json!({ "command": command_line(), "written": page.to_string_lossy(), "recipes": rows, "failures": failures });
+        let told = json!({
+            "command": command_line(), "written": page.to_string_lossy(), "recipes": rows,
+            "failures": failures,
+        });
         return console.result(&format!("{told:#}\n"));
     }
     let mut text = String::new();
@@ -112,7 +115,8 @@ fn row(e: &Exhibit) -> serde_json::Value {
     json!({
         "name": e.name, "title": e.title, "findings": e.findings,
         "model": e.model.map(|m| json!({
-            "vertices": m.vertices, "edges": m.edges, "faces": m.faces, "components": m.components, "genus": m.genus,
+            "vertices": m.vertices, "edges": m.edges, "faces": m.faces, "components": m.components,
+            "genus": m.genus,
             "planarity_mm": m.planarity_mm,
         })),
         "pieces": e.pieces.map(|p| p.0), "sheets": e.pieces.map(|p| p.1),

@@ -24,7 +24,11 @@ pub(super) struct HullArgs {
     #[command(flatten)]
     options: ReadOptions,
     /// Half-spaces instead of a mesh: nx,ny,nz,d on each line for n·x <= d
-    #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["dual", "no_box", "clusters", "by_group", "parts", "steps"])]
+    #[arg(
+        long,
+        value_name = "FILE.csv",
+        conflicts_with_all = ["dual", "no_box", "clusters", "by_group", "parts", "steps"]
+    )]
     planes: Option<PathBuf>,
     #[command(flatten)]
     hull: HullParams,
@@ -50,7 +54,7 @@ pub(super) fn run(args: &HullArgs, console: &Console) -> Result<Outcome, CliErro
     let pictures: Vec<(PathBuf, Vec<u8>)> =
         report.steps.iter().map(picture).collect::<Result<_, _>>()?;
     if pictures.is_empty() {
-        console.write_model(&args.output, &mesh, &notes)?;
+        console.write_model(&args.output, &mesh, None, &notes)?;
         return Ok(Outcome::Clean);
     }
     notes.extend(pictures.iter().map(|(path, _)| format!("wrote {}", path.display())));

@@ -4,7 +4,8 @@ use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use super::error::CliError;
-use crate::io::{IoError, ReadMesh, ReadOptions, read_mesh, read_mesh_bytes};
+use crate::io::{IoError, ReadMesh, ReadOptions, read_mesh, read_mesh_bytes, size_note};
+use crate::sheet::SheetParams;
 
 /// A mesh file and how to read it.
 #[derive(Debug, Clone, clap::Args)]
@@ -17,8 +18,16 @@ pub(super) struct Input {
 }
 
 impl Input {
+    /// Sheet parameters with the name of the file as that of the project, unless they have one.
+    pub(super) fn titled(&self, sheet: SheetParams) -> SheetParams {
+        let stem = self.input.file_stem().filter(|_| self.input.as_os_str() != "-");
+        sheet.titled(&stem.unwrap_or_default().to_string_lossy())
+    }
+
     pub(super) fn read(&self) -> Result<ReadMesh, CliError> {
-        Ok(read_model(&self.input, &self.options)?)
+        let mut read = read_model(&self.input, &self.options)?;
+        read.notes.extend(size_note(&read.mesh, &self.options));
+        Ok(read)
     }
 }
 

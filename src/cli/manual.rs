@@ -57,7 +57,7 @@ fn collect(
     let named = command.clone().name(name.to_owned());
     clap_mangen::Man::new(named).render(&mut page).map_err(CliError::Stdout)?;
     pages.push((format!("{name}.1"), page));
-    for verb in command.get_subcommands().filter(|c| c.get_name() != "help") {
+    for verb in command.get_subcommands() {
         collect(verb, &format!("{name}-{}", verb.get_name()), pages)?;
     }
     Ok(())

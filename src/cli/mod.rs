@@ -9,6 +9,7 @@ mod dform;
 mod error;
 mod explain;
 mod gallery;
+mod help;
 mod hull;
 mod info;
 mod input;
@@ -18,9 +19,11 @@ mod manual;
 mod nest;
 mod operator;
 mod output;
+mod panelize;
 mod panels;
 mod reference;
 mod render;
+mod repair;
 mod run;
 mod seams;
 mod snippet;
@@ -38,7 +41,8 @@ use output::Console;
 pub use reference::reference;
 
 use crate::op::{
-    HandleParams, MengerParams, PlanarizeParams, RindParams, SierpinskiParams, SubdivideParams,
+    HandleParams, MengerParams, MergeParams, PlanarizeParams, RindParams, SierpinskiParams,
+    SimplifyParams, SubdivideParams,
 };
 
 /// Carve planar 3-valence meshes, check them, and unfold them into sheets that a shop can cut.
@@ -74,6 +78,14 @@ enum Verb {
     #[command(after_help = "Example: kerfold planarize facade.obj --profile glass --rim fixed -o \
         planar.obj")]
     Planarize(operator::OperatorArgs<PlanarizeParams>),
+    /// Make one polygon of faces that lie flat beside each other, as triangles from STL and CAD do
+    #[command(after_help = "Example: kerfold merge dome.stl --tolerance 0.05mm -o panes.obj")]
+    Merge(operator::OperatorArgs<MergeParams>),
+    Repair(repair::RepairArgs),
+    /// Make fewer triangles, so many or within a deviation: a scan becomes a paper model
+    #[command(after_help = "Example: kerfold simplify cat.stl --faces 300 -o paper-cat.obj")]
+    Simplify(operator::OperatorArgs<SimplifyParams>),
+    Panelize(panelize::PanelizeArgs),
     /// Make a mesh finer: Doo–Sabin, Catmull–Clark, Loop, simplest, honeycomb, truncation, dual or
     /// triangles
     #[command(after_help = "Example: kerfold subdivide doo-sabin cube.obj --rounds 2 -o round.obj")]
@@ -115,6 +127,7 @@ enum Verb {
     Render(render::RenderArgs),
     Studio(studio::StudioArgs),
     Explain(explain::ExplainArgs),
+    Help(help::HelpArgs),
     Completions(manual::CompletionsArgs),
     Man(manual::ManArgs),
 }
@@ -139,7 +152,11 @@ fn command() -> clap::Command {
 
 /// Reads the arguments of the process, does what they say, and returns the exit code.
 pub fn run() -> ExitCode {
-    let parsed = command().try_get_matches().and_then(|matches| Cli::from_arg_matches(&matches));
+    let colour = output::asked_colour(std::env::args_os());
+    let parsed = command()
+        .color(colour.of_clap())
+        .try_get_matches()
+        .and_then(|matches| Cli::from_arg_matches(&matches));
     let cli = match parsed {
         Ok(cli) => cli,
         Err(refusal) => return explain::refuse(&refusal),
@@ -153,6 +170,10 @@ pub fn run() -> ExitCode {
         Verb::Cut(args) => cut::run(&args, &console),
         Verb::Hull(args) => hull::run(&args, &console),
         Verb::Planarize(args) => operator::run(&args, &console),
+        Verb::Merge(args) => operator::run(&args, &console),
+        Verb::Repair(args) => repair::run(&args, &console),
+        Verb::Simplify(args) => operator::run(&args, &console),
+        Verb::Panelize(args) => panelize::run(&args, &console),
         Verb::Subdivide(args) => operator::run(&args, &console),
         Verb::Sierpinski(args) => operator::run(&args, &console),
         Verb::Rind(args) => operator::run(&args, &console),
@@ -171,6 +192,7 @@ pub fn run() -> ExitCode {
         Verb::Render(args) => render::run(&args, &console),
         Verb::Studio(args) => studio::run(&args, &console),
         Verb::Explain(args) => explain::run(&args, &console),
+        Verb::Help(args) => help::run(&args, &console),
         Verb::Completions(args) => manual::completions(&args),
         Verb::Man(args) => manual::man(&args, &console),
     };

@@ -40,16 +40,20 @@ pub(super) struct NestArgs {
 pub(super) fn run(args: &NestArgs, console: &Console) -> Result<Outcome, CliError> {
     let progress = Terminal::new(console.quiet);
     let sheet = with_material(&args.sheet, Path::new("")).map_err(MakeError::from)?;
+    let title = args.nest.pieces.first().and_then(|path| path.file_stem());
+    let sheet = sheet.titled(&title.unwrap_or_default().to_string_lossy());
     let fabrication = nest_files(&args.nest, &sheet, Path::new(""), &progress)?;
     let command = command_line();
-    let outputs = fabrication_outputs(&fabrication, &sheet, &command)?;
+    let outputs = fabrication_outputs(&fabrication, None, &sheet, &command)?;
     let written = console.write_folder(&args.output, outputs, args.clean)?;
     let notes = fabrication.notes();
     if console.json {
         let layout = &fabrication.sheets.layout;
         let told = json!({
-            "command": command, "written": written, "notes": notes, "pieces": fabrication.net.pieces.len(),
-            "sheets": layout.sheets.len(), "density": layout.density, "cut_length": layout.cut_length,
+            "command": command, "written": written, "notes": notes,
+            "pieces": fabrication.net.pieces.len(),
+            "sheets": layout.sheets.len(), "density": layout.density,
+            "cut_length": layout.cut_length,
             "offcut": layout.sheets.last().and_then(|s| s.offcut),
         });
         console.result(&format!("{told:#}\n"))?;

@@ -9,9 +9,10 @@ use super::error::CliError;
 use super::snippet::recipe_snippet;
 use crate::code::Coded;
 use crate::io::output::{OutputFolder, write_file, write_files};
-use crate::io::{IoError, MeshFormat, WriteOptions, mesh_bytes};
+use crate::io::{IoError, MeshFormat, WriteOptions, file_note, mesh_bytes};
 use crate::measure::size;
 use crate::mesh::Mesh;
+use crate::select::NewElements;
 use crate::units::counted;
 
 /// How much is said, and in what form.
@@ -23,6 +24,50 @@ pub(super) struct Console {
     /// Print no notes and no summaries; errors still
     #[arg(long, short, global = true)]
     pub quiet: bool,
+    /// Colours in messages and help: auto where a terminal reads them and NO_COLOR is not set
+    #[arg(long, global = true, value_enum, default_value_t, value_name = "WHEN")]
+    pub color: Colour,
+}
+
+/// When messages and help are coloured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum)]
+pub(super) enum Colour {
+    /// Where a terminal reads them.
+    #[default]
+    Auto,
+    /// Also into files and pipes.
+    Always,
+    /// Nowhere.
+    Never,
+}
+
+impl Colour {
+    pub(super) const fn of_clap(self) -> clap::ColorChoice {
+        match self {
+            Self::Auto => clap::ColorChoice::Auto,
+            Self::Always => clap::ColorChoice::Always,
+            Self::Never => clap::ColorChoice::Never,
+        }
+    }
+}
+
+/// What `--color` says among arguments that are not read yet, since reading them may end with a
+/// message; the last one counts, and a wrong word is told when they are read.
+pub(super) fn asked_colour(arguments: impl Iterator<Item = std::ffi::OsString>) -> Colour {
+    let mut colour = Colour::default();
+    let mut is_next = false;
+    for argument in arguments.filter_map(|argument| argument.into_string().ok()) {
+        let word =
+            if is_next { Some(argument.as_str()) } else { argument.strip_prefix("--color=") };
+        colour = match word {
+            Some("always") => Colour::Always,
+            Some("never") => Colour::Never,
+            Some("auto") => Colour::Auto,
+            _ => colour,
+        };
+        is_next = argument == "--color";
+    }
+    colour
 }
 
 /// What becomes of files that an earlier run left in the folder.
@@ -58,9 +103,10 @@ impl Console {
         &self,
         path: &Path,
         mesh: &Mesh,
+        made: Option<&NewElements>,
         notes: &[String],
     ) -> Result<(), CliError> {
-        let (path, bytes) = model_file(path, mesh)?;
+        let (path, bytes) = model_file(path, mesh, made)?;
         write_file(&path, &bytes)?;
         self.show_model(&path, mesh, notes)
     }
@@ -73,13 +119,14 @@ impl Console {
     ) -> Result<(), CliError> {
         let mut files = others;
         for (path, mesh, _) in models {
-            files.push(model_file(path, mesh)?);
+            files.push(model_file(path, mesh, None)?);
         }
         write_files(&files)?;
         models.iter().try_for_each(|(path, mesh, notes)| self.show_model(path, mesh, notes))
     }
 
     fn show_model(&self, path: &Path, mesh: &Mesh, notes: &[String]) -> Result<(), CliError> {
+        let notes: Vec<String> = notes.iter().cloned().chain(file_note(mesh)).collect();
         let is_stdout = path == Path::new("-");
         if self.json {
             let (command, model) = (command_line(), model_json(mesh));
@@ -94,7 +141,7 @@ impl Console {
             }
             return Ok(());
         }
-        self.notes(notes);
+        self.notes(&notes);
         let text = format!("{}: {}", path.display(), model_text(mesh));
         match (is_stdout, self.quiet) {
             (true, false) => say(&text),
@@ -152,10 +199,14 @@ pub(super) fn write_into(
 }
 
 /// A mesh as a file in the format of its path.
-fn model_file(path: &Path, mesh: &Mesh) -> Result<OutputFile, IoError> {
+fn model_file(path: &Path, mesh: &Mesh, made: Option<&NewElements>) -> Result<OutputFile, IoError> {
     let format = MeshFormat::of_path(path)
         .ok_or_else(|| IoError::UnknownFormat { path: path.to_owned() })?;
-    let options = WriteOptions { command: Some(command_line()), ..WriteOptions::default() };
+    let options = WriteOptions {
+        command: Some(command_line()),
+        made: made.cloned(),
+        ..WriteOptions::default()
+    };
     Ok((path.to_owned(), mesh_bytes(format, mesh, &options)?))
 }
 
@@ -236,7 +287,7 @@ pub(super) fn complain(error: &CliError) {
         error.options().map(|options| format!("; options: {options}")).unwrap_or_default();
     say(&format!("kerfold: {error}{options} ({})", error.code()));
     if let CliError::Recipe { path, error, text } = error
-        && let Some(snippet) = recipe_snippet(path, text, error)
+        && let Some(snippet) = recipe_snippet(path, text, error, asked_colour(std::env::args_os()))
     {
         say(&snippet);
     }

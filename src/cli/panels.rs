@@ -47,19 +47,21 @@ pub(super) struct PanelsArgs {
 pub(super) fn run(args: &PanelsArgs, console: &Console) -> Result<Outcome, CliError> {
     let read = args.input.read()?;
     let sheet = with_material(&args.sheet, Path::new("")).map_err(MakeError::from)?;
+    let sheet = args.input.titled(sheet);
     let progress = Terminal::new(console.quiet);
     let source = MeshSource { scale: read.scale, split_vertices: &read.splits };
     let job = PanelJob { panels: &args.panels, files: &args.files, sheet: &sheet };
     let panelled = panel_model(&read.mesh, job, &source, &progress)?;
     let command = command_line();
-    let outputs = panel_outputs(&panelled, &sheet, &command)?;
+    let outputs = panel_outputs(&panelled, &read.mesh, &sheet, &command)?;
     let written = console.write_folder(&args.output, outputs, args.clean)?;
     let notes: Vec<String> =
         read.notes.iter().map(ToString::to_string).chain(panelled.notes()).collect();
     if console.json {
         let summary = json!({
             "command": command, "written": written, "notes": notes, "model": model_json(&read.mesh),
-            "panels": panels_json(&panelled), "fabrication": summary_json(&panelled.fabrication, &sheet),
+            "panels": panels_json(&panelled),
+            "fabrication": summary_json(&panelled.fabrication, &sheet),
         });
         console.result(&format!("{summary:#}\n"))?;
     } else {
@@ -155,7 +157,8 @@ fn finding_text(finding: &PanelFinding) -> String {
 pub(super) fn panels_json(panelled: &Panelled) -> Value {
     let (schedule, totals) = (&panelled.schedule, &panelled.schedule.totals);
     json!({
-        "count": schedule.panels.len(), "different": schedule.groups.len(), "area_mm2": totals.area, "mass_kg": totals.mass,
+        "count": schedule.panels.len(), "different": schedule.groups.len(), "area_mm2": totals.area,
+        "mass_kg": totals.mass,
         "edge_work_mm": totals.bevelled, "nodes_above_valence_3": totals.nodes_above_three,
         "largest_residual_mm_per_mm": totals.residual, "largest_miss_mm": totals.miss_mm,
         "verdict": if panelled.findings.is_empty() { "pass" } else { "fail" },

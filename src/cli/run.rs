@@ -10,7 +10,9 @@ use super::panels::{panels_json, panels_text};
 use super::terminal::Terminal;
 use super::unfold::{summary_json, summary_text};
 use super::{Console, Outcome};
-use crate::io::decode_text;
+use crate::gallery::{BundledFile, bundled};
+use crate::io::output::TemporaryFolder;
+use crate::io::{IoError, decode_text};
 use crate::make::Fabrication;
 use crate::recipe::{Job, Recipe, job_outputs};
 use crate::sheet::SheetParams;
@@ -19,9 +21,13 @@ use crate::sheet::SheetParams;
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example: kerfold run fixtures/recipes/two-piece-d-form.toml -o out")]
 pub(super) struct RunArgs {
-    /// The recipe, a TOML file
+    /// The recipe: a TOML file, or the name of a recipe that comes with kerfold, such as
+    /// two-piece-d-form
     #[arg(value_name = "RECIPE")]
     recipe: PathBuf,
+    /// Another value for a parameter of the recipe, such as size=200mm; more than once for several
+    #[arg(long, value_name = "NAME=VALUE", value_parser = setting)]
+    set: Vec<(String, String)>,
     /// The folder for everything that the recipe makes; made if it is missing
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
@@ -30,14 +36,25 @@ pub(super) struct RunArgs {
 }
 
 pub(super) fn run(args: &RunArgs, console: &Console) -> Result<Outcome, CliError> {
-    let recipe = read_recipe(&args.recipe)?;
-    let folder = args.recipe.parent().unwrap_or(Path::new(""));
+    let bundled = bundled_text(&args.recipe);
+    let text = bundled.map_or_else(|| read_text(&args.recipe), |file| Ok(file.text.to_owned()))?;
+    let recipe = Recipe::parse_with(&text, &args.set).map_err(|error| CliError::Recipe {
+        path: args.recipe.clone(),
+        error: Box::new(error),
+        text,
+    })?;
+    // Bundled recipes read their meshes from beside them, so they get a folder with all of them.
+    let beside = bundled.map(unpacked).transpose()?;
+    let folder = match &beside {
+        Some((_, folder)) => folder.as_path(),
+        None => args.recipe.parent().unwrap_or(Path::new("")),
+    };
     let job = Job::run(&recipe, folder, &Terminal::new(console.quiet))
         .map_err(|error| CliError::RecipeStep { path: args.recipe.clone(), error })?;
     finish(&job, recipe.name, (&args.output, args.clean), console)
 }
 
-/// Writes everything that a job has made into a folder and tells about it.
+/// Writes everything that a job has made into a folder and reports it.
 pub(super) fn finish(
     job: &Job,
     name: Option<String>,
@@ -54,8 +71,10 @@ pub(super) fn finish(
     let panelled = job.panelled.as_ref().map(|(panelled, _)| panelled);
     if console.json {
         let summary = json!({
-            "command": command, "name": name, "written": written, "notes": job.notes, "model": model_json(job.mesh()?),
-            "verdict": report.verdict().name(), "fabrication": job.fabrication.as_ref().map(|(f, sheet)| summary_json(f, sheet)),
+            "command": command, "name": name, "written": written, "notes": job.notes,
+            "model": model_json(job.mesh()?),
+            "verdict": report.verdict().name(),
+            "fabrication": job.fabrication.as_ref().map(|(f, sheet)| summary_json(f, sheet)),
             "panels": panelled.map(panels_json),
             "unclean": job.with_findings.iter().map(ToString::to_string).collect::<Vec<_>>(),
         });
@@ -81,7 +100,9 @@ pub(super) fn finish(
     let has_panel_findings = panelled.is_some_and(|p| !p.findings.is_empty());
     let is_unclean =
         has_findings && job.is_check_asked || has_panel_findings || !job.with_findings.is_empty();
-    Ok(if is_unclean { Outcome::Findings } else { Outcome::Clean })
+    let has_sheet_findings =
+        job.fabrication.as_ref().is_some_and(|(f, _)| !f.findings().is_empty());
+    Ok(if is_unclean || has_sheet_findings { Outcome::Findings } else { Outcome::Clean })
 }
 
 /// Tells about a job that had pieces and no model.
@@ -93,7 +114,10 @@ fn nested(
 ) -> Result<Outcome, CliError> {
     if console.json {
         let fabrication = summary_json(fabrication, sheet);
-        let told = json!({ "command": command, "name": name, "written": written, "notes": job.notes, "fabrication": fabrication });
+        let told = json!({
+            "command": command, "name": name, "written": written, "notes": job.notes,
+            "fabrication": fabrication,
+        });
         console.result(&format!("{told:#}\n"))?;
     } else {
         console.notes(&job.notes);
@@ -104,13 +128,44 @@ fn nested(
     Ok(Outcome::Clean)
 }
 
-fn read_recipe(path: &Path) -> Result<Recipe, CliError> {
+/// `size=200mm`.
+fn setting(text: &str) -> Result<(String, String), String> {
+    let (name, value) = text
+        .split_once('=')
+        .ok_or_else(|| format!("`{text}` sets nothing; write it like size=200mm"))?;
+    Ok((name.trim().to_owned(), value.trim().to_owned()))
+}
+
+/// The bundled recipe of a name, where there is no file of that name.
+fn bundled_text(name: &Path) -> Option<BundledFile> {
+    if name.exists() {
+        return None;
+    }
+    let wanted = name.to_str().filter(|name| !name.contains(['/', '\\']))?;
+    let wanted = format!("/{}.toml", wanted.strip_suffix(".toml").unwrap_or(wanted));
+    bundled().find(|file| file.path.starts_with("recipes/") && file.path.ends_with(&wanted))
+}
+
+/// All bundled files in a folder that goes again, and the folder of one of them.
+fn unpacked(recipe: BundledFile) -> Result<(TemporaryFolder, PathBuf), CliError> {
+    let folder = TemporaryFolder::new().map_err(CliError::from)?;
+    let mut files = Vec::new();
+    for file in bundled() {
+        files.push((folder.path().join(file.path), file.text.as_bytes().to_vec()));
+    }
+    for (path, bytes) in &files {
+        let parent = path.parent().unwrap_or(folder.path());
+        std::fs::create_dir_all(parent)
+            .and_then(|()| std::fs::write(path, bytes))
+            .map_err(|source| IoError::Unwritable { path: path.clone(), source })?;
+    }
+    let own = folder.path().join(recipe.path);
+    let own = own.parent().unwrap_or(folder.path()).to_owned();
+    Ok((folder, own))
+}
+
+fn read_text(path: &Path) -> Result<String, CliError> {
     let bytes = std::fs::read(path)
         .map_err(|error| CliError::Unreadable { path: path.to_owned(), error })?;
-    let text = decode_text(&bytes).map_err(|at| CliError::NotText { path: path.to_owned(), at })?;
-    Recipe::parse(&text).map_err(|error| CliError::Recipe {
-        path: path.to_owned(),
-        error: Box::new(error),
-        text,
-    })
+    decode_text(&bytes).map_err(|at| CliError::NotText { path: path.to_owned(), at })
 }

@@ -1,5 +1,7 @@
 //! `kerfold seams`
 
+use std::path::PathBuf;
+
 use serde_json::json;
 
 use super::error::CliError;
@@ -7,6 +9,8 @@ use super::input::Input;
 use super::output::{command_line, model_text, short};
 use super::terminal::Terminal;
 use super::{Console, Outcome};
+use crate::io::output::write_file;
+use crate::make::{FoldChoice, MakeError, choices_picture};
 use crate::measure::edge_length;
 use crate::mesh::{EdgeId, Mesh};
 use crate::progress::Progress;
@@ -23,12 +27,19 @@ pub(super) struct SeamsArgs {
     input: Input,
     /// List at most so many choices of folds, symmetric ones counted; of a mesh that has more only
     /// the least matching and a two-piece seam are listed
-    #[arg(long, default_value_t = 20_000, value_name = "N")]
+    #[arg(long, default_value_t = LIMIT, value_name = "N")]
     limit: usize,
+    /// Draw all choices into one picture, a .png: the carved body of each and its pieces, with the
+    /// number of the row; the first 60 where there are more
+    #[arg(long, value_name = "OUT")]
+    draw: Option<PathBuf>,
 }
 
+/// As many choices as `seams` lists unless told otherwise.
+pub(super) const LIMIT: usize = 20_000;
+
 /// A choice of folds with what it means.
-struct Row {
+pub(super) struct Row {
     /// How a selection calls it.
     selection: String,
     folds: Vec<EdgeId>,
@@ -58,10 +69,17 @@ impl Row {
 }
 
 pub(super) fn run(args: &SeamsArgs, console: &Console) -> Result<Outcome, CliError> {
+    let is_png = |path: &PathBuf| path.extension().is_some_and(|e| e.eq_ignore_ascii_case("png"));
+    if let Some(path) = args.draw.as_ref().filter(|path| !is_png(path)) {
+        return Err(CliError::NotPng { path: path.clone() });
+    }
     let read = args.input.read()?;
-    let mesh = &read.mesh;
-    let (rows, why) = rows(mesh, args.limit, &Terminal::new(console.quiet))?;
+    let (mesh, progress) = (&read.mesh, Terminal::new(console.quiet));
+    let (rows, why) = rows(mesh, args.limit, &progress)?;
     let notes: Vec<String> = read.notes.iter().map(ToString::to_string).chain(why).collect();
+    if let Some(path) = &args.draw {
+        write_file(path, &picture(mesh, &rows, &progress)?)?;
+    }
     if console.json {
         let rows: Vec<_> = rows.iter().map(row_json).collect();
         let told = json!({ "command": command_line(), "matchings": rows, "notes": notes });
@@ -73,8 +91,22 @@ pub(super) fn run(args: &SeamsArgs, console: &Console) -> Result<Outcome, CliErr
     Ok(Outcome::Clean)
 }
 
+/// All rows as small pictures, as PNG.
+pub(super) fn picture(
+    mesh: &Mesh,
+    rows: &[Row],
+    progress: &dyn Progress,
+) -> Result<Vec<u8>, MakeError> {
+    let choice = |row: &Row| FoldChoice {
+        label: format!("{} {} PIECES", row.selection.to_uppercase(), row.pieces),
+        folds: row.folds.clone(),
+    };
+    let choices: Vec<FoldChoice> = rows.iter().map(choice).collect();
+    choices_picture(mesh, &choices, progress)
+}
+
 /// The whole table, or what can be said of a mesh with too many matchings, and why.
-fn rows(
+pub(super) fn rows(
     mesh: &Mesh,
     limit: usize,
     progress: &dyn Progress,
@@ -99,15 +131,16 @@ fn rows(
     Ok((rows, Some(why)))
 }
 
-fn row_json(row: &Row) -> serde_json::Value {
+pub(super) fn row_json(row: &Row) -> serde_json::Value {
     let folds: Vec<usize> = row.folds.iter().map(|e| e.index()).collect();
     json!({
-        "selection": row.selection, "pieces": row.pieces, "seam_cycles": row.cycles, "seam_length_mm": row.seam_length,
+        "selection": row.selection, "pieces": row.pieces, "seam_cycles": row.cycles,
+        "seam_length_mm": row.seam_length,
         "fold_sum_rad_mm": row.fold_sum, "orbit": row.orbit, "folds": folds,
     })
 }
 
-fn table_text(rows: &[Row]) -> String {
+pub(super) fn table_text(rows: &[Row]) -> String {
     let mut text = format!(
         "{:<14}{:>7}{:>8}{:>14}{:>18}{:>12}\n",
         "selection", "pieces", "cycles", "seam mm", "fold sum rad·mm", "symmetric"

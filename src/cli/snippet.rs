@@ -6,16 +6,26 @@ use std::path::Path;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
+use super::output::Colour;
 use crate::recipe::{Position, RecipeError};
 
 /// The line with the fault; `None` when no line is to blame.
-pub(super) fn recipe_snippet(path: &Path, text: &str, error: &RecipeError) -> Option<String> {
+pub(super) fn recipe_snippet(
+    path: &Path,
+    text: &str,
+    error: &RecipeError,
+    colour: Colour,
+) -> Option<String> {
     let span = word_at(text, error.at()?)?;
     let path = path.to_string_lossy();
     let mark = AnnotationKind::Primary.span(span).label(error.advice());
     let snippet = Snippet::source(text).path(path).annotation(mark);
-    let is_coloured = std::io::stderr().is_terminal()
-        && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
+    let is_wanted = || std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
+    let is_coloured = match colour {
+        Colour::Auto => std::io::stderr().is_terminal() && is_wanted(),
+        Colour::Always => true,
+        Colour::Never => false,
+    };
     let renderer = if is_coloured { Renderer::styled() } else { Renderer::plain() };
     Some(renderer.render(&[Group::with_level(Level::ERROR).element(snippet)]))
 }
@@ -52,7 +62,7 @@ mod tests {
 
     fn shown(text: &str) -> String {
         let error = Recipe::parse(text).expect_err("a fault");
-        recipe_snippet(Path::new("lamp.toml"), text, &error).expect("a place")
+        recipe_snippet(Path::new("lamp.toml"), text, &error, Colour::Never).expect("a place")
     }
 
     #[test]

@@ -19,6 +19,6 @@ pub(super) struct SolidArgs {
 }
 
 pub(super) fn run(args: &SolidArgs, console: &Console) -> Result<Outcome, CliError> {
-    console.write_model(&args.output, &solid(&args.solid)?, &[])?;
+    console.write_model(&args.output, &solid(&args.solid)?, None, &[])?;
     Ok(Outcome::Clean)
 }

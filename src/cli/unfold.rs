@@ -44,17 +44,18 @@ pub(super) struct UnfoldArgs {
 pub(super) fn run(args: &UnfoldArgs, console: &Console) -> Result<Outcome, CliError> {
     let read = args.input.read()?;
     let sheet = with_material(&args.sheet, Path::new("")).map_err(MakeError::from)?;
+    let sheet = args.input.titled(sheet);
     let progress = Terminal::new(console.quiet);
     let source = MeshSource { scale: read.scale, split_vertices: &read.splits };
     let settings = FabricateSettings { unfold: &args.unfold, choice: &args.choice, sheet: &sheet };
-    let fabrication = fabricate(&read.mesh, None, &settings, &source, &progress)?;
+    let fabrication = fabricate(&read.mesh, read.made.as_ref(), &settings, &source, &progress)?;
     let command = command_line();
-    let mut outputs = fabrication_outputs(&fabrication, &sheet, &command)?;
+    let mut outputs = fabrication_outputs(&fabrication, Some(&read.mesh), &sheet, &command)?;
     let show = args.show.from_here();
     outputs.extend(show_outputs(
         &fabrication,
         &read.mesh,
-        &show,
+        (&show, sheet.letter.labels),
         &RenderParams::default(),
         &command,
     )?);
@@ -70,7 +71,10 @@ pub(super) fn run(args: &UnfoldArgs, console: &Console) -> Result<Outcome, CliEr
         .chain(stopped)
         .collect();
     if console.json {
-        let summary = json!({ "command": command, "written": written, "notes": notes, "fabrication": summary_json(&fabrication, &sheet) });
+        let summary = json!({
+            "command": command, "written": written, "notes": notes,
+            "fabrication": summary_json(&fabrication, &sheet),
+        });
         console.result(&format!("{summary:#}\n"))?;
     } else {
         console.notes(&notes);
@@ -80,7 +84,7 @@ pub(super) fn run(args: &UnfoldArgs, console: &Console) -> Result<Outcome, CliEr
             summary_text(&fabrication, &sheet)
         ))?;
     }
-    Ok(Outcome::Clean)
+    Ok(if fabrication.findings().is_empty() { Outcome::Clean } else { Outcome::Findings })
 }
 
 /// What a net consists of, in one line.
@@ -124,16 +128,20 @@ pub(super) fn summary_text(fabrication: &Fabrication, sheet: &SheetParams) -> St
         }
         text += "\n";
     }
+    fabrication.findings().iter().for_each(|finding| text += &format!("{finding}\n"));
     text
 }
 
 pub(super) fn summary_json(fabrication: &Fabrication, sheet: &SheetParams) -> serde_json::Value {
     let (net, layout) = (&fabrication.net, &fabrication.sheets.layout);
     json!({
-        "pieces": net.pieces.len(), "folds": net.folds.len(), "seams": net.seams.len(), "rims": net.rims.len(),
+        "pieces": net.pieces.len(), "folds": net.folds.len(), "seams": net.seams.len(),
+        "rims": net.rims.len(),
         "proof": { "congruence_mm": net.proof.congruence_mm, "refold_mm": net.proof.refold_mm, "overlaps": net.proof.overlaps },
         "sheets": layout.sheets.len(), "density": layout.density,
         "cut_length": layout.cut_length, "score_length": layout.score_length,
-        "travel_length": fabrication.sheets.travel_length(), "seconds": fabrication.sheets.seconds(sheet),
+        "findings": fabrication.findings(),
+        "travel_length": fabrication.sheets.travel_length(),
+        "seconds": fabrication.sheets.seconds(sheet),
     })
 }

@@ -101,7 +101,8 @@ fn proof_json(net: &Net, proof: &Result<Proof, ProofError>) -> String {
     let codes: Vec<String> =
         proof.as_ref().err().map(|fault| fault.code().to_string()).into_iter().collect();
     let told = json!({
-        "command": command_line(), "pieces": net.pieces.len(), "proof": measured, "findings": findings, "codes": codes,
+        "command": command_line(), "pieces": net.pieces.len(), "proof": measured,
+        "findings": findings, "codes": codes,
         "verdict": if proof.is_ok() { "pass" } else { "fail" },
         "limits": { "length_of_edge": LENGTH_LIMIT, "refold_of_size": REFOLD_LIMIT },
     });

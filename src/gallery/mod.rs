@@ -30,14 +30,14 @@ pub struct GalleryRecipe {
     pub folder: PathBuf,
 }
 
-/// What is told about a recipe that was built.
+/// What is said about a recipe that was built.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Exhibit {
     /// The name of its folder.
     pub name: String,
     /// The title that the recipe gives itself, or else its name.
     pub title: String,
-    /// The comment at the head of the recipe, which tells what it shows, line by line.
+    /// The comment at the head of the recipe, which says what it shows, line by line.
     pub story: Vec<String>,
     /// The TOML text.
     pub recipe: String,
@@ -109,7 +109,7 @@ impl Coded for GalleryError {
     }
 }
 
-/// Builds one recipe: what is told about it, and its files. `width` is that of its pictures in
+/// Builds one recipe: what is said about it, and its files. `width` is that of its pictures in
 /// pixels, instead of what the recipe says.
 ///
 /// # Errors
@@ -200,7 +200,7 @@ pub fn side_by_side<T: Send>(
     results.into_iter().map(|(_, result)| result).collect()
 }
 
-/// The progress of one recipe among many: it can be stopped, but its own steps are not told.
+/// The progress of one recipe among many: it can be stopped, but its own steps are not reported.
 struct Inside<'a>(&'a dyn Progress);
 
 impl Progress for Inside<'_> {

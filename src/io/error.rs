@@ -4,8 +4,9 @@ use std::fmt;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+use super::format::MeshFormat;
 use crate::code::codes;
-use crate::mesh::{BuildError, FileFault};
+use crate::mesh::{BuildError, FileCounts, FileFault};
 
 /// Where in a file something is. Shown as `spot.obj:17`, or as `spot.stl` when the file has no
 /// lines.
@@ -61,8 +62,11 @@ pub enum IoError {
         /// What the system says.
         source: std::io::Error,
     },
-    /// Neither the name nor the content tells the format.
-    #[error("{}: unknown mesh format; use a name that ends in .obj, .ply, .stl or .off", path.display())]
+    /// Neither the name nor the content shows the format.
+    #[error(
+        "{}: unknown mesh format; use a name that ends in .obj, .ply, .stl or .off",
+        path.display()
+    )]
     UnknownFormat {
         /// The file.
         path: PathBuf,
@@ -82,7 +86,7 @@ pub enum IoError {
         fault: ContentFault,
     },
     /// The vertices and faces do not make a mesh.
-    #[error("{place}: {fault}{}{}", advice(fault), AlsoSee(also_lines))]
+    #[error("{place}: {fault}{}{}", advice(fault, &place.path), AlsoSee(also_lines))]
     Mesh {
         /// Where.
         place: Place,
@@ -156,6 +160,18 @@ pub enum IoError {
         /// What was asked.
         mm: f64,
     },
+    /// The distance within which faces count as flat is below zero.
+    #[error("cannot merge faces {mm}mm off flat; --merge-flat takes a distance of 0mm or more")]
+    BadFlat {
+        /// What was asked.
+        mm: f64,
+    },
+    /// Holes to close have no width.
+    #[error("cannot close holes of {mm}mm; --close-holes takes a length above 0mm")]
+    BadHole {
+        /// What was asked.
+        mm: f64,
+    },
     /// The wanted size is not above zero.
     #[error("cannot make the model {mm}mm large; --size takes a length above 0mm")]
     BadSize {
@@ -163,7 +179,11 @@ pub enum IoError {
         mm: f64,
     },
     /// The folder to write into does not exist.
-    #[error("cannot write {}: there is no folder {}; make it first", path.display(), folder.display())]
+    #[error(
+        "cannot write {}: there is no folder {}; make it first",
+        path.display(),
+        folder.display()
+    )]
     NoFolder {
         /// The file.
         path: PathBuf,
@@ -171,7 +191,11 @@ pub enum IoError {
         folder: PathBuf,
     },
     /// Something else than a folder stands where a folder is needed.
-    #[error("cannot write into {}: {} is a file, not a folder; choose another place", path.display(), file.display())]
+    #[error(
+        "cannot write into {}: {} is a file, not a folder; choose another place",
+        path.display(),
+        file.display()
+    )]
     NotAFolder {
         /// What was to be written, or made.
         path: PathBuf,
@@ -185,7 +209,10 @@ pub enum IoError {
         path: PathBuf,
     },
     /// The system refuses to write.
-    #[error("cannot write {} ({source}); check that you may write there and that the disk has room", path.display())]
+    #[error(
+        "cannot write {} ({source}); check that you may write there and that the disk has room",
+        path.display()
+    )]
     Unwritable {
         /// The file or folder.
         path: PathBuf,
@@ -209,17 +236,47 @@ pub enum IoError {
         /// What is wrong with it, in numbers of the mesh in memory.
         fault: FileFault,
     },
-    /// What was to be written as OBJ reads otherwise than the mesh: a fault of ours.
+    /// What was to be written reads otherwise than the mesh: a fault of ours.
     #[error(
-        "the OBJ text does not say what the mesh is, so nothing was written; please report this \
-        bug, and write PLY or OFF instead"
+        "the file read back does not say what the mesh is, so nothing was written; please report \
+        this bug, and write another format than {format}"
     )]
-    NotReadBack,
+    NotReadBack {
+        /// Of which format.
+        format: MeshFormat,
+    },
+    /// A mesh that readers would take for another.
+    #[error(
+        "this mesh would be read as another: {}; take another step, or other numbers, that leave \
+        a mesh of simple polygons with one rim at most at each vertex",
+        other(wanted, found.as_ref())
+    )]
+    ReadAsOther {
+        /// What is in memory.
+        wanted: FileCounts,
+        /// What a reader finds; `None` when it refuses the file.
+        found: Option<FileCounts>,
+    },
+    /// A mesh that STL cannot hold: it knows vertices by their places, in single precision.
+    #[error(
+        "STL, which knows vertices by their places alone, cannot hold this mesh: {why}; write OBJ, \
+        PLY or OFF"
+    )]
+    NotForStl {
+        /// What happens to it.
+        why: String,
+    },
     /// A coordinate does not fit the single precision of glTF.
     #[error("{name} is too far out for GLB, which holds numbers up to 3e38; write OBJ or PLY")]
     TooFarForGlb {
         /// The name of the node that holds it.
         name: String,
+    },
+    /// A table that no workbook can hold.
+    #[error("schedule.xlsx cannot be written: {fault}; the CSV files hold the same tables")]
+    Workbook {
+        /// What the format does not take.
+        fault: String,
     },
 }
 
@@ -244,6 +301,11 @@ codes!(error IoError {
     TooFarForGlb = 118,
     NotForFiles = 119,
     NotReadBack = 120,
+    ReadAsOther = 121,
+    NotForStl = 122,
+    BadFlat = 125,
+    BadHole = 126,
+    Workbook = 128,
 } through {
     Content.fault,
     Mesh.fault,
@@ -266,16 +328,37 @@ impl IoError {
     }
 }
 
+/// How a file is mended, while it is read or for good.
+fn repair_advice(way: &str, path: &Path) -> String {
+    format!("; or read with {way}, or `kerfold repair {} -o repaired.obj`", path.display())
+}
+
+/// What is read instead.
+fn other(wanted: &FileCounts, found: Option<&FileCounts>) -> String {
+    match found {
+        Some(found) => format!("{found} instead of {wanted}"),
+        None => "more than two faces meet at an edge, or a face comes twice to a vertex".to_owned(),
+    }
+}
+
 /// What to do, where the fault itself does not say it.
-fn advice(fault: &BuildError) -> &'static str {
-    match fault {
+fn advice(fault: &BuildError, path: &Path) -> String {
+    let text = match fault {
         BuildError::NoFaces => "; export the model as a polygon mesh",
         BuildError::NotFinite { .. } => "; correct it or export the model again",
         BuildError::MissingVertex { .. } => "; correct the number or export the model again",
         BuildError::TooFewCorners { .. } => "; remove it",
         BuildError::TooMany { .. } => "; simplify the model first",
+        BuildError::FlippedFace { .. } => {
+            let way = "--orient (--mend where there is one side only)";
+            return repair_advice(way, path);
+        }
+        BuildError::ThreeFacesAtEdge { .. }
+        | BuildError::DegenerateFace { .. }
+        | BuildError::ZeroLengthEdge { .. } => return repair_advice("--mend", path),
         _ => "",
-    }
+    };
+    text.to_owned()
 }
 
 /// ` (see also line 3)`, ` (see also lines 3 and 7)`, or nothing.

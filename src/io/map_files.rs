@@ -141,23 +141,32 @@ pub fn map_pdf(map: &AssemblyMap, command: &str) -> Vec<u8> {
         }
         let _ = writeln!(content, " {end}");
     }
-    pdf_page(map.width, map.height, &content, command)
+    pdf_pages([map.width, map.height], &[content], "assembly map", command)
 }
 
-/// A PDF of one page, size in mm.
-fn pdf_page(width: f64, height: f64, content: &str, command: &str) -> Vec<u8> {
+/// A PDF of pages of one size in mm; the title is plain ASCII.
+pub(super) fn pdf_pages(
+    [width, height]: [f64; 2],
+    pages: &[String],
+    title: &str,
+    command: &str,
+) -> Vec<u8> {
     let points = |mm: f64| decimal(mm * 72.0 / 25.4);
-    let objects = [
+    let (width, height) = (points(width), points(height));
+    let kids: Vec<String> = (0..pages.len()).map(|i| format!("{} 0 R", 4 + 2 * i)).collect();
+    let mut objects = vec![
         "<< /Type /Catalog /Pages 2 0 R >>".to_owned(),
-        "<< /Type /Pages /Kids [3 0 R] /Count 1 >>".to_owned(),
-        format!(
-            "<< /Type /Page /Parent 2 0 R /MediaBox [0 0 {} {}] /Resources << >> /Contents 4 0 R >>",
-            points(width),
-            points(height)
-        ),
-        format!("<< /Length {} >>\nstream\n{content}endstream", content.len()),
-        format!("<< /Title (assembly map) /Creator (kerfold) /Subject {} >>", pdf_text(command)),
+        format!("<< /Type /Pages /Kids [{}] /Count {} >>", kids.join(" "), pages.len()),
+        format!("<< /Title ({title}) /Creator (kerfold) /Subject {} >>", pdf_text(command)),
     ];
+    for (i, content) in pages.iter().enumerate() {
+        objects.push(format!(
+            "<< /Type /Page /Parent 2 0 R /MediaBox [0 0 {width} {height}] /Resources << >> \
+            /Contents {} 0 R >>",
+            5 + 2 * i
+        ));
+        objects.push(format!("<< /Length {} >>\nstream\n{content}endstream", content.len()));
+    }
     let mut file = b"%PDF-1.4\n%\xe2\xe3\xcf\xd3\n".to_vec();
     let mut places = Vec::new();
     for (i, object) in objects.iter().enumerate() {
@@ -168,7 +177,7 @@ fn pdf_page(width: f64, height: f64, content: &str, command: &str) -> Vec<u8> {
     file.extend(format!("xref\n0 {}\n0000000000 65535 f \n", objects.len() + 1).bytes());
     places.iter().for_each(|place| file.extend(format!("{place:010} 00000 n \n").bytes()));
     let trailer = format!(
-        "trailer\n<< /Size {} /Root 1 0 R /Info 5 0 R >>\nstartxref\n{table}\n%%EOF\n",
+        "trailer\n<< /Size {} /Root 1 0 R /Info 3 0 R >>\nstartxref\n{table}\n%%EOF\n",
         objects.len() + 1
     );
     file.extend(trailer.bytes());

@@ -6,10 +6,10 @@
 //! at most six decimals.
 
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
 
 use glam::{DVec2, DVec3};
 
+use super::csv_cell::cell;
 use crate::mesh::EdgeId;
 use crate::net::{EdgeLabel, PieceId};
 use crate::panel::{GroupRow, NodeRow, PanelRow, Plate, Plates, Schedule};
@@ -46,17 +46,20 @@ pub(super) fn sheet_of(layout: &Layout) -> BTreeMap<PieceId, String> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn panels_csv(schedule: &Schedule, plates: &Plates, layout: &Layout, command: &str) -> String {
+    panels_table(schedule, plates, layout).csv(command)
+}
+
+pub(super) fn panels_table(schedule: &Schedule, plates: &Plates, layout: &Layout) -> Table {
     let sheets = sheet_of(layout);
     let mut table = Table::new(
         "panel,face,layer,group,mirrored,copies,thickness_mm,area_mm2,blank_area_mm2,volume_mm3,mass_kg,box_length_mm,\
          box_width_mm,perimeter_mm,edge_work_mm,sides,edges,side_lengths_mm,angles_deg,mitres_deg,planarity_mm,concave,holes,\
          sheet,origin_mm,x_axis,y_axis,normal,front_mm,back_mm",
-        command,
     );
     for (row, plate) in schedule.panels.iter().zip(&plates.plates) {
         table.row(&panel(row, plate, sheets.get(&row.id).map_or("", String::as_str)));
     }
-    table.text
+    table
 }
 
 fn panel(row: &PanelRow, plate: &Plate, sheet: &str) -> Vec<String> {
@@ -96,10 +99,13 @@ fn panel(row: &PanelRow, plate: &Plate, sheet: &str) -> Vec<String> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn edges_csv(schedule: &Schedule, command: &str) -> String {
+    edges_table(schedule).csv(command)
+}
+
+pub(super) fn edges_table(schedule: &Schedule) -> Table {
     let mut table = Table::new(
         "edge,node_a,node_b,panel_a,panel_b,length_mm,dihedral_deg,mitre_a_deg,mitre_b_deg,shape,joint,wanted,why,\
          opening_front_mm,opening_back_mm,stepped",
-        command,
     );
     for row in &schedule.edges {
         let panel = |p: Option<PieceId>| p.map(|p| p.to_string()).unwrap_or_default();
@@ -118,7 +124,7 @@ pub fn edges_csv(schedule: &Schedule, command: &str) -> String {
         fields.push(yes(row.is_stepped));
         table.row(&fields);
     }
-    table.text
+    table
 }
 
 /// `nodes.csv`: one row for each node.
@@ -138,12 +144,15 @@ pub fn edges_csv(schedule: &Schedule, command: &str) -> String {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn nodes_csv(schedule: &Schedule, command: &str) -> String {
+    nodes_table(schedule).csv(command)
+}
+
+pub(super) fn nodes_table(schedule: &Schedule) -> Table {
     let mut table = Table::new(
         "node,valence,rim,edges,angles_deg,tilts_deg,position_mm,axis,front_mm,back_mm,residual_mm_per_mm,miss_mm",
-        command,
     );
     schedule.nodes.iter().for_each(|row| table.row(&node(row)));
-    table.text
+    table
 }
 
 fn node(row: &NodeRow) -> Vec<String> {
@@ -174,15 +183,18 @@ fn node(row: &NodeRow) -> Vec<String> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn cutting_list_csv(schedule: &Schedule, command: &str) -> String {
+    cutting_list_table(schedule).csv(command)
+}
+
+pub(super) fn cutting_list_table(schedule: &Schedule) -> Table {
     let mut table = Table::new(
         "group,panels,as_first,mirrored,turns_over,first,thickness_mm,box_length_mm,box_width_mm,area_each_mm2,mass_each_kg,\
          mass_all_kg,perimeter_all_mm,edge_work_all_mm,names",
-        command,
     );
     for row in &schedule.groups {
         table.row(&group(row, &schedule.panels));
     }
-    table.text
+    table
 }
 
 fn group(row: &GroupRow, panels: &[PanelRow]) -> Vec<String> {
@@ -204,32 +216,33 @@ fn group(row: &GroupRow, panels: &[PanelRow]) -> Vec<String> {
     fields
 }
 
-/// Rows under a header; the command line in the last column of the first row.
-struct Table {
-    text: String,
-    command: Option<String>,
+/// Rows under a header.
+pub(super) struct Table {
+    pub columns: Vec<&'static str>,
+    pub rows: Vec<Vec<String>>,
 }
 
 impl Table {
-    fn new(columns: &str, command: &str) -> Self {
-        Self { text: format!("{columns},command\r\n"), command: Some(command.to_owned()) }
+    fn new(columns: &'static str) -> Self {
+        Self { columns: columns.split(',').collect(), rows: Vec::new() }
     }
 
     fn row(&mut self, fields: &[String]) {
-        for field in fields {
-            quote_into(&mut self.text, field);
-            self.text.push(',');
-        }
-        quote_into(&mut self.text, &self.command.take().unwrap_or_default());
-        self.text += "\r\n";
+        self.rows.push(fields.to_vec());
     }
-}
 
-fn quote_into(text: &mut String, field: &str) {
-    if field.contains([',', '"', '\r', '\n']) {
-        let _ = write!(text, "\"{}\"", field.replace('"', "\"\""));
-    } else {
-        *text += field;
+    /// The table as text; the command line in the last column of the first row.
+    fn csv(&self, command: &str) -> String {
+        let mut text = self.columns.join(",") + ",command\r\n";
+        for (i, fields) in self.rows.iter().enumerate() {
+            for field in fields {
+                text += &cell(field);
+                text.push(',');
+            }
+            text += &cell(if i == 0 { command } else { "" });
+            text += "\r\n";
+        }
+        text
     }
 }
 
@@ -283,11 +296,11 @@ mod tests {
 
     #[test]
     fn rows_are_quoted_and_the_command_comes_once() {
-        let mut table = Table::new("a,b", "kerfold panels \"x, y\"");
+        let mut table = Table::new("a,b");
         table.row(&["1".to_owned(), "p, q".to_owned()]);
         table.row(&["2".to_owned(), "r".to_owned()]);
         assert_eq!(
-            table.text,
+            table.csv("kerfold panels \"x, y\""),
             "a,b,command\r\n1,\"p, q\",\"kerfold panels \"\"x, y\"\"\"\r\n2,r,\r\n"
         );
         assert_eq!([1.5, -1e-9, 2.0, 1e3].map(number), ["1.5", "0", "2", "1000"]);

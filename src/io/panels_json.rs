@@ -54,8 +54,10 @@ pub fn panels_json(
         .map(|(row, plate)| compact(&panel(row, plate, &sheets)));
     let totals = &schedule.totals;
     let sums = json!({
-        "panels": schedule.panels.len(), "groups": schedule.groups.len(), "area_mm2": totals.area, "mass_kg": totals.mass,
-        "perimeter_mm": totals.perimeter, "edge_work_mm": totals.bevelled, "nodes_above_valence_3": totals.nodes_above_three,
+        "panels": schedule.panels.len(), "groups": schedule.groups.len(), "area_mm2": totals.area,
+        "mass_kg": totals.mass,
+        "perimeter_mm": totals.perimeter, "edge_work_mm": totals.bevelled,
+        "nodes_above_valence_3": totals.nodes_above_three,
         "largest_residual_mm_per_mm": totals.residual, "largest_miss_mm": totals.miss_mm,
     });
     let lists = [
@@ -84,27 +86,36 @@ fn panel(
         .map(|h| json!({ "x": h.centre.x, "y": h.centre.y, "diameter": 2.0 * h.radius, "edge": edge_name(h.edge) }))
         .collect();
     json!({
-        "id": row.id.to_string(), "face": row.face, "layer": row.layer, "group": group_name(row.group),
-        "mirrored": row.is_mirrored, "copies": row.copies, "thickness": row.thickness, "area": row.area,
-        "blank_area": row.blank_area, "volume": row.volume, "mass": row.mass, "box": row.size, "perimeter": row.perimeter,
-        "edge_work": row.bevelled, "edges": row.edges.iter().map(|&e| edge_name(e)).collect::<Vec<_>>(),
-        "side_lengths": row.sides, "angles": row.angles, "mitres": row.bevels, "planarity": row.planarity,
+        "id": row.id.to_string(), "face": row.face, "layer": row.layer,
+        "group": group_name(row.group),
+        "mirrored": row.is_mirrored, "copies": row.copies, "thickness": row.thickness,
+        "area": row.area,
+        "blank_area": row.blank_area, "volume": row.volume, "mass": row.mass, "box": row.size,
+        "perimeter": row.perimeter,
+        "edge_work": row.bevelled,
+        "edges": row.edges.iter().map(|&e| edge_name(e)).collect::<Vec<_>>(),
+        "side_lengths": row.sides, "angles": row.angles, "mitres": row.bevels,
+        "planarity": row.planarity,
         "concave": row.is_concave, "sheet": sheets.get(&row.id),
         "frame": {
-            "origin": array(row.frame.origin), "x_axis": array(row.frame.x), "y_axis": array(row.frame.y),
+            "origin": array(row.frame.origin), "x_axis": array(row.frame.x),
+            "y_axis": array(row.frame.y),
             "normal": array(row.frame.normal)
         },
-        "front": flat(&plate.front), "back": flat(&plate.back), "blank": flat(&plate.blank), "holes": holes,
+        "front": flat(&plate.front), "back": flat(&plate.back), "blank": flat(&plate.blank),
+        "holes": holes,
     })
 }
 
 fn edge(row: &EdgeRow) -> Value {
     json!({
         "id": edge_name(row.id), "nodes": row.nodes.map(|v| node_name(v.index())),
-        "panels": row.panels.map(|p| p.map(|p| p.to_string())), "length": row.length, "dihedral": row.dihedral,
+        "panels": row.panels.map(|p| p.map(|p| p.to_string())), "length": row.length,
+        "dihedral": row.dihedral,
         "mitres": row.mitres, "shape": row.shape.name(), "joint": row.kind.name(),
         "fallback": row.fallback.map(|(kind, why)| json!({ "wanted": kind.name(), "why": why.name() })),
-        "opening": row.opening.map(|[front, back]| json!({ "front": front, "back": back })), "stepped": row.is_stepped,
+        "opening": row.opening.map(|[front, back]| json!({ "front": front, "back": back })),
+        "stepped": row.is_stepped,
     })
 }
 
@@ -112,16 +123,20 @@ fn node(row: &NodeRow) -> Value {
     let node = &row.node;
     json!({
         "id": node_name(node.vertex.index()), "valence": node.valence, "rim": node.is_rim,
-        "edges": row.edges.iter().map(|&e| edge_name(e)).collect::<Vec<_>>(), "angles": row.angles, "tilts": row.tilts,
-        "position": array(row.position), "axis": array(node.axis), "front": array(node.front), "back": array(node.back),
+        "edges": row.edges.iter().map(|&e| edge_name(e)).collect::<Vec<_>>(), "angles": row.angles,
+        "tilts": row.tilts,
+        "position": array(row.position), "axis": array(node.axis), "front": array(node.front),
+        "back": array(node.back),
         "residual": node.residual, "miss": node.miss_mm,
     })
 }
 
 fn group(row: &GroupRow) -> Value {
     json!({
-        "id": group_name(row.number), "first": row.first.to_string(), "copies": row.copies, "mirrored": row.mirrored,
-        "turns_over": row.turns_over, "panels": row.panels.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        "id": group_name(row.number), "first": row.first.to_string(), "copies": row.copies,
+        "mirrored": row.mirrored,
+        "turns_over": row.turns_over,
+        "panels": row.panels.iter().map(ToString::to_string).collect::<Vec<_>>(),
     })
 }
 

@@ -49,7 +49,10 @@ pub enum PlanesError {
         file: PathBuf,
     },
     /// A line does not have four fields.
-    #[error("{}:{line}:{column}: {found} numbers where a half-space has 4: nx,ny,nz,d", file.display())]
+    #[error(
+        "{}:{line}:{column}: {found} numbers where a half-space has 4: nx,ny,nz,d",
+        file.display()
+    )]
     Fields {
         /// Which file.
         file: PathBuf,
@@ -61,7 +64,10 @@ pub enum PlanesError {
         found: usize,
     },
     /// A field is no number.
-    #[error("{}:{line}:{column}: `{text}` is not a number; write it like 0.25, -2e-3 or 1/3", file.display())]
+    #[error(
+        "{}:{line}:{column}: `{text}` is not a number; write it like 0.25, -2e-3 or 1/3",
+        file.display()
+    )]
     NotANumber {
         /// Which file.
         file: PathBuf,

@@ -1,30 +1,30 @@
-//! Carves a D-form: takes the folds of a choice, cuts them off, and looks whether the pieces lie
-//! flat; if not, takes the next.
+//! Carves a D-form: takes the folds of a choice, rolls them or cuts them off, and looks whether the
+//! pieces lie flat; if not, takes the next choice, and then less of each.
 
 use std::collections::HashMap;
 
 use super::MakeError;
-use super::dform::{DformError, DformParams, MatchingChoice};
+use super::candidates::{Candidates, candidates};
+use super::dform::{Carving, DformError, DformParams};
 use crate::measure::{concave_edges, edge_length, fold_angle};
 use crate::mesh::{EdgeId, EdgeMap, FaceId, Mesh, VertexId};
-use crate::op::{OpContext, Origins, Scope, TruncateEdgeParams, truncate_edges};
-use crate::progress::Progress;
-use crate::seam::{
-    MATCHING_LIMIT, SeamError, flattest_matching, fold_sum, hamiltonian_folds, least_matching,
-    matching, one_piece_folds, piece_count, piece_of_faces, seam_cycles, table,
+use crate::op::{
+    OpContext, OpError, Origins, Roll, RollParams, Scope, TruncateEdgeParams, largest_roll,
+    truncate_edges,
 };
+use crate::progress::Progress;
+use crate::seam::{SeamError, fold_sum, piece_count, piece_of_faces, seam_cycles};
 use crate::select::{NewElements, Selection};
 use crate::unfold::{MeshSource, Seams, UnfoldParams, unfold};
-use crate::units::counted;
+use crate::units::{Length, counted};
 
 /// Choices of folds that are carved and laid out, at most, until one lies flat in as many pieces as
 /// it should.
 const TRIED: usize = 24;
-/// The same at each smaller offset.
+/// The same at each smaller size.
 const TRIED_SMALLER: usize = 3;
-/// Up to this many vertices all two-piece seams are candidates; of larger meshes only the best one
-/// found.
-const LISTED_VERTICES: usize = 64;
+/// Smaller radii that are tried, as shares of the largest, or of the one that was given.
+const SHARES: [f64; 11] = [0.95, 0.9, 0.85, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1];
 
 /// A carved D-form.
 #[derive(Debug, Clone)]
@@ -41,6 +41,12 @@ pub struct CarvedDform {
 }
 
 impl CarvedDform {
+    /// The mesh as it is, with its folds.
+    pub(super) fn uncarved(mesh: &Mesh, folds: &[EdgeId]) -> Self {
+        let made = NewElements { strip: folds.to_vec(), ..NewElements::default() };
+        Self { mesh: mesh.clone(), made, folds: folds.to_vec(), notes: Vec::new() }
+    }
+
     /// With notes on how it was chosen before its own.
     fn after(mut self, mut notes: Vec<String>) -> Self {
         notes.append(&mut self.notes);
@@ -48,29 +54,44 @@ impl CarvedDform {
     }
 }
 
-/// Chooses the folds and cuts them off, round after round.
+/// Chooses the folds and rolls them, or cuts them off round after round.
 ///
 /// The pieces that the folds promise are those that come out: what is connected before carving is
-/// connected by folds after it, and the carved pieces are laid out to see that no fold opens. For two pieces and for one, choices are tried in the order of their fold sums, 24 at most,
-/// until that holds. Where no choice keeps its promise, the largest smaller offset at which one
-/// does is taken if the offset was left open, and named if it was given; where there is none
-/// either, the first choice is kept, with a note. On a mesh that is not convex only those folds are
-/// cut off whose ends are convex corners, each without touching the rest of the mesh; no plane can
-/// shave the others, which stay sharp folds.
+/// connected by folds after it, and the carved pieces are laid out to see that no fold opens. For
+/// two pieces and for one, choices are tried in the order of their fold sums, 24 at most, until
+/// that holds. Where no choice keeps its promise, a smaller radius or offset at which one does is
+/// taken if the size was left open, and named if it was given; where there is none either, nothing
+/// is made. On a mesh that is not convex only those folds are carved whose ends are convex corners,
+/// each without touching the rest of the mesh; no plane can shave the others, which stay sharp
+/// folds.
 ///
 /// # Errors
 /// [`MakeError::Seam`] when the mesh is open, not 3-valent, or has no such choice;
-/// [`MakeError::Op`] when it cannot be cut so; [`MakeError::Dform`] when the given offset loses
-/// folds that a smaller one keeps.
+/// [`MakeError::Op`] when it cannot be cut so, or for options that do not go together;
+/// [`MakeError::Dform`] when the given size loses folds that a smaller one keeps, or every size
+/// does.
 pub fn carve_dform(
     mesh: &Mesh,
     params: &DformParams,
     progress: &dyn Progress,
 ) -> Result<CarvedDform, MakeError> {
-    let Candidates { folds, mut notes } = candidates(mesh, params.matching, progress)?;
-    let asked = params.offset_or_default();
-    let broken = match carve_first_whole(mesh, &folds, (params, asked), progress) {
-        Carving::Whole { passed, carved } => {
+    params.carving()?;
+    let Candidates { folds, notes } = candidates(mesh, params.matching, progress)?;
+    Ok(carve_folds(mesh, folds, params, progress)?.after(notes))
+}
+
+/// Carves the first of these choices that keeps its promise, as [`carve_dform`].
+pub(super) fn carve_folds(
+    mesh: &Mesh,
+    folds: Vec<Vec<EdgeId>>,
+    params: &DformParams,
+    progress: &dyn Progress,
+) -> Result<CarvedDform, MakeError> {
+    let carving = params.carving()?;
+    let mut notes = Vec::new();
+    let broken = match carve_first_whole(mesh, &folds[..folds.len().min(TRIED)], carving, progress)
+    {
+        Tried::Whole { passed, carved } => {
             if passed > 0 {
                 notes.push(format!(
                     "{} passed over: carved, the pieces do not lie flat as they are",
@@ -83,68 +104,64 @@ pub fn carve_dform(
             }
             return Ok(carved.after(notes));
         }
-        Carving::Broken(broken) => broken,
-        Carving::Impossible(error) => return Err(error),
+        Tried::Broken(broken) => broken,
+        Tried::Impossible(error) => return Err(error),
     };
-    match (smaller_offset(mesh, &folds, params, progress), params.offset) {
-        (Some((largest, _)), Some(offset)) => {
-            let BrokenPromise { promised, made, .. } = *broken;
-            Err(DformError::LosesFolds { offset, promised, made, largest }.into())
+    let BrokenPromise { promised, made } = broken;
+    match smaller(mesh, &folds, carving, progress) {
+        None if progress.is_cancelled() => Err(OpError::Cancelled.into()),
+        None => Err(DformError::NeverFlat { promised, made }.into()),
+        Some(found) if params.is_open() => {
+            notes.push(found.note);
+            Ok(found.carved.after(notes))
         }
-        (Some((largest, carved)), None) => {
-            notes.push(format!(
-                "the offset is {largest} instead of {asked}: the largest that keeps the pieces whole"
-            ));
-            Ok(carved.after(notes))
+        Some(found) => Err(match carving {
+            Carving::Cut { offset, .. } => {
+                DformError::LosesFolds { offset, promised, made, largest: found.size }
+            }
+            Carving::Rolled(RollParams { roll, .. }) => {
+                DformError::RollLosesFolds { roll, promised, made, largest: found.size }
+            }
+            Carving::Nothing => DformError::NeverFlat { promised, made },
         }
-        (None, _) => {
-            let BrokenPromise { promised, made, carved } = *broken;
-            notes.push(format!(
-                "{} carved, but none lies flat unless a further fold opens; the first was taken, \
-                with {made} pieces instead of {promised}: fewer `--rounds` may do",
-                counted(folds.len().min(TRIED), "choice of folds was", "choices of folds were")
-            ));
-            Ok(carved.after(notes))
-        }
+        .into()),
     }
 }
 
-/// What became of some choices of folds at one offset.
-enum Carving {
+/// What became of some choices of folds at one size.
+enum Tried {
     /// The first that lies flat in as many pieces as it promised, after some that do not.
     Whole { passed: usize, carved: Box<CarvedDform> },
     /// None does.
-    Broken(Box<BrokenPromise>),
+    Broken(BrokenPromise),
     /// None can be carved.
     Impossible(MakeError),
 }
 
-/// The first choice, and how many pieces it promised and made.
+/// How many pieces the first choice promised and made.
 struct BrokenPromise {
     promised: usize,
     made: usize,
-    carved: CarvedDform,
 }
 
 fn carve_first_whole(
     mesh: &Mesh,
     choices: &[Vec<EdgeId>],
-    (params, offset): (&DformParams, f64),
+    carving: Carving,
     progress: &dyn Progress,
-) -> Carving {
+) -> Tried {
     let (mut first, mut failure) = (None, None);
-    let count = choices.len().min(TRIED);
-    for (i, folds) in choices.iter().take(TRIED).enumerate() {
-        progress.report("trying folds", i, count);
+    for (i, folds) in choices.iter().enumerate() {
+        progress.report("trying folds", i, choices.len());
         let promised = piece_count(mesh, folds);
-        match carve(mesh, folds, (params, offset), progress) {
+        match carve(mesh, folds, carving, progress) {
             Ok(carved) => match pieces_flat(&carved, progress) {
                 Some(made) if made == promised => {
-                    return Carving::Whole { passed: i, carved: Box::new(carved) };
+                    return Tried::Whole { passed: i, carved: Box::new(carved) };
                 }
                 made => {
                     let made = made.unwrap_or(carved.mesh.face_count());
-                    first = first.or(Some(Box::new(BrokenPromise { promised, made, carved })));
+                    first = first.or(Some(BrokenPromise { promised, made }));
                 }
             },
             Err(error) => failure = failure.or(Some(error)),
@@ -154,85 +171,103 @@ fn carve_first_whole(
         }
     }
     match (first, failure) {
-        (Some(first), _) => Carving::Broken(first),
-        (None, Some(error)) => Carving::Impossible(error),
-        (None, None) => Carving::Impossible(SeamError::Empty.into()),
+        (Some(first), _) => Tried::Broken(first),
+        (None, Some(error)) => Tried::Impossible(error),
+        (None, None) => Tried::Impossible(SeamError::Empty.into()),
     }
 }
 
-/// The largest offset below the one asked for at which the first choices keep what they promise, in
-/// steps of a hundredth, and what is carved there.
+/// A smaller size at which a choice keeps what it promises.
+struct Smaller {
+    carved: CarvedDform,
+    size: f64,
+    note: String,
+}
+
+/// The largest size below the one asked for, of those that are tried, at which one of the first
+/// choices keeps its promise.
+fn smaller(
+    mesh: &Mesh,
+    choices: &[Vec<EdgeId>],
+    carving: Carving,
+    progress: &dyn Progress,
+) -> Option<Smaller> {
+    // The last choice is the one that is known to lie flat as long as little is carved.
+    let mut few: Vec<Vec<EdgeId>> = choices.iter().take(TRIED_SMALLER).cloned().collect();
+    few.extend(choices.iter().skip(TRIED_SMALLER).last().cloned());
+    match carving {
+        Carving::Nothing => None,
+        Carving::Cut { offset, bend, rounds } => {
+            smaller_offset(mesh, &few, (offset, bend, rounds), progress)
+        }
+        Carving::Rolled(roll) => {
+            let tried = SHARES.into_iter().enumerate();
+            tried.take_while(|_| !progress.is_cancelled()).find_map(|(i, share)| {
+                progress.report("trying smaller radii", i, SHARES.len());
+                few.iter().find_map(|folds| smaller_roll(mesh, folds, (roll, share), progress))
+            })
+        }
+    }
+}
+
+/// In steps of a hundredth.
 fn smaller_offset(
     mesh: &Mesh,
     choices: &[Vec<EdgeId>],
-    params: &DformParams,
+    (asked, bend, rounds): (f64, f64, u32),
     progress: &dyn Progress,
-) -> Option<(f64, CarvedDform)> {
-    let choices = &choices[..choices.len().min(TRIED_SMALLER)];
-    let asked = params.offset_or_default();
+) -> Option<Smaller> {
     let mut hundredths = (100.0 * asked).ceil() as u32;
     let count = hundredths as usize;
     while hundredths > 1 && !progress.is_cancelled() {
         hundredths -= 1;
         progress.report("trying smaller offsets", count - hundredths as usize, count);
         let offset = f64::from(hundredths) / 100.0;
-        if let Carving::Whole { carved, .. } =
-            carve_first_whole(mesh, choices, (params, offset), progress)
-        {
-            return Some((offset, *carved));
+        let carving = Carving::Cut { offset, bend, rounds };
+        if let Tried::Whole { carved, .. } = carve_first_whole(mesh, choices, carving, progress) {
+            let note = format!(
+                "the offset is {offset} instead of {asked}: the largest that keeps the pieces whole"
+            );
+            return Some(Smaller { carved: *carved, size: offset, note });
         }
     }
     None
 }
 
-/// Choices of folds in the order in which they are tried.
-struct Candidates {
-    folds: Vec<Vec<EdgeId>>,
-    notes: Vec<String>,
-}
-
-fn candidates(
+/// With a share of the radius that was asked for, or of the largest.
+fn smaller_roll(
     mesh: &Mesh,
-    choice: MatchingChoice,
+    folds: &[EdgeId],
+    (params, share): (RollParams, f64),
     progress: &dyn Progress,
-) -> Result<Candidates, SeamError> {
-    let one = |folds| Candidates { folds: vec![folds], notes: Vec::new() };
-    match choice {
-        MatchingChoice::Least => least_matching(mesh, progress).map(one),
-        MatchingChoice::Flattest => flattest_matching(mesh, progress).map(one),
-        MatchingChoice::Row(row) => matching(mesh, row, progress).map(one),
-        MatchingChoice::OnePiece => {
-            Ok(Candidates { folds: one_piece_folds(mesh, progress)?, notes: Vec::new() })
-        }
-        MatchingChoice::TwoPieces => match hamiltonian_folds(mesh, progress) {
-            Ok(folds) => Ok(two_pieces(mesh, folds, progress)),
-            Err(
-                why @ (SeamError::NoHamiltonian { .. }
-                | SeamError::SearchStopped { .. }
-                | SeamError::SeveralComponents { .. }),
-            ) => {
-                let notes = vec![format!("the least matching was taken: {why}")];
-                Ok(Candidates { notes, ..one(least_matching(mesh, progress)?) })
-            }
-            Err(error) => Err(error),
-        },
-    }
-}
-
-/// The best two-piece seam first, then all others of a small mesh.
-fn two_pieces(mesh: &Mesh, best: Vec<EdgeId>, progress: &dyn Progress) -> Candidates {
-    let pieces = piece_count(mesh, &best);
-    let mut folds = vec![best];
-    if mesh.vertex_count() <= LISTED_VERTICES
-        && let Ok(rows) = table(mesh, MATCHING_LIMIT, progress)
-    {
-        let others = rows
-            .into_iter()
-            .filter(|r| r.pieces == pieces && r.seam_cycles == 1 && r.folds != folds[0]);
-        let others: Vec<_> = others.map(|r| r.folds).collect();
-        folds.extend(others);
-    }
-    Candidates { folds, notes: Vec::new() }
+) -> Option<Smaller> {
+    let (round, _) = rollable(mesh, folds);
+    let asked = match params.roll {
+        Roll::Radius(radius) => [radius.mm(); 2],
+        Roll::Cone(radii) => radii.map(Length::mm),
+        Roll::Max | Roll::Each => [largest_roll(mesh, &round).ok()?.radius; 2],
+    };
+    // In hundredths of a millimetre where that is fine enough, so that it can be typed.
+    let radii = asked.map(|r| {
+        let radius = r * share;
+        if radius > 1.0 { (radius * 100.0).floor() / 100.0 } else { radius }
+    });
+    let roll = if radii[0] == radii[1] {
+        Roll::Radius(Length::from_mm(radii[0]))
+    } else {
+        Roll::Cone(radii.map(Length::from_mm))
+    };
+    let choice = [folds.to_vec()];
+    let carving = Carving::Rolled(RollParams { roll, ..params });
+    let Tried::Whole { carved, .. } = carve_first_whole(mesh, &choice, carving, progress) else {
+        return None;
+    };
+    let note = format!(
+        "the roll is {roll} instead of {}: with {:.2} mm a piece overlaps itself",
+        params.roll,
+        asked[0].max(asked[1])
+    );
+    Some(Smaller { carved: *carved, size: radii[0].max(radii[1]), note })
 }
 
 /// How many pieces the carved mesh comes apart into along its seams, and along folds that have to
@@ -247,7 +282,7 @@ fn pieces_flat(carved: &CarvedDform, progress: &dyn Progress) -> Option<usize> {
 fn carve(
     mesh: &Mesh,
     folds: &[EdgeId],
-    (params, offset): (&DformParams, f64),
+    carving: Carving,
     progress: &dyn Progress,
 ) -> Result<CarvedDform, MakeError> {
     let mut notes = vec![format!(
@@ -258,27 +293,16 @@ fn carve(
         counted(piece_count(mesh, folds), "piece", "pieces")
     )];
     let (round, sharp) = rollable(mesh, folds);
-    let uncarved = |notes| CarvedDform {
-        mesh: mesh.clone(),
-        made: NewElements { strip: folds.to_vec(), ..NewElements::default() },
-        folds: folds.to_vec(),
-        notes,
-    };
-    if params.rounds == 0 {
+    let uncarved = |notes| CarvedDform { notes, ..CarvedDform::uncarved(mesh, folds) };
+    if carving == Carving::Nothing {
         return Ok(uncarved(notes));
     }
-    let Some(select) = Selection::of_edges(round.iter().copied()) else {
+    let select = Selection::of_edges(round.iter().copied());
+    let Some(cut) = select.and_then(|select| truncation(select, carving, sharp.is_empty())) else {
         notes.push(
             "no fold is cut: none has two convex ends, where a plane could shave it off".to_owned(),
         );
         return Ok(uncarved(notes));
-    };
-    let scope = if sharp.is_empty() { Scope::Global } else { Scope::Local };
-    let cut = TruncateEdgeParams {
-        bend: params.bend,
-        repeat: params.rounds,
-        scope,
-        ..TruncateEdgeParams::new(select, offset)
     };
     let (carved, report) = truncate_edges(mesh, &cut, &OpContext { made: None, progress })?;
     notes.extend(report.notes("edge"));
@@ -296,6 +320,20 @@ fn carve(
     folds.sort_unstable();
     folds.dedup();
     Ok(CarvedDform { mesh: carved, made: report.made, folds, notes })
+}
+
+/// The step `cut edge` that carves.
+fn truncation(select: Selection, carving: Carving, is_convex: bool) -> Option<TruncateEdgeParams> {
+    Some(match carving {
+        Carving::Nothing => return None,
+        Carving::Rolled(RollParams { roll, strips, strip }) => {
+            TruncateEdgeParams { strips, strip, ..TruncateEdgeParams::rolled(select, roll) }
+        }
+        Carving::Cut { offset, bend, rounds: repeat } => {
+            let scope = if is_convex { Scope::Global } else { Scope::Local };
+            TruncateEdgeParams { bend, repeat, scope, ..TruncateEdgeParams::new(select, offset) }
+        }
+    })
 }
 
 /// The edges of the carved mesh between two faces that come from one piece. Where cuts meet, a
@@ -327,8 +365,8 @@ fn edges_within_pieces(
     carved.edges().filter(is_within).collect()
 }
 
-/// Of the candidates those that join what the folds leave apart, the longest first. The others would
-/// close a ring around a vertex whose faces cannot lie flat together, and stay seams.
+/// Of the candidates those that join what the folds leave apart, the longest first. The others
+/// would close a ring around a vertex whose faces cannot lie flat together, and stay seams.
 fn joining(mesh: &Mesh, folds: &[EdgeId], mut candidates: Vec<EdgeId>) -> Vec<EdgeId> {
     let mut piece = piece_of_faces(mesh, folds);
     candidates

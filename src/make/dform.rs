@@ -1,13 +1,14 @@
 //! The designer of D-forms: chooses the folds of a coarse solid and carves them into smooth strips.
 //!
 //! In a closed 3-valent mesh the folds are a perfect matching, and the seams are the closed cycles
-//! that it leaves. Cutting the folds over and over turns each into a developable strip
-//! (`docs/operators.md`, sections 2 and 4).
+//! that it leaves. Rolling the folds, or cutting them over and over, turns each into a developable
+//! strip (`docs/operators.md`, sections 2 and 4).
 
 use std::fmt;
 use std::str::FromStr;
 
 use crate::code::codes;
+use crate::op::{OpError, Roll, RollParams, StripSize};
 use serde::{Deserialize, Deserializer};
 
 /// Which of the solid's edges become folds, one at every vertex.
@@ -109,10 +110,52 @@ pub enum DformError {
         /// The largest smaller offset that keeps the promise, in hundredths.
         largest: f64,
     },
+    /// Rolled so far, the pieces do not lie flat, but with a smaller radius they do.
+    #[error(
+        "with the roll {roll} the pieces overlap themselves, so that {made} come out and not the \
+        {promised} that the folds promise; take {largest} mm at most, or leave the roll open"
+    )]
+    RollLosesFolds {
+        /// The roll that was given.
+        roll: Roll,
+        /// Pieces that the folds leave before carving.
+        promised: usize,
+        /// Pieces that lie flat after it.
+        made: usize,
+        /// A smaller radius that keeps the promise, in mm.
+        largest: f64,
+    },
+    /// However little is carved, the pieces do not lie flat.
+    #[error(
+        "the folds promise {promised} pieces, but {made} come out, however little is carved: the \
+        faces of a piece overlap when they lie flat; take another row of `kerfold seams`, or \
+        another `--matching`"
+    )]
+    NeverFlat {
+        /// Pieces that the folds leave before carving.
+        promised: usize,
+        /// Pieces that lie flat after it.
+        made: usize,
+    },
+    /// The strips of a step `cut edge` come apart into other pieces than the edges promised.
+    #[error(
+        "the edges that were cut leave {promised} pieces, but {made} come out: cuts met each \
+        other, or a piece overlaps itself; take a smaller offset, or `roll = \"max\"` in place of \
+        the offset, or name the folds yourself with `folds`"
+    )]
+    BrokenPromise {
+        /// Pieces that the edges leave before they are cut.
+        promised: usize,
+        /// Pieces that lie flat after it.
+        made: usize,
+    },
 }
 
 codes!(error DformError {
     LosesFolds = 753,
+    RollLosesFolds = 754,
+    NeverFlat = 755,
+    BrokenPromise = 756,
 });
 
 /// How to make a D-form of a closed 3-valent mesh.
@@ -123,18 +166,40 @@ pub struct DformParams {
     #[arg(long, default_value = "hamiltonian", value_name = "CHOICE")]
     #[serde(default)]
     pub matching: MatchingChoice,
-    /// How often the folds are cut, 0 to 64; each round halves the steps of the strips, 0 leaves
-    /// the solid as it is
-    #[arg(long, default_value_t = DEFAULT_ROUNDS, value_name = "N")]
-    #[serde(default = "default_rounds")]
-    pub rounds: u32,
-    /// How deep, in (0, 2]: 0 at the fold, 1 at the far ends of the edges beside it; up to 1/2 the
-    /// cuts stay apart. Unless given 0.3, or the largest below it that keeps the pieces whole
+    /// Roll each fold into even strips that touch both faces: a radius (40mm), one for each end
+    /// (40mm,20mm), max for the largest that all can have, or each for the largest of every fold.
+    /// Unless given max, or the largest below it that keeps the pieces whole
+    #[arg(long, value_name = "RADIUS")]
+    #[serde(default)]
+    pub roll: Option<Roll>,
+    /// How many strips a rolled fold gets, 1 to 1000; 9 unless given
+    #[arg(long, value_name = "N")]
+    #[serde(default)]
+    pub strips: Option<u32>,
+    /// The largest strip of a rolled fold instead of their number: a width (6mm) or a fold angle
+    /// (10deg)
+    #[arg(long, value_name = "SIZE")]
+    #[serde(default)]
+    pub strip: Option<StripSize>,
+    /// How often the folds are cut by offset instead of rolled, 0 to 64; each round halves the steps
+    /// of the strips, 0 leaves the solid as it is. 4 where an offset or a bend is given
+    #[arg(long, value_name = "N")]
+    #[serde(default)]
+    pub rounds: Option<u32>,
+    /// Cut the folds by offset instead of rolling them: how deep, in (0, 2]: 0 at the fold, 1 at the
+    /// far ends of the edges beside it; up to 1/2 the cuts stay apart. With rounds alone 0.3, or the
+    /// largest below it that keeps the pieces whole
     #[arg(long, value_parser = crate::units::parse_number)]
     #[serde(default)]
     pub offset: Option<f64>,
-    /// How far the planes lean towards one of the two faces, -1 to 1; 0 weighs their normals alike
-    #[arg(long, default_value_t = 0.0, value_parser = crate::units::parse_number, allow_negative_numbers = true)]
+    /// How far the planes of cuts by offset lean towards one of the two faces, -1 to 1; 0 weighs
+    /// their normals alike
+    #[arg(
+        long,
+        default_value_t = 0.0,
+        value_parser = crate::units::parse_number,
+        allow_negative_numbers = true
+    )]
     #[serde(default)]
     pub bend: f64,
 }
@@ -142,14 +207,60 @@ pub struct DformParams {
 const DEFAULT_ROUNDS: u32 = 4;
 const DEFAULT_OFFSET: f64 = 0.3;
 
-fn default_rounds() -> u32 {
-    DEFAULT_ROUNDS
+/// How folds are carved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Carving {
+    /// The solid stays as it is.
+    Nothing,
+    /// Rolled.
+    Rolled(RollParams),
+    /// Cut by offset, round after round.
+    Cut {
+        /// How deep.
+        offset: f64,
+        /// How far the planes lean.
+        bend: f64,
+        /// How often.
+        rounds: u32,
+    },
 }
 
 impl DformParams {
-    /// The offset that was given, or the usual one.
-    pub(super) fn offset_or_default(&self) -> f64 {
-        self.offset.unwrap_or(DEFAULT_OFFSET)
+    /// The way that was asked for.
+    ///
+    /// # Errors
+    /// [`OpError::Exclude`] for options of both ways.
+    pub(super) fn carving(&self) -> Result<Carving, OpError> {
+        let cuts = [
+            ("rounds", self.rounds.is_some()),
+            ("offset", self.offset.is_some()),
+            ("bend", self.bend != 0.0),
+        ];
+        let rolls = [
+            ("roll", self.roll.is_some()),
+            ("strips", self.strips.is_some()),
+            ("strip", self.strip.is_some()),
+        ];
+        let given = |options: [(&'static str, bool); 3]| options.into_iter().find(|o| o.1);
+        match (given(rolls), given(cuts)) {
+            (Some((first, _)), Some((second, _))) => Err(OpError::Exclude { first, second }),
+            (_, None) => Ok(Carving::Rolled(RollParams {
+                roll: self.roll.unwrap_or(Roll::Max),
+                strips: self.strips,
+                strip: self.strip,
+            })),
+            (None, Some(_)) if self.rounds == Some(0) => Ok(Carving::Nothing),
+            (None, Some(_)) => Ok(Carving::Cut {
+                offset: self.offset.unwrap_or(DEFAULT_OFFSET),
+                bend: self.bend,
+                rounds: self.rounds.unwrap_or(DEFAULT_ROUNDS),
+            }),
+        }
+    }
+
+    /// Whether the depth of the carving is left to the program.
+    pub(super) fn is_open(&self) -> bool {
+        self.offset.is_none() && matches!(self.roll, None | Some(Roll::Max | Roll::Each))
     }
 }
 
@@ -157,7 +268,10 @@ impl Default for DformParams {
     fn default() -> Self {
         Self {
             matching: MatchingChoice::default(),
-            rounds: DEFAULT_ROUNDS,
+            roll: None,
+            strips: None,
+            strip: None,
+            rounds: None,
             offset: None,
             bend: 0.0,
         }
@@ -216,7 +330,7 @@ mod tests {
         for name in ["tetrahedron", "cube", "dodecahedron"] {
             let solid = named(name);
             for rounds in [0, 2] {
-                let params = DformParams { rounds, ..DformParams::default() };
+                let params = DformParams { rounds: Some(rounds), ..DformParams::default() };
                 let carved = carve_dform(&solid, &params, &Silent).expect(name);
                 assert_eq!(piece_count(&carved.mesh, &carved.made.strip), 2, "{name} {rounds}");
                 // A fold becomes two after a round, four after the next.
@@ -231,12 +345,51 @@ mod tests {
     fn pieces_are_kept_where_cuts_meet() {
         let names =
             ["tetrahedron", "cube", "dodecahedron", "prism-3", "prism-5", "prism-9", "prism-20"];
+        let cut = DformParams { rounds: Some(4), ..DformParams::default() };
         for name in names.into_iter().chain(["truncated-tetrahedron"]) {
-            let carved = carve_dform(&named(name), &DformParams::default(), &Silent).expect(name);
-            assert_eq!(laid_flat(&carved), 2, "{name}");
-            // No strip of a piece is opened, and none is made one with the other piece.
-            assert_eq!(piece_count(&carved.mesh, &carved.folds), 2, "{name}");
+            for params in [&DformParams::default(), &cut] {
+                let carved = carve_dform(&named(name), params, &Silent).expect(name);
+                assert_eq!(laid_flat(&carved), 2, "{name}");
+                // No strip of a piece is opened, and none is made one with the other piece.
+                assert_eq!(piece_count(&carved.mesh, &carved.folds), 2, "{name}");
+            }
         }
+    }
+
+    /// Nine strips of one width and one angle for every fold, three edges at every vertex, and one
+    /// fold.
+    #[test]
+    fn folds_are_rolled_at_the_defaults() {
+        for name in ["dodecahedron", "truncated-tetrahedron", "prism-7"] {
+            let solid = named(name);
+            let carved = carve_dform(&solid, &DformParams::default(), &Silent).expect(name);
+            let mesh = &carved.mesh;
+            let folds = solid.vertex_count() / 2;
+            assert_eq!(mesh.vertex_count(), solid.vertex_count() + 18 * folds, "{name}");
+            assert_eq!(carved.folds.len(), 10 * folds, "{name}");
+            assert!(mesh.vertices().all(|v| mesh.valence(v) == 3), "{name}");
+            assert!(crate::seam::is_perfect_matching(mesh, &carved.folds), "{name}");
+            assert!(crate::measure::convexity(mesh).is_convex(), "{name}");
+            assert!(!carved.notes.iter().any(|note| note.contains("met each other")), "{name}");
+        }
+    }
+
+    #[test]
+    fn the_two_ways_of_carving_do_not_mix() {
+        let both = DformParams {
+            offset: Some(0.2),
+            roll: Some("max".parse().expect("a roll")),
+            ..DformParams::default()
+        };
+        let refused = carve_dform(&named("cube"), &both, &Silent);
+        assert!(matches!(refused, Err(MakeError::Op(OpError::Exclude { first: "roll", .. }))));
+        let read = |text: &str| toml::from_str::<DformParams>(text).expect(text).carving();
+        assert!(matches!(
+            read("strips = 4"),
+            Ok(Carving::Rolled(RollParams { strips: Some(4), .. }))
+        ));
+        assert!(matches!(read("offset = 0.2"), Ok(Carving::Cut { rounds: DEFAULT_ROUNDS, .. })));
+        assert_eq!(read("rounds = 0"), Ok(Carving::Nothing));
     }
 
     fn laid_flat(carved: &CarvedDform) -> usize {
@@ -252,7 +405,7 @@ mod tests {
         // Cut so deep, whole pieces are cut away.
         for (row, pieces) in [(1, 3), (2, 5)] {
             let matching = MatchingChoice::Row(row);
-            let params = DformParams { matching, rounds: 2, ..DformParams::default() };
+            let params = DformParams { matching, rounds: Some(2), ..DformParams::default() };
             let deep = DformParams { offset: Some(0.9), ..params.clone() };
             let refused = carve_dform(&solid, &deep, &Silent);
             let Err(MakeError::Dform(DformError::LosesFolds { promised, made, largest, .. })) =
@@ -280,14 +433,18 @@ mod tests {
             let mesh = carve_dform(&solid, &params, &Silent).expect("a D-form").mesh;
             mesh.vertices().map(|v| mesh.position(v)).collect::<Vec<_>>()
         };
-        let usual = DformParams { rounds: 2, offset: Some(0.2), ..DformParams::default() };
+        let usual = DformParams { rounds: Some(2), offset: Some(0.2), ..DformParams::default() };
         let other = [
             DformParams { matching: MatchingChoice::Row(2), ..usual.clone() },
             DformParams { matching: MatchingChoice::Row(1), ..usual.clone() },
-            DformParams { rounds: 1, ..usual.clone() },
+            DformParams { rounds: Some(1), ..usual.clone() },
             DformParams { offset: Some(0.25), ..usual.clone() },
             DformParams { bend: 0.2, ..usual.clone() },
             DformParams { bend: -0.2, ..usual.clone() },
+            DformParams { strips: Some(3), ..DformParams::default() },
+            DformParams { strip: "9deg".parse().ok(), ..DformParams::default() },
+            DformParams { roll: "10mm".parse().ok(), ..DformParams::default() },
+            DformParams { roll: "10mm,5mm".parse().ok(), ..DformParams::default() },
         ];
         let mut seen = vec![corners(usual)];
         for params in other {

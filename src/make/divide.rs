@@ -80,8 +80,8 @@ impl<'a> FoldGraph<'a> {
         Some(Self { polygons, areas, neighbours })
     }
 
-    /// Divides a connected part where a tree of its folds has nearly equal areas on both sides, at a
-    /// fold that is flat only where the others divide too little.
+    /// Divides a connected part where a tree of its folds has nearly equal areas on both sides, at
+    /// a fold that is flat only where the others divide too little.
     fn halve(&self, part: &[usize]) -> (Vec<usize>, Vec<usize>) {
         let tree = self.tree(part);
         let mut below: HashMap<usize, f64> =
@@ -110,7 +110,7 @@ impl<'a> FoldGraph<'a> {
     }
 
     /// A tree over the faces of a part, breadth first from the first one; but what lies in one
-    /// plane hangs together by flat folds.
+    /// plane is connected by flat folds.
     fn tree(&self, part: &[usize]) -> Vec<Branch> {
         let members: HashSet<usize> = part.iter().copied().collect();
         let mut seen = HashSet::new();

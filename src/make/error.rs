@@ -3,9 +3,11 @@
 use super::dform::DformError;
 use super::materials::MaterialError;
 use super::nest_error::NestError;
+use super::outlines_error::OutlinesError;
 use super::panel_error::PanelOptionError;
 use crate::check::CheckError;
 use crate::code::codes;
+use crate::gluing::GluingError;
 use crate::io::IoError;
 use crate::io::planes_csv::PlanesError;
 use crate::mesh::BuildError;
@@ -17,6 +19,7 @@ use crate::select::SelectError;
 use crate::shape::ShapeError;
 use crate::sheet::SheetError;
 use crate::unfold::UnfoldError;
+use crate::units::counted;
 
 /// What stopped the making of a thing, be it a step of a recipe or a verb.
 #[derive(Debug, thiserror::Error)]
@@ -52,6 +55,12 @@ pub enum MakeError {
     /// A D-form cannot be made as asked.
     #[error(transparent)]
     Dform(#[from] DformError),
+    /// Outlines close to no body.
+    #[error(transparent)]
+    Gluing(#[from] GluingError),
+    /// Outlines, options or a gluing file cannot be taken.
+    #[error(transparent)]
+    Outlines(#[from] OutlinesError),
     /// The mesh could not be unfolded.
     #[error(transparent)]
     Unfold(#[from] UnfoldError),
@@ -73,6 +82,18 @@ pub enum MakeError {
     /// A state of folding is no mesh.
     #[error("the pieces cannot be drawn while they fold: {0}; unfold the mesh again")]
     State(BuildError),
+    /// A material that does not fold, and folds.
+    #[error(
+        "{material} does not fold, but the pieces have {}: say how with --fold score or --fold \
+        hinge, or cut every face by itself with --pieces faces",
+        counted(*folds, "fold", "folds")
+    )]
+    RigidFolds {
+        /// What the material is called.
+        material: String,
+        /// How many folds there are.
+        folds: usize,
+    },
     /// The picture could not be drawn.
     #[error(transparent)]
     Picture(#[from] PictureError),
@@ -82,6 +103,7 @@ codes!(error MakeError {
     NoMesh = 711,
     SecondMesh = 712,
     State = 713,
+    RigidFolds = 714,
 } through {
     Io.0,
     Planes.0,
@@ -91,6 +113,8 @@ codes!(error MakeError {
     Seam.0,
     Check.0,
     Dform.0,
+    Gluing.0,
+    Outlines.0,
     Unfold.0,
     Nest.0,
     Sheet.0,

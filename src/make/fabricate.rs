@@ -14,12 +14,19 @@ use crate::mesh::{EdgeId, FaceMap, Mesh};
 use crate::net::{Net, PieceId, Seam};
 use crate::progress::Progress;
 use crate::select::{Context, NewElements, Selection};
-use crate::sheet::{SheetError, SheetParams, SheetSet, lay_out_watched};
+use crate::sheet::{FoldWay, SheetError, SheetParams, SheetSet, lay_out_watched};
 use crate::unfold::{
     FLAT, MeshSource, PiecesMode, Seams, UnfoldParams, check_folded, check_seams, seams_by_angle,
     unfold,
 };
-use crate::units::Angle;
+use crate::units::{Angle, Length};
+
+/// Living hinges are as wide as so many thicknesses, where nothing is said.
+const HINGE: f64 = 10.0;
+
+/// How the seams were chosen, in words.
+const STRIPS: &str = "the strips that the last cut made fold, all other edges open";
+const SELECTED_FOLDS: &str = "all edges but the selected folds open";
 
 /// Which edges open. Without either, marked seams of the file are used; without marks the unfolder
 /// chooses.
@@ -51,6 +58,15 @@ pub struct FabricateParams {
 }
 
 impl FabricateParams {
+    /// Whether the strips of the last cut are the folds, by name or because nothing else was said.
+    pub fn is_of_strips(&self) -> bool {
+        self.folds.as_ref().is_none_or(|folds| folds.to_string() == "strip")
+            && self.seams.is_none()
+            && self.sharp.is_none()
+            && self.keep.is_none()
+            && self.cut.is_none()
+    }
+
     /// The same with a seam file looked for from a folder.
     pub(crate) fn in_folder(&self, folder: &Path) -> Self {
         Self { seams: self.seams.as_ref().map(|seams| seams.in_folder(folder)), ..self.clone() }
@@ -84,6 +100,11 @@ pub struct FabricateSettings<'a> {
 }
 
 impl Fabrication {
+    /// Whether the folds were named, by the user or by the last cut.
+    pub fn is_of_given_folds(&self) -> bool {
+        [STRIPS, SELECTED_FOLDS].contains(&self.seams)
+    }
+
     /// The seams of a model that was unfolded here at which nothing bends: nobody wants them, but
     /// without them faces would overlap, or they were asked for.
     pub(super) fn flat_seams(&self) -> Vec<String> {
@@ -109,13 +130,28 @@ pub fn fabricate(
     progress: &dyn Progress,
 ) -> Result<Fabrication, MakeError> {
     let FabricateSettings { unfold: params, choice, sheet } = *settings;
+    sheet.check_sheets()?;
     let context = Context { mesh, made, progress };
     let keep = selected(&context, choice.keep.as_ref())?;
-    let (mut seams, words) = choose_seams(&context, source, params, choice)?;
+    let (mut seams, mut words) = choose_seams(&context, source, params, choice)?;
     let mut params = params.clone();
+    let is_open = matches!(seams, Seams::Free);
+    let rigid = sheet.stock.made_of.as_ref().filter(|m| m.rigid && sheet.score.fold.is_none());
+    if rigid.is_some() && is_open && params.pieces == PiecesMode::Auto {
+        params.pieces = PiecesMode::Faces;
+        words = "the material does not fold, so every face is a piece; --fold score or --fold \
+            hinge folds it all the same";
+    }
+    let sheet = &with_hinges(sheet);
     let mut divided = 0;
     loop {
         let net = unfold(mesh, &seams, &params, source, progress)?;
+        if let Some(material) = rigid
+            && net.folds.iter().any(|fold| fold.fold_angle.to_radians().abs() > FLAT)
+        {
+            let (material, folds) = (material.title.clone(), net.folds.len());
+            return Err(MakeError::RigidFolds { material, folds });
+        }
         match lay_out_watched(&net, sheet, progress) {
             Ok(sheets) => {
                 check_folded(&net, &keep)?;
@@ -146,6 +182,17 @@ pub fn fabricate(
     }
 }
 
+/// With `--fold hinge`, living hinges as wide as the material wants them, where nothing is said.
+fn with_hinges(sheet: &SheetParams) -> SheetParams {
+    let mut sheet = sheet.clone();
+    if let (Some(FoldWay::Hinge), None, Some(material)) =
+        (sheet.score.fold, sheet.score.hinge, &sheet.stock.made_of)
+    {
+        sheet.score.hinge = Some(Length::from_mm(HINGE * material.thickness.mm()));
+    }
+    sheet
+}
+
 fn choose_seams(
     context: &Context<'_>,
     source: &MeshSource<'_>,
@@ -171,10 +218,7 @@ fn choose_seams(
         && let Some(made) = made
         && strips_reach_every_face(mesh, &made.strip)
     {
-        return Ok((
-            Seams::Folds(made.strip.clone()),
-            "the strips that the last cut made fold, all other edges open",
-        ));
+        return Ok((Seams::Folds(made.strip.clone()), STRIPS));
     }
     if params.pieces == PiecesMode::Auto
         && let Some(folds) = flat_folds::folds(mesh, context.progress)
@@ -213,7 +257,7 @@ fn given_seams(
         let mut edges = folds.edges(context)?;
         edges.extend(keep);
         edges.retain(|e| !cut.contains(e));
-        return Ok(Some((Seams::Folds(edges), "all edges but the selected folds open")));
+        return Ok(Some((Seams::Folds(edges), SELECTED_FOLDS)));
     }
     Ok(match Seams::marked(context.mesh) {
         Seams::Open(marked) => Some((open(marked), "the seams that the file marks open")),

@@ -17,8 +17,8 @@ const CONTRAST: f64 = 4.0;
 const ONE_DULL_EDGE: f64 = 0.8;
 
 /// The folds of a D-form, or `None` when the mesh is none. Of two ways the one with fewer pieces:
-/// the flattest perfect matching, and all edges below the angle that gives the most vertices exactly
-/// one flat edge.
+/// the flattest perfect matching, and all edges below the angle that gives the most vertices
+/// exactly one flat edge.
 pub(super) fn folds(mesh: &Mesh, progress: &dyn Progress) -> Option<Vec<EdgeId>> {
     if !mesh.is_closed() || mesh.vertices().any(|v| mesh.valence(v) != 3) {
         return None;

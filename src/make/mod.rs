@@ -5,35 +5,49 @@
 //! names and bytes. Nothing is printed or written. Verbs, recipes and the gallery call it, and so
 //! can any program.
 
+mod assembly_text;
+mod candidates;
 mod carve;
+mod choices;
 mod dform;
 mod divide;
 mod error;
 mod fabricate;
 mod flat_folds;
+mod glue_file;
 mod materials;
+mod merged_net;
 mod nest;
 mod nest_error;
 mod operate;
+mod outline_source;
+mod outlines;
+mod outlines_error;
 mod outputs;
 mod panel_error;
 mod panels;
+mod picture;
 mod planes;
 mod report_pictures;
 mod seam_choice;
 mod show;
 
 pub use carve::{CarvedDform, carve_dform};
+pub use choices::{FoldChoice, MOST_CHOICES, choices_picture};
 pub use dform::{DformError, DformParams, MatchingChoice, MatchingChoiceError};
 pub use error::MakeError;
 pub use fabricate::{FabricateParams, FabricateSettings, Fabrication, fabricate};
 pub use materials::{MaterialError, material, with_material};
 pub use nest::{NestStep, nest_files};
 pub use nest_error::NestError;
-pub use operate::operate;
+pub use operate::{PiecePromise, operate};
+pub use outlines::{Fit, OutlineParams, OutlinedDform, RimPlace, outline_list, outlined_dform};
+pub use outlines_error::OutlinesError;
 pub use outputs::{Output, fabrication_outputs, sheet_picture};
 pub use panel_error::PanelOptionError;
-pub use panels::{PanelFiles, PanelJob, Panelled, SolidFile, panel_model, panel_outputs};
+pub use panels::{PaneFile, PanelFiles, PanelJob, Panelled, SolidFile, panel_model, panel_outputs};
+pub use picture::PointOut;
+pub(crate) use picture::{before_and_sections, x_ray};
 pub use planes::{PlanesStep, solid_of_planes};
 pub use report_pictures::report_pictures;
 pub use seam_choice::SeamChoice;

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::code::codes;
+use crate::io::artwork::ArtError;
 use crate::io::order_json::OrderError;
 
 /// A file of pieces that could not be taken.
@@ -25,6 +26,22 @@ pub enum NestError {
         /// What is wrong.
         error: OrderError,
     },
+    /// A drawing that could not be read.
+    #[error("{}: {error}", path.display())]
+    Drawing {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        error: ArtError,
+    },
+    /// A drawing without outlines of pieces.
+    #[error("{}: {why}", path.display())]
+    NoOutlines {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        why: String,
+    },
     /// A number of copies out of range.
     #[error("quantity is {quantity}, but must be 1 to 10000")]
     Quantity {
@@ -36,6 +53,8 @@ pub enum NestError {
 codes!(error NestError {
     Unreadable = 721,
     Quantity = 722,
+    NoOutlines = 723,
 } through {
     Order.error,
+    Drawing.error,
 });

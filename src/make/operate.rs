@@ -4,8 +4,10 @@ use std::path::Path;
 
 use super::MakeError;
 use crate::io::read_points;
-use crate::mesh::Mesh;
+use crate::mesh::{EdgeId, Mesh, VertexMap};
 use crate::op::{OpContext, Operate, OperatorOutput};
+use crate::seam::piece_count;
+use crate::select::NewElements;
 
 /// Reads the file of points that the parameters name, if any, relative to `folder`, and carries the
 /// operator out.
@@ -23,4 +25,36 @@ pub fn operate(
         None => None,
     };
     Ok(with_points.as_deref().unwrap_or(params).operate(mesh, context)?)
+}
+
+/// Into how many pieces the strips of edges come apart that were cut off one by one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PiecePromise {
+    /// The pieces that all other edges of the mesh before leave.
+    pub pieces: usize,
+    /// Whether every vertex had one of the edges: the mesh is a D-form, and nothing else.
+    pub is_perfect: bool,
+}
+
+impl PiecePromise {
+    /// What edges promise that were cut. Cutting the strips of the last cut again keeps its promise.
+    /// Nothing is promised where two of the edges meet, since the faces around that vertex need not
+    /// lie flat, and on an open mesh.
+    pub fn of(
+        before: &Mesh,
+        (cut, made): (&[EdgeId], Option<&NewElements>),
+        earlier: Option<Self>,
+    ) -> Option<Self> {
+        if earlier.is_some() && made.is_some_and(|made| made.strip == cut) {
+            return earlier;
+        }
+        let mut folds = VertexMap::filled(before.vertex_slots(), 0_u8);
+        let apart = cut.iter().flat_map(|&e| before.edge_vertices(e)).all(|v| {
+            folds[v] = folds[v].saturating_add(1);
+            folds[v] == 1
+        });
+        let is_perfect = before.vertices().all(|v| before.valence(v) == 3 && folds[v] == 1);
+        (apart && !cut.is_empty() && before.is_closed())
+            .then(|| Self { pieces: piece_count(before, cut), is_perfect })
+    }
 }

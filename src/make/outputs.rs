@@ -1,24 +1,35 @@
 //! What pieces and sheets leave in a folder, as names and bytes; nothing is written here.
 
+use super::assembly_text::assembly_text;
 use super::fabricate::piece_list;
 use super::{Fabrication, MakeError};
+use crate::code::Coded;
 use crate::io::pieces_json::write_pieces_json;
 use crate::io::sheet::files::sheet_files;
 use crate::io::sheet::layout::write_order_layout_json;
+use crate::io::sheet::page::{SheetPage, sheets_html};
+use crate::mesh::Mesh;
 use crate::net::EdgeLabel;
 use crate::picture::{PictureError, Polyline, StrokeLayer, Strokes, render_sheet};
-use crate::sheet::{Drawing, JointFallback, JointReport, LayerKind, SheetParams, SheetReport};
+use crate::sheet::{
+    Drawing, JointFallback, JointReport, LayerKind, SheetFinding, SheetParams, SheetReport, Style,
+};
 use crate::units::counted;
 
 /// A file to be written: its name in the folder, and its bytes.
 pub type Output = (String, Vec<u8>);
 
-/// Pieces, layout and sheets; the pieces only when no sheets were asked for.
+/// Width of the picture of a sheet, in pixels.
+const SHEET_PICTURE: u32 = 1200;
+
+/// Pieces, layout and sheets with a picture of each and a page to look at them all; the pieces only
+/// when no sheets were asked for. `model` is the mesh in mm that was unfolded, where there is one.
 ///
 /// # Errors
-/// [`MakeError`] when a sheet cannot be tiled.
+/// [`MakeError`] when a sheet cannot be tiled or drawn.
 pub fn fabrication_outputs(
     fabrication: &Fabrication,
+    model: Option<&Mesh>,
     sheet: &SheetParams,
     command: &str,
 ) -> Result<Vec<Output>, MakeError> {
@@ -28,21 +39,33 @@ pub fn fabrication_outputs(
         let layout =
             write_order_layout_json(&fabrication.sheets.layout, &fabrication.sources, command);
         outputs.push(("layout.json".to_owned(), layout.into_bytes()));
-        outputs.push(("assembly.txt".to_owned(), assembly_text(fabrication, command).into_bytes()));
+        let text = assembly_text(fabrication, sheet.letter.labels, command);
+        outputs.push(("assembly.txt".to_owned(), text.into_bytes()));
+        let page =
+            SheetPage { net: &fabrication.net, sheets: &fabrication.sheets, model, params: sheet };
+        outputs.push(("sheets.html".to_owned(), sheets_html(&page, command).into_bytes()));
     }
     outputs.extend(sheet_files(&fabrication.sheets.drawings, sheet, command)?);
+    for drawing in &fabrication.sheets.drawings {
+        let picture = sheet_picture(drawing, &sheet.style(), SHEET_PICTURE)?;
+        outputs.push((format!("{}.png", drawing.file_stem()), picture));
+    }
     Ok(outputs)
 }
 
-/// A PNG of a sheet, in the colours of the default preset.
+/// A PNG of a sheet in the colours of its style, parts tinted.
 ///
 /// # Errors
 /// [`PictureError`] for a size that cannot be drawn.
-pub fn sheet_picture(drawing: &Drawing, width: u32) -> Result<Vec<u8>, PictureError> {
+pub fn sheet_picture(
+    drawing: &Drawing,
+    style: &Style,
+    width: u32,
+) -> Result<Vec<u8>, PictureError> {
     let layers = drawing.layers.iter().map(|layer| StrokeLayer {
         name: layer.kind.name().to_owned(),
-        colour: screen_colour(layer.kind),
-        width_mm: 0.1,
+        colour: style.pen(layer.kind).colour,
+        width_mm: style.pen(layer.kind).width,
         polylines: layer
             .marks
             .iter()
@@ -56,16 +79,6 @@ pub fn sheet_picture(drawing: &Drawing, width: u32) -> Result<Vec<u8>, PictureEr
     Ok(render_sheet(&strokes, width)?.to_png())
 }
 
-fn screen_colour(kind: LayerKind) -> [u8; 3] {
-    match kind {
-        LayerKind::Engrave => [40, 40, 40],
-        LayerKind::Score => [40, 80, 220],
-        LayerKind::CutInner => [230, 90, 0],
-        LayerKind::CutOuter => [220, 0, 0],
-        LayerKind::Info => [150, 150, 150],
-    }
-}
-
 impl Fabrication {
     /// What the user should know about pieces and sheets.
     pub fn notes(&self) -> Vec<String> {
@@ -75,8 +88,27 @@ impl Fabrication {
         notes.extend(fold_notes(report));
         notes.extend(contour_notes(report));
         notes.extend(layout_notes(report));
+        notes.extend(info_notes(report));
         notes.extend(joint_notes(&report.joints));
         notes
+    }
+
+    /// What breaks a limit of the material, with its code and what to do.
+    pub fn findings(&self) -> Vec<String> {
+        let near = self.sheets.report.near_scores.as_ref();
+        let text = near.map(|near| {
+            let code = SheetFinding::NearScores.code();
+            let pairs = counted(near.pairs, "pair of folds is", "pairs of folds are");
+            let short = |mm: f64| (mm * 100.0).round() / 100.0;
+            let (least, limit) = (short(near.least), short(near.limit));
+            format!(
+                "finding {code}: {pairs} scored nearer than {limit} mm, the nearest {least} mm, on \
+                {}; fewer rounds, a larger model or --hinge {}mm give it room",
+                piece_list(&near.pieces),
+                short(2.0 * limit)
+            )
+        });
+        text.into_iter().collect()
     }
 
     fn piece_notes(&self) -> Vec<String> {
@@ -173,7 +205,34 @@ fn layout_notes(report: &SheetReport) -> impl Iterator<Item = String> {
     let shared = note(usize::from(shared > 0.0), || {
         format!("{shared} mm of cuts are shared by two parts and cut once")
     });
-    [stopped, spacing, shared].into_iter().flatten()
+    let widened = note(report.widened_pieces.len(), || {
+        format!(
+            "lines of pieces cross, so that they take more room on the sheet, and no other lies in \
+            their holes: {}",
+            piece_list(&report.widened_pieces)
+        )
+    });
+    [stopped, spacing, shared, widened].into_iter().flatten()
+}
+
+/// What the info layer lacks.
+fn info_notes(report: &SheetReport) -> impl Iterator<Item = String> {
+    let lacks = |count: usize, what: &str| {
+        let sheets = counted(count, "sheet has", "sheets have");
+        note(count, || {
+            format!(
+                "{sheets} no room for {what} and {} without",
+                if count == 1 { "is" } else { "are" }
+            )
+        })
+    };
+    let reference = lacks(report.sheets_without_reference, "a reference square");
+    let legend = lacks(report.sheets_without_legend, "the whole legend");
+    let labels = note(report.unlabelled_lines, || {
+        let lines = counted(report.unlabelled_lines, "line", "lines");
+        format!("no room for the labels of {lines} on the info layer")
+    });
+    [reference, legend, labels].into_iter().flatten()
 }
 
 /// What became of the joints, in words for the user.
@@ -247,29 +306,6 @@ fn edge_list(edges: &[EdgeLabel]) -> String {
         edges.iter().take(LISTED).map(ToString::to_string).collect::<Vec<_>>().join(", ");
     if edges.len() > LISTED {
         text += ", …";
-    }
-    text
-}
-
-/// The order in which seams are closed, for people: one line a step, then the edges behind every
-/// number.
-fn assembly_text(fabrication: &Fabrication, command: &str) -> String {
-    let assembly = &fabrication.sheets.assembly;
-    let mut text = format!("{command}\n\n");
-    for (i, step) in assembly.steps.iter().enumerate() {
-        let [a, b] = assembly.stretches[step.number - 1].pieces;
-        let what = match step.attaches {
-            Some(piece) => format!("attach {piece} to {}", if piece == a { b } else { a }),
-            None if a == b => format!("close {a}"),
-            None => format!("close {a} to {b}"),
-        };
-        text += &format!("step {}: {what} along seam {}\n", i + 1, step.number);
-    }
-    text += "\n";
-    for stretch in &assembly.stretches {
-        let edges: Vec<String> =
-            stretch.seams.iter().map(|&(s, _)| fabrication.net.seams[s].id.to_string()).collect();
-        text += &format!("seam {}: {}\n", stretch.number, edges.join(" "));
     }
     text
 }

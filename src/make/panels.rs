@@ -6,10 +6,12 @@ use serde::Deserialize;
 use super::outputs::Output;
 use super::panel_error::PanelOptionError;
 use super::{Fabrication, MakeError, fabrication_outputs};
-use crate::check::short;
+use crate::check::{FlatNeighbours, short};
 use crate::io::map_files::{map_pdf, map_svg};
 use crate::io::panels_csv::{cutting_list_csv, edges_csv, nodes_csv, panels_csv};
 use crate::io::panels_json::panels_json;
+use crate::io::panels_xlsx::panels_xlsx;
+use crate::io::panes::{Pane, is_bevelled, pane_drawings, pane_dxf, panes_pdf};
 use crate::io::plates::{NamedPlate, plates_glb, plates_obj, plates_stl};
 use crate::io::step::step_bytes;
 use crate::mesh::Mesh;
@@ -20,7 +22,8 @@ use crate::panel::{
 };
 use crate::progress::Progress;
 use crate::sheet::{
-    Joint, JointParams, Labels, LetterParams, PieceKind, SheetParams, lay_out_watched,
+    Joint, JointParams, Labels, LetterParams, Mark, MarkKind, PieceKind, PlateSide, SheetParams,
+    SheetSet, Stroke, lay_out_watched,
 };
 use crate::unfold::MeshSource;
 use crate::units::Length;
@@ -38,6 +41,27 @@ pub struct PanelFiles {
     )]
     #[serde(default = "all_solids")]
     pub solids: Vec<SolidFile>,
+    /// Dimensioned drawings of the panes, separated by commas: pdf (panes.pdf, a page for each), dxf
+    /// (pane-P01.dxf, …, at true size); or none
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "LIST", default_value = "pdf")]
+    #[serde(default = "usual_drawings")]
+    pub drawings: Vec<PaneFile>,
+}
+
+/// A dimensioned drawing of panes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, ValueEnum, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PaneFile {
+    /// No drawing.
+    None,
+    /// `panes.pdf`: one page for each pane.
+    Pdf,
+    /// `pane-P01.dxf`: one file for each pane, at true size.
+    Dxf,
+}
+
+fn usual_drawings() -> Vec<PaneFile> {
+    vec![PaneFile::Pdf]
 }
 
 /// A 3D file of plates.
@@ -62,7 +86,7 @@ fn all_solids() -> Vec<SolidFile> {
 
 impl Default for PanelFiles {
     fn default() -> Self {
-        Self { solids: all_solids() }
+        Self { solids: all_solids(), drawings: usual_drawings() }
     }
 }
 
@@ -91,6 +115,8 @@ pub struct Panelled {
     pub fabrication: Fabrication,
     /// What 3D files are wanted.
     pub files: PanelFiles,
+    /// Faces that lie flat beside each other, which would better be one panel.
+    pub flat: FlatNeighbours,
 }
 
 /// Makes the plates of a mesh in millimetres, lists them and lays them out on sheets. Without a
@@ -113,9 +139,35 @@ pub fn panel_model(
     let findings = panel_findings(mesh, &plates, params);
     let net = panel_net(mesh, &plates, source.scale, source.split_vertices);
     progress.report("sheets", 0, 0);
-    let sheets = lay_out_watched(&net, &bare(job.sheet), progress)?;
+    let mut sheets = lay_out_watched(&net, &bare(job.sheet), progress)?;
+    add_sides(&mut sheets, &plates);
     let fabrication = Fabrication { net, sheets, seams: "", divided: 0, sources: Vec::new() };
-    Ok(Panelled { plates, schedule, findings, fabrication, files: job.files.clone() })
+    let (files, flat) = (job.files.clone(), FlatNeighbours::of(mesh));
+    Ok(Panelled { plates, schedule, findings, fabrication, files, flat })
+}
+
+/// The outlines of both sides of bevelled plates, where they lie on the sheets.
+fn add_sides(sheets: &mut SheetSet, plates: &Plates) {
+    for (drawing, sheet) in sheets.drawings.iter_mut().zip(&sheets.layout.sheets) {
+        for placed in &sheet.placed {
+            let plate = &plates.plates[placed.piece.0];
+            if !is_bevelled(plate) {
+                continue;
+            }
+            let outlines = [(PlateSide::Front, &plate.front), (PlateSide::Back, &plate.back)];
+            for (side, outline) in outlines {
+                let points = placed.apply_all(outline);
+                let word = if side == PlateSide::Front { "front" } else { "back" };
+                let mark = Mark {
+                    id: format!("{}-{word}", placed.piece),
+                    kind: MarkKind::Note,
+                    piece: Some(placed.piece),
+                    strokes: vec![Stroke { points, closed: true }],
+                };
+                drawing.sides.push((side, mark));
+            }
+        }
+    }
 }
 
 fn thickness(sheet: &SheetParams) -> Result<Length, PanelOptionError> {
@@ -176,12 +228,14 @@ fn bare(sheet: &SheetParams) -> SheetParams {
     }
 }
 
-/// Everything that is written of a panelled model: schedule, map, 3D files, pieces and sheets.
+/// Everything that is written of a panelled model, a mesh in mm: schedule, map, 3D files, pieces
+/// and sheets.
 ///
 /// # Errors
 /// [`MakeError::Io`] when a number does not fit into a file.
 pub fn panel_outputs(
     panelled: &Panelled,
+    mesh: &Mesh,
     sheet: &SheetParams,
     command: &str,
 ) -> Result<Vec<Output>, MakeError> {
@@ -193,6 +247,7 @@ pub fn panel_outputs(
         ("edges.csv".to_owned(), edges_csv(schedule, command).into_bytes()),
         ("nodes.csv".to_owned(), nodes_csv(schedule, command).into_bytes()),
         ("cutting-list.csv".to_owned(), cutting_list_csv(schedule, command).into_bytes()),
+        ("schedule.xlsx".to_owned(), panels_xlsx(schedule, plates, layout, command)?),
         (
             "panels.json".to_owned(),
             panels_json(schedule, plates, layout, findings, command).into_bytes(),
@@ -201,8 +256,29 @@ pub fn panel_outputs(
         ("assembly-map.pdf".to_owned(), map_pdf(&map, command)),
     ];
     outputs.extend(solid_files(panelled, command)?);
-    outputs.extend(fabrication_outputs(fabrication, &bare(sheet), command)?);
+    outputs.extend(pane_files(panelled, sheet, command));
+    outputs.extend(fabrication_outputs(fabrication, Some(mesh), &bare(sheet), command)?);
     Ok(outputs)
+}
+
+/// The dimensioned drawings that were asked for.
+fn pane_files(panelled: &Panelled, sheet: &SheetParams, command: &str) -> Vec<Output> {
+    let title = sheet.files.title.as_deref().unwrap_or_default();
+    let wants = |file: PaneFile| panelled.files.drawings.contains(&file);
+    if !wants(PaneFile::Pdf) && !wants(PaneFile::Dxf) {
+        return Vec::new();
+    }
+    let panes = pane_drawings(&panelled.schedule, &panelled.plates, title);
+    let mut outputs = Vec::new();
+    if wants(PaneFile::Pdf) {
+        outputs.push(("panes.pdf".to_owned(), panes_pdf(&panes, command)));
+    }
+    if wants(PaneFile::Dxf) {
+        let dxf =
+            |pane: &Pane| (format!("pane-{}.dxf", pane.name), pane_dxf(pane, command).into_bytes());
+        outputs.extend(panes.iter().map(dxf));
+    }
+    outputs
 }
 
 /// The 3D files of the plates. No body is written that is not closed.
@@ -254,7 +330,7 @@ impl Panelled {
     /// What the user should know about the plates and their sheets.
     pub fn notes(&self) -> Vec<String> {
         let plates = &self.plates;
-        let mut notes = Vec::new();
+        let mut notes: Vec<String> = self.flat.proposal().into_iter().collect();
         let mut note = |count: usize, text: &str| {
             if count > 0 {
                 notes.push(format!("{count} {text}"));

@@ -10,6 +10,7 @@ use clap::ValueEnum;
 use glam::{DQuat, DVec2, DVec3};
 use serde::{Deserialize, Deserializer};
 
+use super::assembly_text::Engraved;
 use super::outputs::Output;
 use super::{Fabrication, MakeError};
 use crate::bloom::{Bloom, FlatPlace, FoldTree, Leaf, Pose, state_mesh};
@@ -20,7 +21,7 @@ use crate::measure::face_area;
 use crate::mesh::{FaceId, Mesh};
 use crate::net::{EdgeLabel, Net};
 use crate::picture::{Cell, Colour, RenderParams, UpAxis, render_strip};
-use crate::sheet::{Assembly, AssemblyStep, Layout, assembly_of};
+use crate::sheet::{Assembly, AssemblyStep, Labels, Layout};
 
 /// Moments of a strip of the animation, in seconds: flat, five of folding, two of moving.
 const MOMENTS: [f64; 8] = [0.0, 1.2, 1.9, 2.6, 3.3, 4.0, 5.0, 6.0];
@@ -40,8 +41,8 @@ pub struct ShowParams {
     #[arg(long, value_name = "FILE")]
     #[serde(default)]
     pub animate: Option<AnimationFile>,
-    /// How the order of assembly is shown: as a list, or as pictures too (assembly-01.png, …, twelve
-    /// steps each)
+    /// How the order of assembly is shown: as a list, or as pictures too (assembly-01.png, …,
+    /// twelve steps each)
     #[arg(long, value_enum, default_value = "list")]
     #[serde(default)]
     pub assembly: AssemblyForm,
@@ -123,15 +124,15 @@ impl ShowParams {
     }
 }
 
-/// The files that were asked for. `mesh` is the one that was unfolded, in mm; `render` says how
-/// pictures look.
+/// The files that were asked for. `mesh` is the one that was unfolded, in mm; `labels` is what is
+/// engraved, and `render` says how pictures look.
 ///
 /// # Errors
 /// [`MakeError`] when a picture cannot be drawn, or a number does not fit into the file.
 pub fn show_outputs(
     fabrication: &Fabrication,
     mesh: &Mesh,
-    show: &ShowParams,
+    (show, labels): (&ShowParams, Labels),
     render: &RenderParams,
     command: &str,
 ) -> Result<Vec<Output>, MakeError> {
@@ -148,7 +149,7 @@ pub fn show_outputs(
         outputs.push((name, bytes));
     }
     if show.assembly == AssemblyForm::Pictures {
-        outputs.extend(assembly_pictures(&fabrication.net, mesh, &render)?);
+        outputs.extend(assembly_pictures(fabrication, labels, mesh, &render)?);
     }
     Ok(outputs)
 }
@@ -194,24 +195,24 @@ fn strip_of(bloom: &Bloom<'_>, render: &RenderParams) -> Result<Vec<u8>, MakeErr
     Ok(render_strip(&cells, COLUMNS as u32, render)?.to_png())
 }
 
-/// Pages of pictures: what is assembled by then, what the step joins in another colour, open edges
+/// Pages of pictures: what is assembled by then, what the step moves in another colour, open edges
 /// marked.
 fn assembly_pictures(
-    net: &Net,
+    fabrication: &Fabrication,
+    labels: Labels,
     mesh: &Mesh,
     render: &RenderParams,
 ) -> Result<Vec<Output>, MakeError> {
-    let assembly = assembly_of(net);
-    let mut bench = Bench::new(net, mesh, &assembly);
+    let assembly = &fabrication.sheets.assembly;
+    let engraved = Engraved::new(fabrication, labels);
+    let mut bench = Bench::new(&fabrication.net, mesh, assembly);
     let mut view = Turntable::new(mesh, render)?;
     let mut outputs = Vec::new();
-    for (page, steps) in (1..).zip(assembly.steps.chunks(PAGE)) {
+    for (page, groups) in (1..).zip(assembly.together().chunks(PAGE)) {
         let mut cells = Vec::new();
-        for (step, number) in steps.iter().zip((page - 1) * PAGE + 1..) {
-            let label = step
-                .attaches
-                .map_or_else(|| number.to_string(), |piece| format!("{number} {piece}"));
-            let mut mesh = bench.close(step)?;
+        for (steps, number) in groups.iter().zip((page - 1) * PAGE + 1..) {
+            let label = format!("{number}  {}", engraved.label(steps));
+            let mut mesh = bench.close(steps)?;
             view.turn(&mut mesh);
             cells.push(Cell { mesh, label });
         }
@@ -301,30 +302,36 @@ impl<'a> Bench<'a> {
         Self { assembly, mesh, tree, is_held, closed: BTreeSet::new(), used: BTreeSet::new() }
     }
 
-    /// Closes a stretch and looks at the body that it belongs to.
-    fn close(&mut self, step: &AssemblyStep) -> Result<Mesh, MakeError> {
+    /// Closes some stretches and looks at the body that the last belongs to.
+    fn close(&mut self, steps: &[AssemblyStep]) -> Result<Mesh, MakeError> {
         let net = self.tree.net();
-        let stretch = &self.assembly.stretches[step.number - 1];
         let places: HashMap<_, usize> =
             net.pieces.iter().enumerate().map(|(i, p)| (p.id, i)).collect();
-        self.used.extend(stretch.pieces.iter().filter_map(|id| places.get(id)));
+        let before = self.poses();
         let mut touched = BTreeSet::new();
-        for &(s, _) in &stretch.seams {
-            let seam = &net.seams[s];
-            self.closed.insert(seam.id);
-            let [Some(a), Some(b)] = [0, 1].map(|k| self.tree.place_of(seam.sides[k].face)) else {
-                continue;
-            };
-            touched.extend([a, b]);
-            for leaf in self.tree.way(a, b).into_iter().flatten() {
-                self.is_held[leaf] = true;
+        for step in steps {
+            let stretch = &self.assembly.stretches[step.number - 1];
+            self.used.extend(stretch.pieces.iter().filter_map(|id| places.get(id)));
+            for &(s, _) in &stretch.seams {
+                let seam = &net.seams[s];
+                self.closed.insert(seam.id);
+                let [Some(a), Some(b)] = [0, 1].map(|k| self.tree.place_of(seam.sides[k].face))
+                else {
+                    continue;
+                };
+                touched.extend([a, b]);
+                for leaf in self.tree.way(a, b).into_iter().flatten() {
+                    self.is_held[leaf] = true;
+                }
             }
         }
-        let attached = step.attaches.and_then(|id| places.get(&id).copied());
-        self.look(&touched, attached)
+        let attached = steps.iter().find_map(|s| s.attaches);
+        let attached = attached.and_then(|id| places.get(&id).copied());
+        self.look(&touched, attached, &before)
     }
 
-    fn look(&self, touched: &BTreeSet<usize>, attached: Option<usize>) -> Result<Mesh, MakeError> {
+    /// Where every leaf lies by now.
+    fn poses(&self) -> Vec<Pose> {
         let corners = corners(self.mesh);
         let root = |leaf: &Leaf| {
             let face = self.tree.flat(leaf);
@@ -332,7 +339,30 @@ impl<'a> Bench<'a> {
                 .and_then(|points| Pose::fit(&face.polygon, &points))
                 .unwrap_or(Pose::IDENTITY)
         };
-        let poses = self.tree.poses(root, |leaf, _| if self.is_held[leaf] { 1.0 } else { LOOSE });
+        self.tree.poses(root, |leaf, _| if self.is_held[leaf] { 1.0 } else { LOOSE })
+    }
+
+    /// The leaves that lie elsewhere than before by more than rounding.
+    fn moved(&self, before: &[Pose], now: &[Pose]) -> BTreeSet<usize> {
+        let (low, high) = self.mesh.bounds().unwrap_or_default();
+        let least = 1e-6 * low.distance(high);
+        let has_moved = |&i: &usize| {
+            let flat = &self.tree.flat(&self.tree.leaves()[i]).polygon;
+            flat.iter().any(|&p| before[i].lift(p).distance(now[i].lift(p)) > least)
+        };
+        (0..now.len()).filter(has_moved).collect()
+    }
+
+    fn look(
+        &self,
+        touched: &BTreeSet<usize>,
+        attached: Option<usize>,
+        before: &[Pose],
+    ) -> Result<Mesh, MakeError> {
+        let poses = self.poses();
+        let moved = self.moved(before, &poses);
+        // What closes without moving is shown by the faces at its seam.
+        let moving = if moved.is_empty() { touched } else { &moved };
         let leaves = self.tree.leaves();
         let body = touched.first().map(|&leaf| leaves[leaf].root);
         let is_new = |leaf: &Leaf| match attached {
@@ -340,7 +370,7 @@ impl<'a> Bench<'a> {
             None => self
                 .tree
                 .place_of(self.tree.flat(leaf).face)
-                .is_some_and(|place| touched.contains(&place)),
+                .is_some_and(|place| moving.contains(&place)),
         };
         let group = |leaf: &Leaf| {
             let is_shown = Some(leaf.root) == body && self.used.contains(&leaf.piece);
@@ -390,12 +420,12 @@ mod tests {
                 &silent,
             );
             let net = net.expect("a net");
-            let assembly = assembly_of(&net);
+            let assembly = crate::sheet::assembly_of(&net);
             let mut bench = Bench::new(&net, &mesh, &assembly);
             let mut open = usize::MAX;
             let mut last = None;
             for step in &assembly.steps {
-                let state = bench.close(step).expect("a state");
+                let state = bench.close(std::slice::from_ref(step)).expect("a state");
                 crate::mesh::assert_sound(&state);
                 assert!(state.faces().any(|f| state.group(f) == Some("new")));
                 let rims = state.edges().filter(|&e| state.is_rim(e)).count();

@@ -1,8 +1,10 @@
 //! What a caller of an operator can mend.
 
+use super::roll::RollError;
 use crate::code::codes;
 use crate::geom::hull::{HalfSpaceError, HullError};
 use crate::mesh::{BuildError, EdgeId, FaceId, FileFault, VertexId};
+use crate::panelize::PanelizeError;
 use crate::select::SelectError;
 
 /// Why an operator refused; no mesh was made.
@@ -12,6 +14,9 @@ pub enum OpError {
     /// The selection could not be read on this mesh.
     #[error(transparent)]
     Select(#[from] SelectError),
+    /// Edges that cannot be rolled as asked.
+    #[error(transparent)]
+    Roll(#[from] RollError),
     /// The offset is not in (0, 2].
     #[error(
         "the offset is {offset}, but it must be above 0 (the element itself) and at most 2 (1 is \
@@ -292,6 +297,36 @@ pub enum OpError {
         /// A vertex of the cavity, of the mesh before the cuts.
         vertex: VertexId,
     },
+    /// A tolerance that no distance can keep.
+    #[error("the tolerance is {tolerance} mm, but it must be 0 or more and finite")]
+    ToleranceOutOfRange {
+        /// What was given, in mm.
+        tolerance: f64,
+    },
+    /// Too few faces for any solid.
+    #[error("{faces} faces were asked for, but a solid has at least 4")]
+    TooFewFaces {
+        /// What was asked for.
+        faces: usize,
+    },
+    /// No smaller surface keeps what was asked for.
+    #[error(
+        "no smaller surface was found in {tries} tries: fewer faces would tear it or move it too \
+        far; ask for more faces or allow more deviation"
+    )]
+    NotSimplified {
+        /// How often it was tried.
+        tries: usize,
+    },
+    /// Holes to close have no width.
+    #[error("holes of {mm} mm cannot be closed; --close-holes takes a length above 0 mm")]
+    HoleOutOfRange {
+        /// What was given, in mm.
+        mm: f64,
+    },
+    /// [`crate::panelize`] refused.
+    #[error(transparent)]
+    Panelize(#[from] PanelizeError),
     /// The user asked to stop.
     #[error("stopped before the end; nothing was written")]
     Cancelled,
@@ -330,11 +365,17 @@ codes!(error OpError {
     DoesNotFit = 330,
     NotSimple = 331,
     CavityLaidOpen = 332,
+    ToleranceOutOfRange = 350,
+    HoleOutOfRange = 351,
+    TooFewFaces = 352,
+    NotSimplified = 353,
 } through {
     Select.0,
+    Roll.0,
     NoHull.reason,
     HalfSpaces.reason,
     Build.0,
+    Panelize.0,
 });
 
 fn first_few(elements: &[usize]) -> String {

@@ -18,6 +18,14 @@ pub enum OpFinding {
     FacesCross,
     /// [`super::planarize`] made corners of faces too sharp for any material.
     NeedleCorners,
+    /// [`super::planarize`] moved vertices by more than a tenth of their edges.
+    MovedFar,
+    /// [`super::planarize`] made convex faces concave.
+    MadeConcave,
+    /// [`super::planarize`] made corners sharper than a plate may have them.
+    MadeSharp,
+    /// Faces of [`super::simplify`] go through each other.
+    SimplifiedCrosses,
 }
 
 codes!(finding OpFinding {
@@ -27,4 +35,8 @@ codes!(finding OpFinding {
     HandleCrosses = 504,
     FacesCross = 505,
     NeedleCorners = 506,
+    MovedFar = 507,
+    MadeConcave = 508,
+    MadeSharp = 509,
+    SimplifiedCrosses = 510,
 });

@@ -2,18 +2,23 @@
 
 mod cavity;
 mod cut;
+mod divide;
 mod error;
 mod finding;
 mod handle;
 mod hull;
 mod menger;
+mod merge;
 mod operate;
 mod planarize;
+mod repair;
 mod report;
 mod resolve;
 mod rind;
+mod roll;
 mod sierpinski;
 mod simple;
+mod simplify;
 mod size;
 mod slice;
 mod subdivide;
@@ -34,15 +39,22 @@ pub use hull::{
     hull,
 };
 pub use menger::{MengerParams, MengerReport, RoundCrossing, Thickness, menger};
+pub use merge::{MergeParams, MergeReport, merge};
 pub use operate::{Operate, OperatorOutput};
-pub use planarize::{Needle, PlanarizeParams, PlanarizeReport, RimRule, planarize};
+pub use planarize::{FarMove, Needle, PlanarizeParams, PlanarizeReport, RimRule, planarize};
+pub use repair::{RepairParams, RepairReport, repair};
 pub use report::{CutReport, Origins, ShrunkOffset};
 pub use resolve::{ResolveParams, ResolveReport, resolve};
 pub use rind::{GroupThickness, RindParams, RindReport, ShellSource, rind};
+pub use roll::{
+    Place, Roll, RollError, RollLimit, RollParams, RollWordError, RolledEdge, StripSize,
+    StripWordError, largest_roll,
+};
 pub use sierpinski::{
     SierpinskiParams, SierpinskiReport, VertexKind, sierpinski, sierpinski_preview, vertex_kind,
 };
 pub use simple::Mended;
+pub use simplify::{SimplifyParams, SimplifyReport, simplify};
 pub use slice::{Keep, SliceParams, slice, slice_both};
 pub use subdivide::{Scheme, SubdivideParams, SubdivideReport, subdivide};
 pub use truncate::{Disjoint, OpContext, Scope};

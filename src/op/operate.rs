@@ -7,13 +7,14 @@ use std::path::Path;
 use glam::DVec3;
 
 use super::{
-    CutReport, HandleAxis, HandleParams, HullParams, MengerParams, OpContext, OpError,
-    PlanarizeParams, ResolveParams, RindParams, SierpinskiParams, SliceParams, SubdivideParams,
-    TruncateEdgeParams, TruncateFaceParams, TruncateVertexParams, handle, hull, menger, planarize,
-    resolve, rind, sierpinski, sierpinski_preview, slice, subdivide, truncate_edges,
-    truncate_faces, truncate_vertices,
+    CutReport, HandleAxis, HandleParams, HullParams, MengerParams, MergeParams, OpContext, OpError,
+    PlanarizeParams, RepairParams, ResolveParams, RindParams, SierpinskiParams, SimplifyParams,
+    SliceParams, SubdivideParams, TruncateEdgeParams, TruncateFaceParams, TruncateVertexParams,
+    handle, hull, menger, merge, planarize, repair, resolve, rind, sierpinski, sierpinski_preview,
+    simplify, slice, subdivide, truncate_edges, truncate_faces, truncate_vertices,
 };
-use crate::mesh::Mesh;
+use crate::mesh::{EdgeId, Mesh};
+use crate::panelize::{PanelizeParams, panelize};
 use crate::select::NewElements;
 
 /// What an operator made of a mesh.
@@ -26,9 +27,18 @@ pub struct OperatorOutput {
     pub made: Option<NewElements>,
     /// What the user should know, in words.
     pub notes: Vec<String>,
+    /// For cuts of edges those edges, of the mesh before: the folds, should it become a D-form.
+    pub cut_edges: Vec<EdgeId>,
     /// Whether the operator reached what was asked for; if not, the notes say what is missing, and
     /// the command line ends with 1.
     pub is_clean: bool,
+}
+
+impl OperatorOutput {
+    /// Reached, and nothing said about what was made.
+    fn new(mesh: Mesh, notes: Vec<String>) -> Self {
+        Self { mesh, made: None, notes, cut_edges: Vec::new(), is_clean: true }
+    }
 }
 
 /// The parameters of an operator that takes one mesh and makes one.
@@ -75,7 +85,8 @@ macro_rules! cuts {
             fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
                 let (mesh, report) = $operator(mesh, self, context)?;
                 let notes = report.notes($element);
-                Ok(OperatorOutput { mesh, made: Some(report.made), notes, is_clean: true })
+                let CutReport { made, cut_edges, .. } = report;
+                Ok(OperatorOutput { cut_edges, made: Some(made), ..OperatorOutput::new(mesh, notes) })
             }
 
             fn cut(&self, mesh: &Mesh, context: &OpContext<'_>) -> Option<Result<(Mesh, CutReport), OpError>> {
@@ -95,35 +106,67 @@ cuts! {
 impl Operate for HullParams {
     fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
         let (mesh, report) = hull(mesh, self, context)?;
-        Ok(OperatorOutput { mesh, made: None, notes: report.notes(), is_clean: true })
+        Ok(OperatorOutput::new(mesh, report.notes()))
     }
 }
 
 impl Operate for ResolveParams {
     fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
         let (mesh, report) = resolve(mesh, self, context)?;
-        Ok(OperatorOutput { mesh, made: None, notes: report.notes(), is_clean: true })
+        Ok(OperatorOutput::new(mesh, report.notes()))
+    }
+}
+
+impl Operate for MergeParams {
+    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
+        let (mesh, report) = merge(mesh, self, context)?;
+        let notes = report.notes();
+        Ok(OperatorOutput { made: Some(report.made), ..OperatorOutput::new(mesh, notes) })
+    }
+}
+
+impl Operate for RepairParams {
+    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
+        let (mesh, report) = repair(mesh, self, context)?;
+        Ok(OperatorOutput::new(mesh, report.notes()))
+    }
+}
+
+impl Operate for SimplifyParams {
+    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
+        let (mesh, report) = simplify(mesh, self, context)?;
+        let is_clean = report.is_clean();
+        Ok(OperatorOutput { is_clean, ..OperatorOutput::new(mesh, report.notes()) })
     }
 }
 
 impl Operate for PlanarizeParams {
     fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
         let (mesh, report) = planarize(mesh, self, context)?;
-        Ok(OperatorOutput { mesh, made: None, notes: report.notes(), is_clean: report.is_clean() })
+        let notes = report.notes();
+        Ok(OperatorOutput { is_clean: report.is_clean(), ..OperatorOutput::new(mesh, notes) })
+    }
+}
+
+impl Operate for PanelizeParams {
+    fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
+        let (mesh, report) = panelize(mesh, self, context.progress)?;
+        let is_clean = report.is_clean();
+        Ok(OperatorOutput { is_clean, ..OperatorOutput::new(mesh, report.notes()) })
     }
 }
 
 impl Operate for SubdivideParams {
     fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
         let (mesh, report) = subdivide(mesh, self, context)?;
-        Ok(OperatorOutput { mesh, made: None, notes: report.notes(), is_clean: true })
+        Ok(OperatorOutput::new(mesh, report.notes()))
     }
 }
 
 impl Operate for SierpinskiParams {
     fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
         let (mesh, report) = sierpinski(mesh, self, context)?;
-        Ok(OperatorOutput { mesh, made: None, notes: report.notes(), is_clean: true })
+        Ok(OperatorOutput::new(mesh, report.notes()))
     }
 
     fn preview(&self, mesh: &Mesh) -> Vec<String> {
@@ -135,10 +178,9 @@ impl Operate for RindParams {
     fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
         let (mesh, report) = rind(mesh, self, context)?;
         Ok(OperatorOutput {
-            mesh,
-            notes: report.notes(),
             is_clean: report.crossing.is_empty() && report.pairs.is_empty(),
-            made: Some(report.made),
+            made: Some(report.made.clone()),
+            ..OperatorOutput::new(mesh, report.notes())
         })
     }
 }
@@ -147,10 +189,8 @@ impl Operate for MengerParams {
     fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
         let (mesh, report) = menger(mesh, self, context)?;
         Ok(OperatorOutput {
-            mesh,
-            made: None,
-            notes: report.notes(),
             is_clean: report.crossing.is_empty() && report.pairs.is_empty(),
+            ..OperatorOutput::new(mesh, report.notes())
         })
     }
 }
@@ -159,10 +199,9 @@ impl Operate for HandleParams {
     fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
         let (mesh, report) = handle(mesh, self, context)?;
         Ok(OperatorOutput {
-            mesh,
-            notes: report.notes(),
             is_clean: report.crossing.is_empty() && report.pairs.is_empty(),
-            made: Some(report.made),
+            made: Some(report.made.clone()),
+            ..OperatorOutput::new(mesh, report.notes())
         })
     }
 

@@ -1,11 +1,15 @@
 //! What a chain of cuts made and removed.
 
+use super::OpError;
 use super::cut::{Cutter, Lineage};
-use super::simple::part_rims;
+use super::roll::{RollLimit, RolledEdge};
+use super::simple::keep_cut_simple;
 use crate::code::Code;
-use crate::measure::{CrossingKind, CrossingPair};
-use crate::mesh::{FaceId, Mesh, Renumbering, VertexId};
+use crate::measure::{CrossingKind, CrossingPair, crossings_while};
+use crate::mesh::{EdgeId, FaceId, Mesh, Renumbering, VertexId};
+use crate::progress::Progress;
 use crate::select::NewElements;
+use crate::units::counted;
 
 /// The first of a list as a note names them; dots stand for the rest.
 pub(super) fn first_few<T: ToString>(list: &[T], most: usize) -> String {
@@ -23,7 +27,19 @@ pub struct ShrunkOffset {
 }
 
 /// As many pairs of faces as a report may hold; more say nothing new.
-pub(super) const MOST_PAIRS: usize = 1000;
+const MOST_PAIRS: usize = 1000;
+
+/// The pairs of faces of a result that go through each other, as many as a report may hold.
+///
+/// # Errors
+/// [`OpError::Cancelled`].
+pub(super) fn crossing_pairs(
+    mesh: &Mesh,
+    progress: &dyn Progress,
+) -> Result<Vec<CrossingPair>, OpError> {
+    progress.report("looking for crossings", 0, 1);
+    crossings_while(mesh, MOST_PAIRS, &|| !progress.is_cancelled()).ok_or(OpError::Cancelled)
+}
 
 /// A note on faces that go through each other; `None` without any.
 pub(super) fn crossing_note(pairs: &[CrossingPair], code: Code) -> Option<String> {
@@ -77,12 +93,18 @@ pub struct CutReport {
     pub components: usize,
     /// Whether an offset above 1 was used, beyond the far ends of the edges.
     pub is_beyond_far_ends: bool,
+    /// The edges that were chosen to be cut off, of the mesh before; empty for other cuts.
+    pub cut_edges: Vec<EdgeId>,
+    /// The edges that were rolled, ascending.
+    pub rolled: Vec<RolledEdge>,
+    /// What limits their radius, where the largest was asked for.
+    pub roll_limit: Option<RollLimit>,
 }
 
 impl CutReport {
     /// What the user should know, in words; `element` is what was cut: vertex, edge, face or plane.
     pub fn notes(&self, element: &str) -> Vec<String> {
-        let mut notes = Vec::new();
+        let mut notes = roll_notes(&self.rolled, self.roll_limit.as_ref());
         if self.is_beyond_far_ends {
             notes.push(
                 "the offset is above 1: the planes lie beyond the far ends of the edges".to_owned(),
@@ -128,6 +150,46 @@ impl CutReport {
     }
 }
 
+/// What was rolled, in words.
+fn roll_notes(rolled: &[RolledEdge], limit: Option<&RollLimit>) -> Vec<String> {
+    if rolled.is_empty() {
+        return Vec::new();
+    }
+    let range = |values: &mut dyn Iterator<Item = f64>| {
+        let (least, most) =
+            values.fold((f64::INFINITY, 0.0_f64), |(least, most), v| (least.min(v), most.max(v)));
+        let [least, most] = [least, most].map(|v| format!("{v:.2}"));
+        if least == most { least } else { format!("{least} to {most}") }
+    };
+    let strips = rolled.iter().map(|r| r.strips);
+    let [fewest, most] = [strips.clone().min(), strips.max()].map(Option::unwrap_or_default);
+    let strips = if fewest == most { most.to_string() } else { format!("{fewest} to {most}") };
+    let mut notes = vec![format!(
+        "{} rolled with a radius of {} mm, {strips} strips each: {} mm wide and {}° apart; they \
+        touch the faces {} mm from the edge",
+        counted(rolled.len(), "edge", "edges"),
+        range(&mut rolled.iter().flat_map(|r| r.radii)),
+        range(&mut rolled.iter().map(|r| r.width)),
+        range(&mut rolled.iter().map(|r| r.fold_deg)),
+        range(&mut rolled.iter().flat_map(|r| r.touch)),
+    )];
+    notes.extend(limit.map(|limit| {
+        let edges: Vec<String> = limit.edges.iter().map(ToString::to_string).collect();
+        let (rolls, take) = match edges.len() {
+            1 => ("roll of edge", "takes"),
+            _ => ("rolls of edges", "take"),
+        };
+        format!(
+            "the radius {:.2} mm is the largest: of {} the {rolls} {} {take} {:.1} %",
+            limit.radius,
+            limit.place,
+            edges.join(" and "),
+            100.0 * limit.share
+        )
+    }));
+    notes
+}
+
 /// For each face of a mesh the one that it continues of the mesh before all rounds: what is left of
 /// it, or a cap along one of its edges.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -149,8 +211,8 @@ impl Origins {
     pub(super) fn after(&self, cutter: &Cutter, marks: &RoundMarks) -> Self {
         let origin = |i: usize| {
             let lineage = cutter.lineage_of(FaceId::new(i));
-            let strip = marks.strips.binary_search_by_key(&lineage, |s| s.0);
-            let beside = strip.map_or(lineage, |strip| marks.strips[strip].1[0]);
+            let strip = marks.strips.binary_search_by_key(&lineage, |s| s.cap);
+            let beside = strip.map_or(lineage, |strip| marks.strips[strip].origin);
             cutter.face_before(beside).and_then(|f| self.of(f))
         };
         Self((0..cutter.mesh().face_slots()).map(origin).collect())
@@ -173,8 +235,17 @@ impl Origins {
 pub(super) struct RoundMarks {
     /// The caps of the round's cuts.
     pub caps: Vec<Lineage>,
-    /// For each cut of an edge: its cap and the two faces along which the strip runs.
-    pub strips: Vec<(Lineage, [Lineage; 2])>,
+    /// For each cut of an edge its strip.
+    pub strips: Vec<StripMark>,
+}
+
+/// The cap of an edge's cut.
+pub(super) struct StripMark {
+    pub cap: Lineage,
+    /// The two faces along which it runs.
+    pub beside: [Lineage; 2],
+    /// A face of the mesh before the round that it continues.
+    pub origin: Lineage,
 }
 
 impl RoundMarks {
@@ -202,8 +273,8 @@ impl RoundMarks {
     fn runs_along_strip(&self, cutter: &Cutter, faces: [FaceId; 2]) -> bool {
         let [a, b] = faces.map(|f| cutter.lineage_of(f));
         let runs = |cap: Lineage, other: Lineage| {
-            let i = self.strips.binary_search_by_key(&cap, |s| s.0);
-            i.is_ok_and(|i| self.strips[i].1.contains(&other))
+            let i = self.strips.binary_search_by_key(&cap, |s| s.cap);
+            i.is_ok_and(|i| self.strips[i].beside.contains(&other))
         };
         runs(a, b) || runs(b, a)
     }
@@ -213,7 +284,7 @@ impl RoundMarks {
 pub(super) fn finish(mut mesh: Mesh, mut report: CutReport) -> (Mesh, CutReport) {
     let map = report.made.compact(&mut mesh);
     report.origins = report.origins.renumbered(&map, mesh.face_slots());
-    part_rims(&mut mesh, &mut report.made);
+    keep_cut_simple(&mut mesh, &mut report.made);
     report.not_three_valent = mesh.vertices().filter(|&v| mesh.valence(v) != 3).collect();
     report.components = mesh.components().len();
     (mesh, report)

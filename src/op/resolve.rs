@@ -153,6 +153,40 @@ struct Resolving {
     report: ResolveReport,
 }
 
+/// A face before it is moved.
+struct FaceBefore {
+    corners: Vec<VertexId>,
+    /// Where the corners are.
+    places: Vec<DVec3>,
+    /// Where they were at first.
+    origins: Vec<DVec3>,
+    group: Option<String>,
+    /// The neighbours beyond seams.
+    seam_faces: BTreeSet<FaceId>,
+}
+
+impl FaceBefore {
+    fn of(mesh: &Mesh, f: FaceId, origins: &HashMap<VertexId, DVec3>) -> Self {
+        let corners: Vec<VertexId> = mesh.face_vertices(f).collect();
+        let origin = |&v: &VertexId| origins.get(&v).copied().unwrap_or(mesh.position(v));
+        let seams = mesh.face_half_edges(f).filter(|h| mesh.is_seam(h.edge()));
+        Self {
+            places: mesh.face_positions(f),
+            origins: corners.iter().map(origin).collect(),
+            group: mesh.group(f).map(str::to_owned),
+            seam_faces: seams.map(|h| mesh.face(h.twin())).collect(),
+            corners,
+        }
+    }
+
+    /// The origin of the corner nearest to a point.
+    fn origin_near(&self, here: DVec3) -> Option<DVec3> {
+        let far = |&i: &usize| here.distance_squared(self.places[i]);
+        let nearest = (0..self.places.len()).min_by(|a, b| far(a).total_cmp(&far(b)));
+        nearest.map(|i| self.origins[i])
+    }
+}
+
 impl Resolving {
     /// First the faces that can move all the way, then the others.
     fn run(&mut self, context: &OpContext<'_>) -> Result<(), OpError> {
@@ -217,38 +251,11 @@ impl Resolving {
     fn move_face(&mut self, f: FaceId, depth: f64) -> Result<(), OpError> {
         let mesh = self.cutter.mesh();
         let plane = mesh.plane(f).expect("a face that can move has a plane").moved(-depth);
-        let corners: Vec<VertexId> = mesh.face_vertices(f).collect();
-        let old: Vec<DVec3> = corners
-            .iter()
-            .map(|&v| self.origins.get(&v).copied().unwrap_or(mesh.position(v)))
-            .collect();
-        let places: Vec<DVec3> = mesh.face_positions(f);
-        let group = mesh.group(f).map(str::to_owned);
-        let seam_faces: BTreeSet<FaceId> = mesh
-            .face_half_edges(f)
-            .filter(|h| mesh.is_seam(h.edge()))
-            .map(|h| mesh.face(h.twin()))
-            .collect();
-        self.cutter.cut(&SlicingPlane { plane, given: None }, Reach::Local(&corners));
-        let caps = self.cutter.take_caps();
-        let mesh = self.cutter.mesh_mut();
-        for cap in caps {
-            if let Some(group) = &group {
-                mesh.set_group(cap, group);
-            }
-            let walk: Vec<HalfEdgeId> = mesh.face_half_edges(cap).collect();
-            for h in walk {
-                mesh.set_seam(h.edge(), seam_faces.contains(&mesh.face(h.twin())));
-                let (v, here) = (mesh.origin(h), mesh.position(mesh.origin(h)));
-                let from = (0..old.len()).min_by(|&a, &b| {
-                    here.distance_squared(places[a]).total_cmp(&here.distance_squared(places[b]))
-                });
-                let Some(origin) = from.map(|i| old[i]) else { continue };
-                self.origins.insert(v, origin);
-                let way = here.distance(origin);
-                self.report.largest_vertex_movement_mm =
-                    self.report.largest_vertex_movement_mm.max(way);
-            }
+        let before = FaceBefore::of(mesh, f, &self.origins);
+        let local = Reach::Local(&before.corners);
+        self.cutter.cut(&SlicingPlane { plane, given: None }, local);
+        for cap in self.cutter.take_caps() {
+            self.take_over(cap, &before);
         }
         let report = &mut self.report;
         let least =
@@ -256,8 +263,27 @@ impl Resolving {
         report.faces_moved += 1;
         report.least_face_movement_mm = least;
         report.largest_face_movement_mm = report.largest_face_movement_mm.max(depth);
-        self.report.resolved.extend(corners.iter().copied().filter(|v| self.open.remove(v)));
+        report.resolved.extend(before.corners.iter().copied().filter(|v| self.open.remove(v)));
         Ok(())
+    }
+
+    /// Gives a cap the group and the seams of the face that was moved, and notes how far its
+    /// corners are from where they were at first.
+    fn take_over(&mut self, cap: FaceId, before: &FaceBefore) {
+        let mesh = self.cutter.mesh_mut();
+        if let Some(group) = &before.group {
+            mesh.set_group(cap, group);
+        }
+        let walk: Vec<HalfEdgeId> = mesh.face_half_edges(cap).collect();
+        for h in walk {
+            mesh.set_seam(h.edge(), before.seam_faces.contains(&mesh.face(h.twin())));
+            let (v, here) = (mesh.origin(h), mesh.position(mesh.origin(h)));
+            let Some(origin) = before.origin_near(here) else { continue };
+            self.origins.insert(v, origin);
+            let way = here.distance(origin);
+            self.report.largest_vertex_movement_mm =
+                self.report.largest_vertex_movement_mm.max(way);
+        }
     }
 
     fn finish(self) -> (Mesh, ResolveReport) {

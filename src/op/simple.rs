@@ -3,6 +3,7 @@
 //! a vertex in between.
 
 use super::OpError;
+use super::divide::divide_repeated;
 use crate::mesh::{
     BuildError, EdgeId, FaceId, FileFault, HalfEdgeId, Mesh, MeshBuilder, VertexId, VertexMap,
 };
@@ -19,6 +20,8 @@ pub struct Mended {
     pub collapsed: usize,
     /// Faces without area, or with two sides, that went into a neighbour.
     pub dissolved: usize,
+    /// Edges that divide faces that came twice to a vertex.
+    pub divided: usize,
     /// Edges that got a vertex in between, since another one joins the same two vertices.
     pub split: usize,
 }
@@ -43,6 +46,11 @@ impl Mended {
             "faces without area went into their neighbours",
         );
         note(
+            self.divided,
+            "edge divides a face that came twice to a vertex",
+            "edges divide faces that came twice to a vertex",
+        );
+        note(
             self.split,
             "edge got a vertex in between, since another one joins the same two vertices",
             "edges got a vertex in between, since others join the same two vertices",
@@ -53,6 +61,7 @@ impl Mended {
     fn add(&mut self, other: Self) {
         self.collapsed += other.collapsed;
         self.dissolved += other.dissolved;
+        self.divided += other.divided;
         self.split += other.split;
     }
 
@@ -61,8 +70,8 @@ impl Mended {
     }
 }
 
-/// Makes a result as simple as the mesh was that it was made of. Meshes with self-loops, 2-gons and
-/// their like are on the way to something else, and may stay so.
+/// Makes a result one that files can hold. Where the mesh that it was made of had self-loops, 2-gons
+/// and their like, and the result has some, it is on the way to something else, and may stay so.
 ///
 /// # Errors
 /// [`OpError::NotSimple`] with the first fault that could not be mended.
@@ -72,30 +81,25 @@ pub(super) fn keep_simple(
     made: &mut NewElements,
     advice: &'static str,
 ) -> Result<Mended, OpError> {
-    if !is_simple(before) {
+    if is_unfinished(before) && is_unfinished(result) {
         return Ok(Mended::default());
     }
     let mended = make_simple(result, made);
     if let Some(&fault) = result.file_faults().first() {
         return Err(OpError::NotSimple { fault, advice });
     }
-    if has_more_than_files(result) {
+    if is_unfinished(result) || has_pinches(result) {
         *result = as_polygons(result, made)
             .map_err(|_| OpError::NotSimple { fault: FileFault::NoFaces, advice })?;
     }
     Ok(mended)
 }
 
-fn is_simple(mesh: &Mesh) -> bool {
-    !has_more_than_files(mesh) && mesh.file_faults().is_empty()
-}
-
-/// Whether a mesh has self-loops, faces with fewer than three different corners, or vertices with
-/// several rims.
-fn has_more_than_files(mesh: &Mesh) -> bool {
+/// Whether a mesh has self-loops, or faces with fewer than three different corners: no part of
+/// files, and good for the next operator only.
+fn is_unfinished(mesh: &Mesh) -> bool {
     mesh.edges().any(|e| is_loop(mesh, e))
         || mesh.faces().any(|f| straight_corners(mesh, f).len() < 3)
-        || has_pinches(mesh)
 }
 
 /// Whether several rims run through one vertex: a file holds a vertex for each of them.
@@ -105,16 +109,26 @@ fn has_pinches(mesh: &Mesh) -> bool {
     corners.any(|v| std::mem::replace(&mut is_met[v], true))
 }
 
+/// Makes a result of cuts one that files can hold: faces that come twice to a vertex are divided, and
+/// rims parted. Ids of faces stay, parts of faces get new ones.
+pub(super) fn keep_cut_simple(mesh: &mut Mesh, made: &mut NewElements) {
+    if !is_unfinished(mesh)
+        && divide_repeated(mesh, made) > 0
+        && is_unfinished(mesh)
+        && mesh.file_faults().is_empty()
+        && let Ok(parted) = as_polygons(mesh, made)
+    {
+        *mesh = parted;
+    }
+    part_rims(mesh, made);
+}
+
 /// Pulls vertices apart through which several rims run, where nothing else keeps the mesh from
 /// being a file.
 pub(super) fn part_rims(mesh: &mut Mesh, made: &mut NewElements) {
-    let is_file = |mesh: &Mesh| {
-        !mesh.edges().any(|e| is_loop(mesh, e))
-            && mesh.faces().all(|f| straight_corners(mesh, f).len() > 2)
-            && mesh.file_faults().is_empty()
-    };
     if has_pinches(mesh)
-        && is_file(mesh)
+        && !is_unfinished(mesh)
+        && mesh.file_faults().is_empty()
         && let Ok(parted) = as_polygons(mesh, made)
     {
         *mesh = parted;
@@ -151,14 +165,7 @@ fn as_polygons(mesh: &Mesh, made: &mut NewElements) -> Result<Mesh, BuildError> 
         }
     }
     let (mut polygons, splits) = builder.build()?;
-    for (number, &f) in faces.iter().enumerate() {
-        if let Some(name) = mesh.group(f) {
-            polygons.set_group(FaceId::new(number), name);
-        }
-        if let Some(plane) = mesh.carried_plane(f) {
-            polygons.set_plane(FaceId::new(number), plane);
-        }
-    }
+    dress_faces(mesh, &faces, &mut polygons);
     let old: Vec<VertexId> = mesh.vertices().collect();
     let parted = splits.iter().map(|split| (split.added, old[split.given.index()]));
     for (new, v) in old.iter().map(|&v| (numbers[v], v)).chain(parted) {
@@ -182,6 +189,18 @@ fn as_polygons(mesh: &Mesh, made: &mut NewElements) -> Result<Mesh, BuildError> 
     Ok(polygons)
 }
 
+/// Gives faces, in their order, the groups and planes of those that they were.
+fn dress_faces(mesh: &Mesh, faces: &[FaceId], polygons: &mut Mesh) {
+    for (number, &f) in faces.iter().enumerate() {
+        if let Some(name) = mesh.group(f) {
+            polygons.set_group(FaceId::new(number), name);
+        }
+        if let Some(plane) = mesh.carried_plane(f) {
+            polygons.set_plane(FaceId::new(number), plane);
+        }
+    }
+}
+
 /// Mends what can be mended. Ids stay without gaps, and `made`
 /// follows them.
 fn make_simple(mesh: &mut Mesh, made: &mut NewElements) -> Mended {
@@ -194,6 +213,9 @@ fn make_simple(mesh: &mut Mesh, made: &mut NewElements) -> Mended {
             pass.dissolved += dissolve_lines(mesh, &faults);
         }
         if pass.collapsed == 0 && pass.dissolved == 0 {
+            pass.divided = divide_repeated(mesh, made);
+        }
+        if pass.collapsed == 0 && pass.dissolved == 0 && pass.divided == 0 {
             pass.split = split_parallels(mesh, &faults);
         }
         mended.add(pass);

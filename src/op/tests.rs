@@ -125,7 +125,7 @@ fn three_rounds_on_one_edge_of_a_cube_are_figure_10() {
     // so.
     assert_eq!(counts(&mesh), (8 + 14 - 2, 12 + 21 - 3, 6 + 7 - 1));
     assert_eq!((report.cuts, report.overcut.len(), report.made.faces.len()), (7, 2, 4));
-    let params = TruncateEdgeParams { offset: 0.2, ..params };
+    let params = TruncateEdgeParams { offset: Some(0.2), ..params };
     let (mesh, report) = truncate_edges(&cube(), &params, &OpContext::default()).expect("a cut");
     assert_eq!(counts(&mesh), (8 + 14, 12 + 21, 6 + 7));
     assert_eq!(

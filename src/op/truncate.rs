@@ -8,7 +8,7 @@ use serde::Deserialize;
 use super::OpError;
 use super::cavity::Cavities;
 use super::cut::{Cutter, Lineage, Reach, SlicingPlane};
-use super::report::{CutReport, Origins, RoundMarks, ShrunkOffset, finish};
+use super::report::{CutReport, Origins, RoundMarks, ShrunkOffset, StripMark, finish};
 use super::size::check_size;
 use crate::geom::Plane;
 use crate::mesh::{Mesh, VertexId};
@@ -308,7 +308,8 @@ fn cut_round(
         }
         let cap = cutter.cap_lineage(i);
         round.marks.caps.push(cap);
-        round.marks.strips.extend(element.along.map(|along| (cap, along)));
+        let strip = element.along.map(|beside| StripMark { cap, beside, origin: beside[0] });
+        round.marks.strips.extend(strip);
     }
     Ok(round)
 }

@@ -1,4 +1,5 @@
-//! Edge truncation: shave an edge off; repeated, it rolls the edge into a developable strip.
+//! Edge truncation: shave an edge off; repeated, it rolls the edge into a developable strip. With
+//! `roll` all strips are set at once, even and tangent to both faces (`roll`).
 //!
 //! Source: Gonen 2007, III.B.1, IV.A and figure 10; the "bent" control of chapter V is `bend`.
 //!
@@ -9,6 +10,7 @@
 use serde::Deserialize;
 
 use super::cut::Cutter;
+use super::roll::{Roll, RollParams, StripSize, roll_edges};
 use super::truncate::{Element, Growth, Offsets, Settings, edge_point, truncate};
 use super::truncate_vertex::{default_offset, default_repeat};
 use super::{CutReport, Disjoint, OpContext, OpError, Scope};
@@ -24,10 +26,10 @@ pub struct TruncateEdgeParams {
     #[arg(long, value_name = "SELECTION")]
     pub select: Selection,
     /// Where the plane meets the other edges at the two ends: 0 at the edge, 1 at the far ends. In
-    /// (0, 2], warned above 1.
-    #[arg(long, default_value_t = default_offset(), value_parser = crate::units::parse_number)]
-    #[serde(default = "default_offset")]
-    pub offset: f64,
+    /// (0, 2], warned above 1; 0.25 unless given.
+    #[arg(long, value_parser = crate::units::parse_number)]
+    #[serde(default)]
+    pub offset: Option<f64>,
     /// How far the plane leans towards one of the two faces, -1 to 1; 0 weighs their normals alike.
     #[arg(long, default_value_t = 0.0, value_parser = crate::units::parse_number, allow_negative_numbers = true)]
     #[serde(default)]
@@ -46,6 +48,21 @@ pub struct TruncateEdgeParams {
     #[arg(long, value_enum, default_value_t = Disjoint::No, default_missing_value = "yes", num_args = 0..=1, require_equals = true)]
     #[serde(default)]
     pub disjoint: Disjoint,
+    /// Roll each edge into even strips that touch both faces, instead of cutting it by offset: a
+    /// radius (40mm), one for each end (40mm,20mm), max for the largest that all can have, or each
+    /// for the largest of every edge. Reaches only the edge itself, whatever the scope.
+    #[arg(long, value_name = "RADIUS")]
+    #[serde(default)]
+    pub roll: Option<Roll>,
+    /// How many strips a rolled edge gets, 1 to 1000; 9 unless given.
+    #[arg(long, value_name = "N")]
+    #[serde(default)]
+    pub strips: Option<u32>,
+    /// The largest strip of a rolled edge instead of their number: a width (6mm) or a fold angle
+    /// (10deg).
+    #[arg(long, value_name = "SIZE")]
+    #[serde(default)]
+    pub strip: Option<StripSize>,
 }
 
 impl TruncateEdgeParams {
@@ -53,11 +70,40 @@ impl TruncateEdgeParams {
     pub fn new(select: Selection, offset: f64) -> Self {
         Self {
             select,
-            offset,
+            offset: Some(offset),
             bend: 0.0,
             scope: Scope::default(),
             repeat: default_repeat(),
             disjoint: Disjoint::default(),
+            roll: None,
+            strips: None,
+            strip: None,
+        }
+    }
+
+    /// Rolls the selected edges into nine strips each.
+    pub fn rolled(select: Selection, roll: Roll) -> Self {
+        Self { offset: None, roll: Some(roll), ..Self::new(select, 0.0) }
+    }
+
+    /// How to roll, if that is asked for; what belongs to the other way of cutting is refused.
+    fn roll(&self) -> Result<Option<RollParams>, OpError> {
+        let Some(roll) = self.roll else {
+            let given = [("strips", self.strips.is_some()), ("strip", self.strip.is_some())];
+            return match given.into_iter().find(|given| given.1) {
+                Some((what, _)) => Err(OpError::Requires { what, needed: "roll" }),
+                None => Ok(None),
+            };
+        };
+        let cuts = [
+            ("offset", self.offset.is_some()),
+            ("bend", self.bend != 0.0),
+            ("repeat", self.repeat != default_repeat()),
+            ("disjoint", self.disjoint == Disjoint::Yes),
+        ];
+        match cuts.into_iter().find(|given| given.1) {
+            Some((second, _)) => Err(OpError::Exclude { first: "roll", second }),
+            None => Ok(Some(RollParams { roll, strips: self.strips, strip: self.strip })),
         }
     }
 }
@@ -69,7 +115,8 @@ impl TruncateEdgeParams {
 /// [`OpError::Select`] for an empty selection, [`OpError::OffsetOutOfRange`],
 /// [`OpError::BendOutOfRange`], [`OpError::RepeatOutOfRange`], [`OpError::NoPlaneAtEdge`],
 /// [`OpError::NothingLeft`] when the planes leave no mesh, [`OpError::NotDisjoint`] when disjoint
-/// cuts were asked for and cannot be had.
+/// cuts were asked for and cannot be had; [`OpError::Roll`] for edges that cannot be rolled,
+/// [`OpError::Exclude`] and [`OpError::Requires`] for options that do not go together.
 ///
 /// # Example
 /// ```
@@ -89,13 +136,19 @@ pub fn truncate_edges(
     if !(-1.0..=1.0).contains(&params.bend) {
         return Err(OpError::BendOutOfRange { bend: params.bend });
     }
+    let roll = params.roll()?;
     let chosen = params.select.edges(&context.select(mesh))?;
-    let TruncateEdgeParams { offset, scope, repeat, disjoint, .. } = *params;
+    if let Some(roll) = roll {
+        let (mesh, report) = roll_edges(mesh, &chosen, &roll, context)?;
+        return Ok((mesh, CutReport { cut_edges: chosen, ..report }));
+    }
+    let offset = params.offset.unwrap_or(default_offset());
+    let TruncateEdgeParams { scope, repeat, disjoint, .. } = *params;
     // Each edge leaves the two long sides of its strip.
     let first = chosen.iter().flat_map(|&e| mesh.edge_vertices(e)).map(|v| mesh.valence(v)).sum();
     let growth = Growth { first, multiplies: 2.0 };
     let settings = Settings { offset, scope, repeat, disjoint, growth };
-    truncate(
+    let (mesh, report) = truncate(
         mesh,
         &settings,
         context,
@@ -103,7 +156,8 @@ pub fn truncate_edges(
             let edges = made.map_or(&chosen, |made| &made.strip);
             edges.iter().map(|&e| element(cutter, e, offsets.of(e.index()), params.bend)).collect()
         },
-    )
+    )?;
+    Ok((mesh, CutReport { cut_edges: chosen, ..report }))
 }
 
 fn element(cutter: &Cutter, e: EdgeId, t: f64, bend: f64) -> Result<Element, OpError> {

@@ -1,23 +1,27 @@
 //! Faces that are not planar: a plate is flat, so its corners cannot all be those of such a face.
 //!
-//! One function measures ([`crate::measure::planarity`]) and one profile limits
-//! ([`Profile`]); the limit below which nothing is said is that of files with few digits.
+//! One function measures ([`crate::measure::planarity`]), and `check` has both limits: that of its
+//! usual profile, above which `unfold` refuses a face, too, and [`ROUNDED`], below which nothing is
+//! said.
 
 use super::error::{NotPlanar, PanelError};
-use crate::check::{Limits, Profile};
+use crate::check::{Limits, Profile, ROUNDED};
 use crate::measure::planarity;
 use crate::mesh::Mesh;
 
-/// A corner that lies off the plane of its face by no more than this part of the face's diameter is
-/// rounding of the file: the seventh digit. `unfold` has the same limit.
-const ROUNDED: f64 = 1e-5;
-
-/// Faces beyond this are refused: the widest profile, one millimetre.
-const REFUSED: Profile = Profile::Plywood;
-
 /// The faces that are no plates of any thickness up to rounding, with what rounding is for them.
 pub(super) fn bent_faces(mesh: &Mesh) -> Vec<NotPlanar> {
-    let limits = Limits { permille: Some(1000.0 * ROUNDED), ..Limits::default() };
+    beyond(mesh, &Limits { permille: Some(1000.0 * ROUNDED), ..Limits::default() })
+}
+
+/// Refuses faces that break the usual profile.
+pub(super) fn refuse_bent(mesh: &Mesh) -> Result<(), PanelError> {
+    let found = beyond(mesh, &Profile::default().limits());
+    if found.is_empty() { Ok(()) } else { Err(PanelError::NotPlanar { found }) }
+}
+
+/// The faces that break a limit of lengths or per mille, with that limit in mm.
+fn beyond(mesh: &Mesh, limits: &Limits) -> Vec<NotPlanar> {
     let bent = |face| {
         let found = planarity(mesh, face);
         let breach = limits.breach(&found)?;
@@ -25,14 +29,4 @@ pub(super) fn bent_faces(mesh: &Mesh) -> Vec<NotPlanar> {
         Some(NotPlanar { face, mm: found.mm, limit })
     };
     mesh.faces().filter_map(bent).collect()
-}
-
-/// Refuses faces that are far from planar.
-pub(super) fn refuse_bent(mesh: &Mesh) -> Result<(), PanelError> {
-    let bent = |face| {
-        let breach = REFUSED.limits().breach(&planarity(mesh, face))?;
-        Some(NotPlanar { face, mm: breach.measured, limit: breach.limit })
-    };
-    let found: Vec<NotPlanar> = mesh.faces().filter_map(bent).collect();
-    if found.is_empty() { Ok(()) } else { Err(PanelError::NotPlanar { found }) }
 }

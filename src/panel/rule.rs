@@ -91,7 +91,12 @@ impl FromStr for EdgeRules {
 fn kind(text: &str) -> Result<EdgeKind, UnitError> {
     let names = EdgeKind::value_variants();
     let word = text.trim();
-    names.iter().copied().find(|k| k.name() == word).ok_or_else(|| UnitError {
+    // Joints of sheets are called in the plural (`--joint fingers`); both words mean the same.
+    let is_called = |k: &EdgeKind| {
+        let ending = word.strip_prefix(k.name());
+        matches!(ending, Some("" | "s" | "es"))
+    };
+    names.iter().copied().find(is_called).ok_or_else(|| UnitError {
         text: text.to_owned(),
         wanted: "a kind of edge (mitre, butt, finger, stitch, hinge)",
         example: nearest_word(word, names.iter().map(|k| k.name()))
@@ -156,6 +161,10 @@ mod tests {
         );
         assert!(rules.has(EdgeKind::Stitch) && !rules.has(EdgeKind::Butt));
         assert_eq!(rules.to_string().parse::<EdgeRules>().as_ref(), Ok(&rules));
+        for (many, one) in [("fingers", "finger"), ("stitches", "stitch"), ("mitres", "mitre")] {
+            let rules = |word: &str| word.parse::<EdgeRules>().expect("a kind");
+            assert_eq!(rules(many), rules(one));
+        }
         assert_eq!("butt".parse::<EdgeRules>().expect("a kind").kind(300.0), EdgeKind::Butt);
         assert_eq!(
             EdgeRules::default(),

@@ -6,8 +6,9 @@
 
 use glam::{DVec2, DVec3};
 
+use super::marks::{Owner, Tag};
 use super::paint::{self, Light};
-use super::scene::{Dot, Facet, Line, Scene, touches};
+use super::scene::{Dot, Facet, Ink, Line, Scene, touches};
 use crate::mesh::{FaceId, Mesh};
 
 /// Rows of a band, in pixels.
@@ -18,6 +19,26 @@ const SAMPLES: usize = 3;
 const ROUNDING: f64 = 0.02;
 /// No facet.
 const NONE: u32 = u32::MAX;
+/// Strength of hidden lines in x-rays.
+const HIDDEN: f32 = 0.35;
+/// Directions in which shadows are looked for: every 30°, written out so that they are the same on
+/// every machine.
+const DIRECTIONS: [[f64; 2]; 12] = [
+    [1.0, 0.0],
+    [ROOT, 0.5],
+    [0.5, ROOT],
+    [0.0, 1.0],
+    [-0.5, ROOT],
+    [-ROOT, 0.5],
+    [-1.0, 0.0],
+    [-ROOT, -0.5],
+    [-0.5, -ROOT],
+    [0.0, -1.0],
+    [0.5, -ROOT],
+    [ROOT, -0.5],
+];
+/// Half the root of 3.
+const ROOT: f64 = 0.866_025_403_784_438_6;
 
 /// The depth buffer of one band.
 pub(super) struct Band<'a> {
@@ -30,16 +51,20 @@ pub(super) struct Band<'a> {
     halo: usize,
     depths: Vec<f32>,
     facets: Vec<u32>,
+    /// How many facets lie over a sample, for x-rays; else empty.
+    layers: Vec<u8>,
 }
 
 impl<'a> Band<'a> {
     /// Draws the faces into the depth buffer of the rows.
     pub fn new(scene: &'a Scene, width: usize, rows: std::ops::Range<usize>) -> Self {
         let widest = scene.lines.iter().map(|line| line.width).fold(0.0, f64::max);
-        let halo = (widest / 2.0).ceil() as usize + 3;
+        let halo = ((widest / 2.0).max(scene.shadow)).ceil() as usize + 3;
         let samples = width * SAMPLES * (rows.len() + 2 * halo) * SAMPLES;
         let depths = vec![f32::NEG_INFINITY; samples];
-        let mut band = Self { scene, width, rows, halo, depths, facets: vec![NONE; samples] };
+        let layers = vec![0; if scene.is_x_ray { samples } else { 0 }];
+        let facets = vec![NONE; samples];
+        let mut band = Self { scene, width, rows, halo, depths, facets, layers };
         let mut crossings = Vec::new();
         for (i, facet) in scene.facets.iter().enumerate() {
             band.fill(facet, i as u32, &mut crossings);
@@ -96,6 +121,9 @@ impl<'a> Band<'a> {
         for column in from..to {
             let depth = facet.depth((column as f64 + 0.5) / per_pixel, y) as f32;
             let sample = row * columns + column;
+            if let Some(layers) = self.layers.get_mut(sample) {
+                *layers = layers.saturating_add(1);
+            }
             if depth > self.depths[sample] {
                 self.depths[sample] = depth;
                 self.facets[sample] = id;
@@ -107,10 +135,67 @@ impl<'a> Band<'a> {
     pub fn light(&self, x: usize, y: usize, paper: Light) -> Light {
         let columns = self.width * SAMPLES;
         let first = (y - self.rows.start + self.halo) * SAMPLES * columns + x * SAMPLES;
-        let rows = (0..SAMPLES).map(|row| &self.facets[first + row * columns..][..SAMPLES]);
-        let light =
-            |&id: &u32| if id == NONE { paper } else { self.scene.facets[id as usize].light };
-        rows.flatten().map(light).sum::<Light>() / (SAMPLES * SAMPLES) as f32
+        let samples = (0..SAMPLES * SAMPLES).map(|i| {
+            let (row, column) = (i / SAMPLES, i % SAMPLES);
+            let per_pixel = SAMPLES as f64;
+            let place = [
+                x as f64 + (column as f64 + 0.5) / per_pixel,
+                y as f64 + (row as f64 + 0.5) / per_pixel,
+            ];
+            self.sample_light(first + row * columns + column, place, paper)
+        });
+        let light = samples.sum::<Light>() / (SAMPLES * SAMPLES) as f32;
+        if self.scene.shadow > 0.0 { light * self.openness(x, y) } else { light }
+    }
+
+    fn sample_light(&self, sample: usize, [x, y]: [f64; 2], paper: Light) -> Light {
+        let id = self.facets[sample];
+        if id == NONE {
+            return paper;
+        }
+        let light = self.scene.light(id as usize, x, y);
+        match self.layers.get(sample) {
+            // Every surface on the way takes a little of the light.
+            Some(&layers) => paper.lerp(light, 0.55) * 0.94_f32.powi(i32::from(layers.min(24))),
+            None => light,
+        }
+    }
+
+    /// How much of the light reaches a pixel past what stands around it: 1 in the open. Depths of
+    /// points around it on two circles are compared with its own (ambient occlusion in the picture:
+    /// Mittring 2007).
+    fn openness(&self, x: usize, y: usize) -> f32 {
+        let depth_at = |dx: f64, dy: f64| {
+            let column = (x as f64 + 0.5 + dx) * SAMPLES as f64;
+            let row = (y as f64 + 0.5 + dy) * SAMPLES as f64 - self.first_sample_row() as f64;
+            let columns = self.width * SAMPLES;
+            let rows = self.depths.len() / columns;
+            let is_in = column >= 0.0 && row >= 0.0;
+            let (column, row) = (column as usize, row as usize);
+            let depth = (is_in && column < columns && row < rows)
+                .then(|| f64::from(self.depths[row * columns + column]));
+            depth.filter(|depth| depth.is_finite())
+        };
+        let Some(own) = depth_at(0.0, 0.0) else { return 1.0 };
+        let reach = self.scene.shadow;
+        let mut hidden = 0.0;
+        for [dx, dy] in DIRECTIONS {
+            for share in [0.4, 1.0] {
+                let [dx, dy] = [dx, dy].map(|d| d * share * reach);
+                let rise = depth_at(dx, dy).map_or(0.0, |depth| depth - own);
+                // What stands much nearer is another part of the model: it darkens less.
+                let slope = rise / (share * reach);
+                hidden += (slope - 0.3).clamp(0.0, 1.0) / (1.0 + 0.2 * slope.max(0.0));
+            }
+        }
+        1.0 - 0.75 * (hidden / (2 * DIRECTIONS.len()) as f64) as f32
+    }
+
+    /// Whether nothing of the model is seen at the middle of a pixel of the band's own rows.
+    pub fn is_background(&self, x: usize, y: usize) -> bool {
+        let columns = self.width * SAMPLES;
+        let row = (y - self.rows.start + self.halo) * SAMPLES + SAMPLES / 2;
+        self.facets[row * columns + x * SAMPLES + SAMPLES / 2] == NONE
     }
 
     /// Whether something at `place` is seen that belongs to the faces which `owns` accepts: one of
@@ -148,6 +233,10 @@ impl<'a> Band<'a> {
     /// Draws the visible parts of the lines into the coverage of the band's own rows.
     pub fn draw_lines(&self, coverage: &mut Coverage) {
         for line in &self.scene.lines {
+            if self.scene.is_x_ray {
+                let pale = Line { strength: HIDDEN * line.strength, ..line.clone() };
+                coverage.draw(line.ends[0].truncate(), line.ends[1].truncate(), &pale);
+            }
             for [from, to] in self.visible_parts(line) {
                 coverage.draw(from, to, line);
             }
@@ -156,7 +245,7 @@ impl<'a> Band<'a> {
 
     /// The visible parts of a line near the band. Tested at steps that depend on the line alone, so
     /// that neighbouring bands find the same.
-    fn visible_parts(&self, line: &Line) -> Vec<[DVec2; 2]> {
+    pub fn visible_parts(&self, line: &Line) -> Vec<[DVec2; 2]> {
         let [a, b] = line.ends;
         let (top, bottom) = (self.top() + 1.0, self.bottom() - 1.0);
         if a.y.max(b.y) < top || a.y.min(b.y) > bottom {
@@ -188,6 +277,19 @@ impl<'a> Band<'a> {
         parts
     }
 
+    /// The visible numbers whose middle is in the band's own rows.
+    pub fn visible_tags(&self, mesh: &Mesh) -> Vec<&'a Tag> {
+        let rows = self.rows.start as f64..self.rows.end as f64;
+        let tags = self.scene.tags.iter().filter(|tag| rows.contains(&tag.place.y));
+        let is_seen = |tag: &&Tag| match tag.owner {
+            _ if self.scene.is_x_ray => true,
+            Owner::Vertex(v) => self.sees(tag.place, false, |f| touches(mesh, v, f)),
+            Owner::Edge(faces) => self.sees(tag.place, false, |f| faces.contains(&f)),
+            Owner::Face(face) => self.sees(tag.place, false, |f| f == face),
+        };
+        tags.filter(is_seen).collect()
+    }
+
     /// The visible dots whose middle is in the band's own rows.
     pub fn visible_dots(&self, mesh: &Mesh) -> Vec<&'a Dot> {
         let rows = self.rows.start as f64..self.rows.end as f64;
@@ -216,15 +318,15 @@ fn cross(corners: &[DVec3], y: f64, crossings: &mut Vec<f64>) {
 pub(super) struct Coverage {
     width: usize,
     rows: std::ops::Range<usize>,
-    edges: Vec<f32>,
-    rims: Vec<f32>,
+    /// By ink.
+    inks: [Vec<f32>; 3],
 }
 
 impl Coverage {
     /// Nothing covered yet.
     pub fn new(width: usize, rows: std::ops::Range<usize>) -> Self {
         let none = vec![0.0; width * rows.len()];
-        Self { width, rows, edges: none.clone(), rims: none }
+        Self { width, rows, inks: [none.clone(), none.clone(), none] }
     }
 
     /// Covers the pixels within half a line width of the segment, softly over one pixel, with round
@@ -239,7 +341,7 @@ impl Coverage {
         let rows = [from.y.min(to.y) - reach, from.y.max(to.y) + reach];
         let [first, end] = rows
             .map(|y| (y.floor().clamp(0.0, 1e9) as usize).clamp(self.rows.start, self.rows.end));
-        let pixels = if line.is_rim { &mut self.rims } else { &mut self.edges };
+        let pixels = &mut self.inks[line.ink as usize];
         for row in first..(end + 1).min(self.rows.end) {
             let y = row as f64 + 0.5;
             let [left, right] = reached(from, to, y, reach, self.width);
@@ -257,8 +359,10 @@ impl Coverage {
     /// Lays the lines over the light of a pixel.
     pub fn over(&self, x: usize, y: usize, light: Light) -> Light {
         let i = (y - self.rows.start) * self.width + x;
-        let light = light.lerp(paint::ink(paint::LINE), self.edges[i]);
-        light.lerp(paint::ink(paint::RIM), self.rims[i])
+        let colours = [(Ink::Edge, paint::LINE), (Ink::Rim, paint::RIM), (Ink::Mark, paint::MARK)];
+        colours.into_iter().fold(light, |light, (ink, colour)| {
+            light.lerp(paint::ink(colour), self.inks[ink as usize][i])
+        })
     }
 }
 

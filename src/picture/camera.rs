@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
+use super::bsp::Eye;
 use super::params::Projection;
 use super::{PictureError, RenderParams};
 use crate::mesh::Mesh;
@@ -82,7 +83,20 @@ impl Camera {
 
     /// Pixels right and down from the top left, and depth in pixels.
     pub fn project(&self, p: DVec3) -> DVec3 {
-        let q = self.turned(p);
+        self.place(self.turned(p))
+    }
+
+    /// The eye, in the coordinates of [`Self::turned`].
+    pub fn eye(&self) -> Eye {
+        if self.eye_distance.is_finite() {
+            Eye::At(DVec3::Z * self.eye_distance)
+        } else {
+            Eye::Along(DVec3::Z)
+        }
+    }
+
+    /// As [`Self::project`] for a position that was turned already.
+    pub fn place(&self, q: DVec3) -> DVec3 {
         let q = q / (1.0 - q.z / self.eye_distance) * self.scale;
         DVec3::new(q.x + self.shift.x, -q.y + self.shift.y, q.z)
     }

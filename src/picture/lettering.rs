@@ -12,8 +12,30 @@ const ADVANCE: f32 = 5.6;
 pub(super) fn write(
     pixmap: &mut Pixmap,
     text: &str,
-    (x, y): (f32, f32),
+    place: (f32, f32),
     height: f32,
+    colour: [u8; 3],
+) {
+    strokes(pixmap, text, place, (height, None), colour);
+}
+
+/// As [`write`], with a pale rim around the letters, so that they are read on lines and colours.
+pub(super) fn write_clear(
+    pixmap: &mut Pixmap,
+    text: &str,
+    place: (f32, f32),
+    height: f32,
+    colour: [u8; 3],
+) {
+    strokes(pixmap, text, place, (height, Some(height / 2.2)), super::paint::PAPER);
+    strokes(pixmap, text, place, (height, Some(height / 7.0)), colour);
+}
+
+fn strokes(
+    pixmap: &mut Pixmap,
+    text: &str,
+    (x, y): (f32, f32),
+    (height, width): (f32, Option<f32>),
     colour: [u8; 3],
 ) {
     let unit = height / CAPITAL as f32;
@@ -31,7 +53,7 @@ pub(super) fn write(
     let mut paint = Paint::default();
     paint.set_color_rgba8(colour[0], colour[1], colour[2], 255);
     let stroke = Stroke {
-        width: (height / 8.0).max(1.0),
+        width: width.unwrap_or((height / 8.0).max(1.0)),
         line_cap: LineCap::Round,
         line_join: LineJoin::Round,
         ..Stroke::default()

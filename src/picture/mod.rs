@@ -3,23 +3,34 @@
 //! A model is drawn with its own depth buffer: faces first, at 3 × 3 samples per pixel, then the
 //! edges on top, each only where one of its own faces is seen (an item buffer: Weghorst, Hooper and
 //! Greenberg 1984). A sheet is drawn by strokes. Both become PNG through tiny-skia. The same input
-//! gives the same bytes, on any number of threads.
+//! gives the same bytes, on any number of threads. Models are also drawn as areas and lines, for SVG
+//! and PDF ([`render_vector`]).
 
 mod band;
+mod bsp;
 mod camera;
 mod legend;
 mod lettering;
+mod marks;
 mod model;
 mod paint;
 mod params;
+mod pieces;
 mod scene;
 mod sheet;
+mod smooth;
 mod strip;
+mod through;
+mod vector;
 
-pub use model::{render_marked, render_model, render_shares};
-pub use params::{Colour, EdgeLines, Projection, RenderParams, UpAxis, View, ViewError};
+pub use marks::Marks;
+pub use model::{render_marked, render_model, render_shares, render_with};
+pub use params::{
+    Colour, EdgeLines, Ids, Projection, RenderParams, Shadow, Surface, UpAxis, View, ViewError,
+};
 pub use sheet::{Polyline, StrokeLayer, Strokes, render_sheet};
 pub use strip::{Cell, render_strip};
+pub use vector::{MAX_VECTOR_FACES, VectorPicture, render_vector};
 
 use tiny_skia::Pixmap;
 
@@ -76,6 +87,15 @@ pub enum PictureError {
         /// Third coordinate.
         z: f64,
     },
+    /// More triangles than a vector picture can have.
+    #[error(
+        "the model has {triangles} triangles, too many for a vector picture, which has \
+        {MAX_VECTOR_FACES} at most; write a PNG"
+    )]
+    TooManyFaces {
+        /// Number of triangles of its faces.
+        triangles: usize,
+    },
     /// The sheet has no size.
     #[error(
         "a sheet of {width_mm} mm by {height_mm} mm cannot be drawn; both must be positive numbers"
@@ -109,6 +129,7 @@ codes!(error PictureError {
     VertexTooFar = 824,
     SheetWithoutSize = 825,
     StrokeNotFinite = 826,
+    TooManyFaces = 829,
 });
 
 impl Picture {

@@ -6,8 +6,13 @@ use tiny_skia::Pixmap;
 use super::band::{BAND_ROWS, Band, Coverage};
 use super::camera::{Camera, Window};
 use super::legend::Legend;
+use super::lettering::write_clear;
+use super::marks::{Marks, Tag};
 use super::paint;
+use super::pieces::piece_of_faces;
 use super::scene::{Dot, Scene};
+use super::strip::render_views;
+use super::through::aimed;
 use super::{Colour, Picture, PictureError, RenderParams};
 use crate::measure::planarity;
 use crate::mesh::{FaceId, FaceMap, Mesh};
@@ -29,9 +34,34 @@ const PLANAR: f64 = 1e-6;
 /// # Errors
 /// [`PictureError::SizeOutOfRange`], [`PictureError::NoDirection`], [`PictureError::NoFaces`] and
 /// [`PictureError::VertexTooFar`].
+///
+/// # Example
+/// ```
+/// use kerfold::picture::{RenderParams, render_model};
+///
+/// let picture = render_model(&kerfold::shape::cube(40.0), &RenderParams::default())?;
+/// assert!(picture.width() > 0);
+/// # Ok::<(), kerfold::picture::PictureError>(())
+/// ```
 pub fn render_model(mesh: &Mesh, params: &RenderParams) -> Result<Picture, PictureError> {
-    let (legend, colours) = colours(mesh, params.colour);
-    draw_model(mesh, params, legend, &colours)
+    render_with(mesh, params, &Marks::default())
+}
+
+/// As [`render_model`], with elements pointed out in red.
+///
+/// # Errors
+/// As [`render_model`].
+pub fn render_with(
+    mesh: &Mesh,
+    params: &RenderParams,
+    marks: &Marks,
+) -> Result<Picture, PictureError> {
+    if !params.views.is_empty() {
+        return render_views(mesh, params, marks);
+    }
+    let (legend, mut colours) = colours(mesh, params.colour);
+    marks.faces.iter().for_each(|&f| colours[f] = paint::MARKED);
+    draw_model(mesh, params, legend, (&colours, marks))
 }
 
 /// Draws a model with each face coloured by how much of its limit it uses: 1 is the limit, from 2
@@ -52,7 +82,7 @@ pub fn render_shares(
         mesh,
         &RenderParams { colour: Colour::Planarity, ..params.clone() },
         Some(Legend::limit()),
-        &colours,
+        (&colours, &Marks::default()),
     )
 }
 
@@ -67,15 +97,17 @@ pub fn render_marked(
 ) -> Result<Picture, PictureError> {
     let mut colours = FaceMap::filled(mesh.face_slots(), paint::PALE);
     colours[marked] = paint::scale_colour(0.8);
-    draw_model(mesh, &RenderParams { colour: Colour::Planarity, ..params.clone() }, None, &colours)
+    let params = RenderParams { colour: Colour::Planarity, ..params.clone() };
+    draw_model(mesh, &params, None, (&colours, &Marks::default()))
 }
 
 fn draw_model(
     mesh: &Mesh,
     params: &RenderParams,
     legend: Option<Legend>,
-    colours: &FaceMap<[u8; 3]>,
+    look: (&FaceMap<[u8; 3]>, &Marks),
 ) -> Result<Picture, PictureError> {
+    let params = &aimed(mesh, params)?;
     let (width, height) = params.pixels();
     let mut pixmap = super::blank(width, height)?;
     if mesh.face_count() == 0 {
@@ -83,7 +115,7 @@ fn draw_model(
     }
     let legend = legend.filter(|_| width.min(height) >= 160);
     let camera = Camera::fitted(&[mesh], params, window(width, height, legend.is_some()))?;
-    let scene = Scene::new(mesh, params, &camera, colours);
+    let scene = Scene::new(mesh, params, &camera, look);
     draw(&mut pixmap, mesh, &scene, Division { workers: workers(), rows: BAND_ROWS });
     if let Some(legend) = legend {
         legend.draw(&mut pixmap);
@@ -135,6 +167,13 @@ pub(super) fn colours(mesh: &Mesh, colour: Colour) -> (Option<Legend>, FaceMap<[
             }
             (None, colours)
         }
+        Colour::Piece => {
+            let pieces = piece_of_faces(mesh);
+            for f in mesh.faces() {
+                colours[f] = paint::GROUPS[pieces[f] % paint::GROUPS.len()];
+            }
+            (None, colours)
+        }
     }
 }
 
@@ -156,25 +195,46 @@ pub(super) fn draw(pixmap: &mut Pixmap, mesh: &Mesh, scene: &Scene, division: Di
     for (i, pixels) in bands {
         shares[i % workers].push((i, pixels));
     }
-    let draw_share = |share: Vec<(usize, &mut [u8])>| -> Vec<&Dot> {
+    let draw_share = |share: Vec<(usize, &mut [u8])>| -> (Vec<&Dot>, Vec<&Tag>) {
         let draw = |(i, pixels): (usize, &mut [u8])| {
             let rows = i * rows..((i + 1) * rows).min(height);
             draw_band(pixels, mesh, scene, width, rows)
         };
-        share.into_iter().flat_map(draw).collect()
+        let (dots, tags): (Vec<_>, Vec<_>) = share.into_iter().map(draw).unzip();
+        (dots.concat(), tags.concat())
     };
-    let mut dots: Vec<&Dot> = std::thread::scope(|scope| {
+    let (dots, tags): (Vec<_>, Vec<_>) = std::thread::scope(|scope| {
         let threads: Vec<_> =
             shares.into_iter().map(|share| scope.spawn(|| draw_share(share))).collect();
         threads
             .into_iter()
-            .flat_map(|thread| thread.join().expect("drawing a band does not panic"))
-            .collect()
+            .map(|thread| thread.join().expect("drawing a band does not panic"))
+            .unzip()
     });
+    let (mut dots, mut tags) = (dots.concat(), tags.concat());
     // Dots can overlap, so their order must not depend on who finished first.
     dots.sort_by_key(|dot| dot.vertex);
     for dot in dots {
         draw_dot(pixmap, dot, scene.dot_radius);
+    }
+    // Where numbers would lie on one another, the nearer one stays.
+    tags.sort_by(|a, b| b.place.z.total_cmp(&a.place.z).then_with(|| a.text.cmp(&b.text)));
+    draw_tags(pixmap, &tags);
+}
+
+/// Writes numbers with their middles at their places.
+fn draw_tags(pixmap: &mut Pixmap, tags: &[&Tag]) {
+    let height = (pixmap.width().max(pixmap.height()) as f32 / 90.0).max(7.0);
+    let mut taken: Vec<(DVec2, DVec2)> = Vec::new();
+    for tag in tags {
+        let size = DVec2::new(tag.text.len() as f64 * 0.93, 1.0) * f64::from(height);
+        let low = tag.place.truncate() - size / 2.0;
+        let high = low + size;
+        if taken.iter().any(|(l, h)| l.cmplt(high).all() && low.cmplt(*h).all()) {
+            continue;
+        }
+        taken.push((low, high));
+        write_clear(pixmap, &tag.text, (low.x as f32, high.y as f32), height, paint::LINE);
     }
 }
 
@@ -184,7 +244,7 @@ fn draw_band<'a>(
     scene: &'a Scene,
     width: usize,
     rows: std::ops::Range<usize>,
-) -> Vec<&'a Dot> {
+) -> (Vec<&'a Dot>, Vec<&'a Tag>) {
     let band = Band::new(scene, width, rows.clone());
     let mut coverage = Coverage::new(width, rows.clone());
     band.draw_lines(&mut coverage);
@@ -194,7 +254,7 @@ fn draw_band<'a>(
         let [r, g, b] = paint::shown(coverage.over(x, y, band.light(x, y, paper)));
         pixel.copy_from_slice(&[r, g, b, 255]);
     }
-    band.visible_dots(mesh)
+    (band.visible_dots(mesh), band.visible_tags(mesh))
 }
 
 /// A disc with a thin pale ring, so that dots stand off from lines.
@@ -239,7 +299,7 @@ pub(super) mod tests {
         Mesh::from_faces((0..8).map(|i| box_corner(low, high, i)), BOX).expect("a box")
     }
 
-    fn torus(n: usize, m: usize) -> Mesh {
+    pub fn torus(n: usize, m: usize) -> Mesh {
         let angle = |i: usize, n: usize| i as f64 / n as f64 * std::f64::consts::TAU;
         let point = |i, j| {
             let (a, b) = (angle(i, n), angle(j, m));
@@ -355,7 +415,8 @@ pub(super) mod tests {
         assert_eq!(picture.to_png(), render(&ring, &params).to_png());
         let camera = Camera::fitted(&[&ring], &params, window(240, 180, true)).expect("a camera");
         let (legend, colours) = colours(&ring, params.colour);
-        let scene = Scene::new(&ring, &params, &camera, &colours);
+        let marks = Marks::default();
+        let scene = Scene::new(&ring, &params, &camera, (&colours, &marks));
         for (workers, rows) in [(1, 64), (3, 17), (7, 1), (2, 500)] {
             let mut pixmap = crate::picture::blank(240, 180).expect("a size");
             draw(&mut pixmap, &ring, &scene, Division { workers, rows });

@@ -25,6 +25,10 @@ pub(super) const RIM: [u8; 3] = [196, 74, 28];
 pub(super) const FRONT: [u8; 3] = [234, 225, 211];
 pub(super) const BACK: [u8; 3] = [142, 163, 184];
 
+/// What is pointed out, and faces that are.
+pub(super) const MARK: [u8; 3] = [206, 32, 44];
+pub(super) const MARKED: [u8; 3] = [236, 130, 92];
+
 /// Pale, so that dots stand out.
 pub(super) const PALE: [u8; 3] = [244, 241, 236];
 

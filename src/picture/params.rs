@@ -22,12 +22,12 @@ pub struct RenderParams {
     #[arg(long)]
     #[serde(default)]
     pub height: Option<u32>,
-    /// What the colours tell: faces (plain), planarity, valence or group.
+    /// What the colours tell: faces (plain), planarity, valence, group or piece.
     #[arg(long, value_enum, default_value_t)]
     #[serde(default)]
     pub colour: Colour,
     /// Where to look from: three-quarter, iso, front, back, left, right, top, bottom, or a
-    /// direction x,y,z from the model to the eye.
+    /// direction x,y,z from the model to the eye; through looks into the largest hole, if any.
     #[arg(long, default_value_t, allow_hyphen_values = true)]
     #[serde(default)]
     pub view: View,
@@ -43,6 +43,22 @@ pub struct RenderParams {
     #[arg(long, value_enum, default_value_t)]
     #[serde(default)]
     pub edges: EdgeLines,
+    /// Whose numbers are written, where they can be seen: of vertices, edges or faces.
+    #[arg(long, value_enum, default_value_t)]
+    #[serde(default)]
+    pub ids: Ids,
+    /// How surfaces look: solid, x-ray, or smooth where faces meet at less than 35°.
+    #[arg(long, value_enum, default_value_t)]
+    #[serde(default)]
+    pub surface: Surface,
+    /// Whether hollows lie in a soft shadow.
+    #[arg(long, value_enum, default_value_t)]
+    #[serde(default)]
+    pub shadow: Shadow,
+    /// Several views on one picture, by their names: front,right,top,iso; instead of --view.
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    #[serde(default)]
+    pub views: Vec<View>,
 }
 
 fn default_width() -> u32 {
@@ -59,6 +75,10 @@ impl Default for RenderParams {
             up: UpAxis::default(),
             projection: Projection::default(),
             edges: EdgeLines::default(),
+            ids: Ids::default(),
+            surface: Surface::default(),
+            shadow: Shadow::default(),
+            views: Vec::new(),
         }
     }
 }
@@ -76,6 +96,48 @@ pub enum Colour {
     Valence,
     /// Each face by its group; faces without a group stay plain.
     Group,
+    /// Each face by its piece: what marked seams bound, else what is connected. In a recipe that
+    /// unfolds, the pieces on its sheets.
+    Piece,
+}
+
+/// Whose numbers are written on a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Ids {
+    /// No numbers.
+    #[default]
+    None,
+    /// Of vertices, beside them.
+    Vertices,
+    /// Of edges, at their middles.
+    Edges,
+    /// Of faces, inside them.
+    Faces,
+}
+
+/// How surfaces look.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Surface {
+    /// What is behind is hidden.
+    #[default]
+    Solid,
+    /// What is behind shows through, hidden edges are pale.
+    XRay,
+    /// Solid, shaded as if faces that meet at less than 35° were one bent surface.
+    Smooth,
+}
+
+/// Whether hollows lie in a soft shadow.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Shadow {
+    /// No shadow.
+    #[default]
+    Off,
+    /// Where something near stands in front of the light, by the depths of the picture.
+    Soft,
 }
 
 /// The axis of the model that points up.
@@ -131,12 +193,14 @@ pub enum View {
     Top,
     /// From below; the front is at the top of the picture.
     Bottom,
+    /// Through the largest hole that can be looked through; three-quarter where there is none.
+    Through,
     /// From this direction, in the model's own axes whatever axis is up.
     From(DVec3),
 }
 
 /// The named views and their words.
-const VIEWS: [(&str, View); 8] = [
+const VIEWS: [(&str, View); 9] = [
     ("three-quarter", View::ThreeQuarter),
     ("iso", View::Iso),
     ("front", View::Front),
@@ -145,13 +209,14 @@ const VIEWS: [(&str, View); 8] = [
     ("right", View::Right),
     ("top", View::Top),
     ("bottom", View::Bottom),
+    ("through", View::Through),
 ];
 
 /// A view that could not be read.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "`{text}` is not a view; write three-quarter, iso, front, back, left, right, top, bottom or a \
-    direction like 1,-2,0.5"
+    "`{text}` is not a view; write three-quarter, iso, front, back, left, right, top, bottom, \
+    through or a direction like 1,-2,0.5"
 )]
 pub struct ViewError {
     /// What was typed.
@@ -222,7 +287,8 @@ impl RenderParams {
     pub(super) fn axes(&self) -> Result<[DVec3; 3], PictureError> {
         let (direction, upright) = match self.view {
             View::From(d) => (d, None),
-            View::ThreeQuarter => (DVec3::new(0.52, -1.0, 0.62), None),
+            // Which way is through is found before there are axes.
+            View::ThreeQuarter | View::Through => (DVec3::new(0.52, -1.0, 0.62), None),
             View::Iso => (DVec3::new(1.0, -1.0, 1.0), None),
             View::Front => (-DVec3::Y, None),
             View::Back => (DVec3::Y, None),
@@ -232,7 +298,7 @@ impl RenderParams {
             View::Bottom => (-DVec3::Z, Some(-DVec3::Y)),
         };
         let up = if self.up == UpAxis::Z { DVec3::Z } else { DVec3::Y };
-        // Named views are told with z up; the quarter turn about x takes z to y and the front (−y)
+        // Named views are given with z up; the quarter turn about x takes z to y and the front (−y)
         // to z.
         let is_named = !matches!(self.view, View::From(_));
         let turn = |d: DVec3| {
@@ -301,9 +367,7 @@ mod tests {
 
     #[test]
     fn views_are_shown_as_they_are_typed() {
-        for text in
-            ["three-quarter", "iso", "front", "back", "left", "right", "top", "bottom", "1,-2,0.5"]
-        {
+        for text in VIEWS.map(|(name, _)| name).into_iter().chain(["1,-2,0.5"]) {
             assert_eq!(text.parse::<View>().expect("a view").to_string(), text);
         }
     }

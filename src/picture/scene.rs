@@ -3,8 +3,10 @@
 use glam::{DVec2, DVec3};
 
 use super::camera::Camera;
+use super::marks::{Marks, Owner, Tag};
 use super::paint::{self, Light, Modelling};
-use super::params::EdgeLines;
+use super::params::{EdgeLines, Ids, Shadow, Surface};
+use super::smooth::{Normals, Slope};
 use super::{Colour, RenderParams};
 use crate::geom::{Frame, Plane, triangulate};
 use crate::mesh::{EdgeId, FaceId, FaceMap, HalfEdgeId, HalfEdgeMap, Mesh, VertexId, VertexMap};
@@ -16,6 +18,9 @@ const BENT: f64 = 1e-3;
 /// square of their number.
 const MAX_CUT_CORNERS: usize = 256;
 
+/// How far soft shadows reach, relative to the longer side of the picture.
+const SHADOW: f64 = 0.03;
+
 /// A polygon in the picture with the plane of its depth.
 pub(super) struct Facet {
     /// The face that it is (a part of).
@@ -24,6 +29,8 @@ pub(super) struct Facet {
     pub corners: std::ops::Range<usize>,
     /// Its colour.
     pub light: Light,
+    /// How its normal runs where it is shaded smoothly, with the colour of the material.
+    pub smooth: Option<(Slope, [u8; 3], Modelling)>,
     /// Highest and lowest corner, in pixels.
     pub top: f64,
     pub bottom: f64,
@@ -43,6 +50,7 @@ impl Facet {
 }
 
 /// An edge in the picture.
+#[derive(Clone)]
 pub(super) struct Line {
     pub ends: [DVec3; 2],
     /// The faces whose sight makes the edge seen.
@@ -53,7 +61,16 @@ pub(super) struct Line {
     pub strength: f32,
     /// Whether one of its faces is seen from the front and the other from the back, or is missing.
     pub is_outline: bool,
-    pub is_rim: bool,
+    pub ink: Ink,
+}
+
+/// The colour of a line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Ink {
+    Edge,
+    Rim,
+    /// Pointed out.
+    Mark,
 }
 
 /// A vertex in the picture.
@@ -71,6 +88,23 @@ pub(super) struct Scene {
     pub dots: Vec<Dot>,
     /// Radius of the dots in pixels.
     pub dot_radius: f64,
+    /// Numbers.
+    pub tags: Vec<Tag>,
+    /// Whether what is behind shows through.
+    pub is_x_ray: bool,
+    /// How far shadows reach, in pixels; 0 for none.
+    pub shadow: f64,
+}
+
+impl Scene {
+    /// The light of a facet at a point of the picture.
+    pub fn light(&self, facet: usize, x: f64, y: f64) -> Light {
+        let facet = &self.facets[facet];
+        match &facet.smooth {
+            None => facet.light,
+            Some((slope, colour, modelling)) => paint::lit(*colour, slope.at(x, y), *modelling),
+        }
+    }
 }
 
 /// The thickness of a normal line in pixels: grows with the picture.
@@ -85,7 +119,7 @@ impl Scene {
         mesh: &Mesh,
         params: &RenderParams,
         camera: &Camera,
-        colours: &FaceMap<[u8; 3]>,
+        (colours, marks): (&FaceMap<[u8; 3]>, &Marks),
     ) -> Self {
         let mut stage = Stage::new(mesh, params, camera);
         let corners = mesh.faces().map(|f| mesh.sides(f)).sum();
@@ -100,6 +134,8 @@ impl Scene {
         if params.colour == Colour::Valence {
             stage.add_dots();
         }
+        stage.add_marks(marks);
+        stage.add_tags(params.ids);
         stage.scene
     }
 }
@@ -121,6 +157,8 @@ struct Stage<'a> {
     areas: FaceMap<f64>,
     /// Whether the part of the face at the half-edge is seen from the front.
     fronts: HalfEdgeMap<bool>,
+    /// Normals of smooth shading, where it is asked for.
+    smooth: Option<Normals>,
     scene: Scene,
 }
 
@@ -139,7 +177,14 @@ impl<'a> Stage<'a> {
             lines: Vec::new(),
             dots: Vec::new(),
             dot_radius: 0.0,
+            tags: Vec::new(),
+            is_x_ray: params.surface == Surface::XRay,
+            shadow: match params.shadow {
+                Shadow::Off => 0.0,
+                Shadow::Soft => SHADOW * f64::from(width.max(height)),
+            },
         };
+        let is_smooth = params.surface == Surface::Smooth;
         Self {
             mesh,
             plain: params.colour == Colour::Faces,
@@ -150,6 +195,7 @@ impl<'a> Stage<'a> {
             normals: FaceMap::filled(mesh.face_slots(), DVec3::ZERO),
             areas: FaceMap::filled(mesh.face_slots(), 0.0),
             fronts: HalfEdgeMap::filled(mesh.half_edge_slots(), true),
+            smooth: is_smooth.then(|| Normals::new(mesh, |v| camera.turned(mesh.position(v)))),
             scene,
         }
     }
@@ -161,7 +207,7 @@ impl<'a> Stage<'a> {
         let Some(plane) = Plane::newell(&turned) else { return };
         self.normals[f] = plane.normal();
         self.areas[f] = newell(&turned).length() / 2.0 * self.scale * self.scale;
-        if is_bent(&turned, &plane) {
+        if is_bent(&turned, &plane) || (self.smooth.is_some() && turned.len() > 3) {
             let frame = Frame::on_plane(&plane);
             let flat: Vec<DVec2> = turned.iter().map(|&p| frame.flatten(p)).collect();
             for triangle in triangulate(&flat) {
@@ -183,7 +229,7 @@ impl<'a> Stage<'a> {
         }
     }
 
-    /// Adds the polygon of the origins of `half_edges`; tells whether its front is seen.
+    /// Adds the polygon of the origins of `half_edges`; says whether its front is seen.
     fn add_facet(
         &mut self,
         face: FaceId,
@@ -204,16 +250,21 @@ impl<'a> Stage<'a> {
         }
         let (low, high) =
             places.iter().fold((places[0], places[0]), |(low, high), &p| (low.min(p), high.max(p)));
-        let light = match (self.plain, is_front) {
-            (true, true) => paint::lit(colour, normal, Modelling::Full),
-            (true, false) => paint::lit(paint::BACK, -normal, Modelling::Full),
-            (false, _) => {
-                paint::lit(colour, if is_front { normal } else { -normal }, Modelling::Soft)
-            }
+        let sign = if is_front { 1.0 } else { -1.0 };
+        let (colour, modelling) = match (self.plain, is_front) {
+            (true, true) => (colour, Modelling::Full),
+            (true, false) if colour == paint::FRONT => (paint::BACK, Modelling::Full),
+            (true, false) => (colour, Modelling::Full),
+            (false, _) => (colour, Modelling::Soft),
         };
+        let smooth = self.smooth.as_ref().filter(|_| half_edges.len() == 3).map(|normals| {
+            let corners = [0, 1, 2].map(|i| (places[i], sign * normals.at(half_edges[i])));
+            (Slope::new(corners), colour, modelling)
+        });
         self.scene.facets.push(Facet {
             face,
-            light,
+            light: paint::lit(colour, sign * normal, modelling),
+            smooth,
             top: low.y,
             bottom: high.y,
             anchor: places.iter().sum::<DVec3>() / places.len() as f64,
@@ -236,8 +287,11 @@ impl<'a> Stage<'a> {
         // would blacken the faces.
         let [area, other_area] = faces.map(|f| self.areas[f]);
         let spacing = area.max(other_area).sqrt() / self.line_width;
+        let is_smoothed = self.smooth.is_some() && fold < super::smooth::CREASE;
         let strength = if is_outline {
             ramp(spacing, 0.1, 0.5)
+        } else if is_smoothed {
+            0.0
         } else {
             // Edges in a smooth or flat part are light, real folds dark; sharp folds stay longer
             // where it gets dense.
@@ -254,8 +308,80 @@ impl<'a> Stage<'a> {
             width,
             strength: strength as f32,
             is_outline,
-            is_rim,
+            ink: if is_rim { Ink::Rim } else { Ink::Edge },
         })
+    }
+
+    /// Draws marked edges thick, and dots on marked vertices.
+    fn add_marks(&mut self, marks: &Marks) {
+        let thick = |&e: &EdgeId| Line {
+            ends: self.mesh.edge_vertices(e).map(|v| self.places[v]),
+            faces: self.mesh.edge_faces(e),
+            width: 3.2 * self.line_width,
+            strength: 1.0,
+            is_outline: self.mesh.is_rim(e),
+            ink: Ink::Mark,
+        };
+        let lines: Vec<Line> = marks.edges.iter().map(thick).collect();
+        self.scene.lines.extend(lines);
+        if !marks.vertices.is_empty() {
+            self.scene.dot_radius = self.scene.dot_radius.max(4.5 * self.line_width);
+        }
+        let dot = |&v: &VertexId| Dot { place: self.places[v], vertex: v, colour: paint::MARK };
+        let dots: Vec<Dot> = marks.vertices.iter().map(dot).collect();
+        self.scene.dots.retain(|d| !marks.vertices.contains(&d.vertex));
+        self.scene.dots.extend(dots);
+    }
+
+    /// The numbers of the elements of a kind.
+    fn add_tags(&mut self, ids: Ids) {
+        let mesh = self.mesh;
+        self.scene.tags = match ids {
+            Ids::None => Vec::new(),
+            Ids::Vertices => {
+                let used = mesh.vertices().filter(|&v| mesh.vertex_start(v).is_some());
+                let tag = |v: VertexId| Tag {
+                    place: self.places[v],
+                    owner: Owner::Vertex(v),
+                    text: v.index().to_string(),
+                };
+                used.map(tag).collect()
+            }
+            Ids::Edges => {
+                let tag = |e: EdgeId| {
+                    let [a, b] = mesh.edge_vertices(e).map(|v| self.places[v]);
+                    let owner = Owner::Edge(mesh.edge_faces(e));
+                    Tag { place: a.midpoint(b), owner, text: e.index().to_string() }
+                };
+                mesh.edges().map(tag).collect()
+            }
+            Ids::Faces => mesh.faces().filter_map(|f| self.face_tag(f)).collect(),
+        };
+    }
+
+    /// The number of a face in the middle of its largest triangle, which lies inside of it.
+    fn face_tag(&self, f: FaceId) -> Option<Tag> {
+        let corners: Vec<VertexId> = self.mesh.face_vertices(f).collect();
+        let turned: Vec<DVec3> = corners.iter().map(|&v| self.turned[v]).collect();
+        let frame = Frame::on_plane(&Plane::newell(&turned)?);
+        let flat: Vec<DVec2> = turned.iter().map(|&p| frame.flatten(p)).collect();
+        let centre = crate::geom::polygon::centroid(&flat);
+        let is_inside =
+            crate::geom::polygon::locate(&flat, centre) == crate::geom::polygon::Location::Inside;
+        let places = corners.iter().map(|&v| self.places[v]);
+        let n = corners.len() as f64;
+        let place = if is_inside && corners.len() <= 8 {
+            places.sum::<DVec3>() / n
+        } else {
+            let area = |t: &[usize; 3]| {
+                let [a, b, c] = t.map(|i| flat[i]);
+                (b - a).perp_dot(c - a)
+            };
+            let largest =
+                triangulate(&flat).into_iter().max_by(|a, b| area(a).total_cmp(&area(b)))?;
+            largest.iter().map(|&i| self.places[corners[i]]).sum::<DVec3>() / 3.0
+        };
+        Some(Tag { place, owner: Owner::Face(f), text: f.index().to_string() })
     }
 
     fn add_dots(&mut self) {

@@ -70,6 +70,12 @@ pub enum RecipeError {
         /// What is wrong with it.
         message: String,
     },
+    /// A value for a parameter that the recipe does not have.
+    #[error("{message}")]
+    NoSuchParameter {
+        /// Which one, and what there is instead.
+        message: String,
+    },
     /// No step at all.
     #[error(
         "the recipe has no [[step]]; the first one names a solid or reads a file, e.g. solid = \
@@ -87,7 +93,7 @@ impl RecipeError {
             | Self::NoVerb { at, .. }
             | Self::TwoVerbs { at, .. }
             | Self::BadValue { at, .. } => Some(*at),
-            Self::NoSteps => None,
+            Self::NoSteps | Self::NoSuchParameter { .. } => None,
         }
     }
 
@@ -115,6 +121,7 @@ codes!(error RecipeError {
     TwoVerbs = 704,
     BadValue = 705,
     NoSteps = 706,
+    NoSuchParameter = 707,
 });
 
 /// Why a recipe could not be carried out. The step is counted from 1.

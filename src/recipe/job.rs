@@ -4,23 +4,25 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::{OperatorStep, Recipe, Step, StepError};
+use super::{Before, OperatorStep, Recipe, Step, StepError};
 use crate::check::{CheckParams, Report, check};
-use crate::io::{ReadMesh, read_mesh};
+use crate::io::{ReadMesh, read_mesh, size_note};
 use crate::make::{
-    DformParams, FabricateParams, FabricateSettings, Fabrication, MakeError, PanelFiles, PanelJob,
-    Panelled, ShowParams, carve_dform, fabricate, nest_files, operate, panel_model,
+    DformError, DformParams, FabricateParams, FabricateSettings, Fabrication, MakeError,
+    OutlineParams, OutlinesError, PanelFiles, PanelJob, Panelled, PiecePromise, PointOut,
+    ShowParams, carve_dform, fabricate, nest_files, operate, outlined_dform, panel_model,
     solid_of_planes, with_material,
 };
 use crate::mesh::{Mesh, SplitVertex};
 use crate::op::{HullParams, HullStep, OpContext, OpError, hull};
 use crate::panel::PanelParams;
+use crate::panelize::height_field;
 use crate::picture::RenderParams;
 use crate::progress::Progress;
 use crate::select::{NewElements, Selection};
 use crate::shape::solid;
 use crate::sheet::SheetParams;
-use crate::unfold::{MeshSource, UnfoldParams};
+use crate::unfold::{MeshSource, PiecesMode, UnfoldParams};
 
 /// An operator of a recipe that did not reach what was asked for; the notes say what is missing.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -41,14 +43,23 @@ impl fmt::Display for StepWithFindings {
 /// be kept.
 #[derive(Clone, Default)]
 pub struct Job {
+    /// The name of the recipe, which stands on its sheets.
+    title: String,
     mesh: Option<Arc<Mesh>>,
     made: Option<NewElements>,
+    /// Into how many pieces the strips of the last cut come apart, as the edges promised.
+    promised: Option<PiecePromise>,
     /// What the user should know, in order.
     pub notes: Vec<String>,
     /// Operators that did not reach what was asked for, as far as no later step mends it.
     pub with_findings: Vec<StepWithFindings>,
     /// How the picture of the model looks.
     pub render: RenderParams,
+    /// What the picture points out.
+    pub point_out: PointOut,
+    /// The mesh before the last operator, where the recipe shows it.
+    pub before: Option<Arc<Mesh>>,
+    keeps_before: bool,
     /// The dual hull on its way, as the last hull was asked for.
     pub hull_steps: Vec<HullStep>,
     /// Limits for the report.
@@ -89,6 +100,10 @@ impl Job {
         folder: &Path,
         progress: &dyn Progress,
     ) -> Result<Self, StepError> {
+        let shows =
+            |s: &Step| matches!(s, Step::Render { story, .. } if story.before == Before::On);
+        self.keeps_before = recipe.steps.iter().any(shows);
+        self.title = recipe.name.clone().unwrap_or_default();
         for (i, step) in recipe.steps.iter().enumerate() {
             self.carry_out(i + 1, step, folder, progress)?;
         }
@@ -148,11 +163,19 @@ impl Job {
         }
         match step {
             Step::Solid(params) => self.start(solid(params)?)?,
+            Step::Height(params) => {
+                self.start(height_field(params).map_err(OpError::from)?)?;
+            }
             Step::Read(read) => {
                 let path: PathBuf = folder.join(&read.path);
-                let ReadMesh { mut mesh, notes, .. } = read_mesh(&path, &read.options)?;
-                self.notes.extend(notes.iter().map(ToString::to_string));
+                let ReadMesh { mut mesh, notes, made, .. } = read_mesh(&path, &read.options)?;
+                let notes = notes.into_iter().chain(size_note(&mesh, &read.options));
+                self.notes.extend(notes.map(|note| note.to_string()));
                 // From here on ids are those of the model.obj that will be written.
+                self.made = made.map(|mut made| {
+                    made.compact(&mut mesh);
+                    made
+                });
                 mesh.compact();
                 self.start(mesh)?;
             }
@@ -172,6 +195,9 @@ impl Job {
                 if !output.is_clean {
                     self.with_findings.push(StepWithFindings { step: number, verb });
                 }
+                let cut = (&output.cut_edges[..], self.made.as_ref());
+                self.promised = PiecePromise::of(self.mesh()?, cut, self.promised);
+                self.before = self.mesh.take().filter(|_| self.keeps_before);
                 (self.mesh, self.made) = (Some(Arc::new(output.mesh)), output.made);
             }
             Step::Hull(params) => {
@@ -181,29 +207,42 @@ impl Job {
                 self.hull_steps = report.steps;
                 // The hull is a solid of its own, whatever its corners came from.
                 self.with_findings.clear();
-                (self.mesh, self.made) = (Some(Arc::new(mesh)), None);
+                (self.mesh, self.made, self.promised) = (Some(Arc::new(mesh)), None, None);
             }
             Step::Check(params) => (self.check, self.is_check_asked) = (params.clone(), true),
-            Step::Render(params) => self.render = params.clone(),
-            Step::Dform { dform, sheet, show } => {
+            Step::Render { render, point_out, .. } => {
+                (self.render, self.point_out) = (render.clone(), point_out.clone());
+            }
+            Step::Dform { dform, outlines, sheet, show } => {
                 self.show = show.clone();
-                self.dform(dform, &with_material(sheet, folder)?, progress)?;
+                let sheet = self.sheet(sheet, folder)?;
+                if outlines.is_given() {
+                    self.outlines(outlines, folder, sheet, progress)?;
+                } else {
+                    no_stray_option(outlines)?;
+                    self.dform(dform, &sheet, progress)?;
+                }
             }
             Step::Unfold { unfold, fabricate, sheet, show } => {
                 self.show = show.clone();
-                self.unfold(unfold, fabricate, &with_material(sheet, folder)?, folder, progress)?;
+                self.unfold(unfold, fabricate, &self.sheet(sheet, folder)?, folder, progress)?;
             }
             Step::Panels { panels, files, sheet } => {
-                self.panels(panels, files, &with_material(sheet, folder)?, progress)?
+                self.panels(panels, files, &self.sheet(sheet, folder)?, progress)?
             }
             Step::Nest { nest, sheet } => {
-                let sheet = with_material(sheet, folder)?;
+                let sheet = self.sheet(sheet, folder)?;
                 let fabrication = nest_files(nest, &sheet, folder, progress)?;
                 self.notes.extend(fabrication.notes());
                 self.fabrication = Some((fabrication, sheet));
             }
         }
         Ok(())
+    }
+
+    /// Sheet parameters with what their material decides, and the name of the recipe.
+    fn sheet(&self, sheet: &SheetParams, folder: &Path) -> Result<SheetParams, MakeError> {
+        Ok(with_material(sheet, folder)?.titled(&self.title))
     }
 
     fn start(&mut self, mesh: Mesh) -> Result<(), MakeError> {
@@ -227,8 +266,22 @@ impl Job {
             folds: Selection::of_edges(carved.folds.iter().copied()),
             ..FabricateParams::default()
         };
-        self.made = Some(carved.made);
+        (self.made, self.promised) = (Some(carved.made), None);
         self.unfold(&UnfoldParams::default(), &folds, sheet, Path::new(""), progress)
+    }
+
+    fn outlines(
+        &mut self,
+        params: &OutlineParams,
+        folder: &Path,
+        sheet: SheetParams,
+        progress: &dyn Progress,
+    ) -> Result<(), MakeError> {
+        let made = outlined_dform(params, folder, &sheet, progress)?;
+        self.start(made.mesh)?;
+        self.notes.extend(made.notes);
+        (self.fabrication, self.panelled) = (Some((made.fabrication, sheet)), None);
+        Ok(())
     }
 
     /// Panels take the place of pieces unfolded before, since both would go to the same files.
@@ -269,8 +322,30 @@ impl Job {
             &source,
             progress,
         )?;
+        let made = fabrication.net.pieces.len();
+        let is_meant = choice.is_of_strips() && unfold.pieces == PiecesMode::Auto;
+        if let Some(PiecePromise { pieces: promised, is_perfect }) = self.promised
+            && promised != made
+            && is_meant
+            && fabrication.divided == 0
+            && (is_perfect || fabrication.is_of_given_folds())
+        {
+            return Err(DformError::BrokenPromise { promised, made }.into());
+        }
         self.notes.extend(fabrication.notes());
         (self.fabrication, self.panelled) = (Some((fabrication, sheet.clone())), None);
         Ok(())
+    }
+}
+
+/// Options of outlines mean nothing for a D-form of a solid.
+fn no_stray_option(outlines: &OutlineParams) -> Result<(), MakeError> {
+    match outlines.without_outlines() {
+        None => Ok(()),
+        Some(option) => Err(OutlinesError::Options {
+            what: format!("`{option}` is given without outlines"),
+            advice: "name outlines or a gluing file, or leave it out",
+        }
+        .into()),
     }
 }

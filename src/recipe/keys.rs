@@ -8,18 +8,19 @@ use clap::{Args, Command};
 use serde::de::DeserializeOwned;
 
 use super::error::RecipeError;
-use super::parse::StepFields;
+use super::fields::{KnownKeys, StepFields};
 use super::{
-    DformParams, FabricateParams, NestStep, OperatorStep, PanelFiles, PlanesStep, ReadStep,
-    ShowParams, Step,
+    DformParams, FabricateParams, NestStep, OperatorStep, OutlineParams, PanelFiles, PlanesStep,
+    PointOut, ReadStep, ShowParams, Step, StoryParams,
 };
 use crate::check::CheckParams;
 use crate::op::{
-    HandleParams, HullParams, MengerParams, Operate, PlanarizeParams, ResolveParams, RindParams,
-    SierpinskiParams, SliceParams, SubdivideParams, TruncateEdgeParams, TruncateFaceParams,
-    TruncateVertexParams,
+    HandleParams, HullParams, MengerParams, MergeParams, Operate, PlanarizeParams, RepairParams,
+    ResolveParams, RindParams, SierpinskiParams, SimplifyParams, SliceParams, SubdivideParams,
+    TruncateEdgeParams, TruncateFaceParams, TruncateVertexParams,
 };
 use crate::panel::PanelParams;
+use crate::panelize::{HeightParams, PanelizeParams};
 use crate::picture::RenderParams;
 use crate::shape::SolidParams;
 use crate::sheet::SheetParams;
@@ -51,8 +52,9 @@ impl StepKind {
     }
 
     /// All keys, that of the field of the verb among them.
-    pub(super) fn keys(&self) -> Vec<String> {
-        self.command().get_arguments().map(|a| a.get_id().to_string()).collect()
+    pub(super) fn known_keys(&self) -> KnownKeys {
+        let all = self.command().get_arguments().map(|a| a.get_id().to_string()).collect();
+        KnownKeys { all, of_verb: self.field, words: self.words }
     }
 }
 
@@ -64,6 +66,7 @@ pub fn steps() -> &'static [StepKind] {
 const STEPS: &[StepKind] = &[
     step("solid", "name", &[SolidParams::augment_args], |s| Ok(Step::Solid(s.read()?))),
     step("read", "path", &[ReadStep::augment_args], |s| Ok(Step::Read(s.read()?))),
+    step("height", "height", &[HeightParams::augment_args], |s| Ok(Step::Height(s.read()?))),
     step("planes", "path", &[PlanesStep::augment_args], |s| Ok(Step::Planes(s.read()?))),
     cut("vertex", &[TruncateVertexParams::augment_args], |s| {
         operator::<TruncateVertexParams>(s, "cut vertex")
@@ -84,6 +87,18 @@ const STEPS: &[StepKind] = &[
     }),
     step("planarize", "profile", &[PlanarizeParams::augment_args], |s| {
         operator::<PlanarizeParams>(s, "planarize")
+    }),
+    step("merge", "tolerance", &[MergeParams::augment_args], |s| {
+        operator::<MergeParams>(s, "merge")
+    }),
+    step("repair", "close_holes", &[RepairParams::augment_args], |s| {
+        operator::<RepairParams>(s, "repair")
+    }),
+    step("simplify", "faces", &[SimplifyParams::augment_args], |s| {
+        operator::<SimplifyParams>(s, "simplify")
+    }),
+    step("panelize", "size", &[PanelizeParams::augment_args], |s| {
+        operator::<PanelizeParams>(s, "panelize")
     }),
     step("subdivide", "scheme", &[SubdivideParams::augment_args], |s| {
         operator::<SubdivideParams>(s, "subdivide")
@@ -117,12 +132,27 @@ const STEPS: &[StepKind] = &[
             })
         },
     ),
-    step(
-        "dform",
-        "matching",
-        &[DformParams::augment_args, SheetParams::augment_args, ShowParams::augment_args],
-        |s| Ok(Step::Dform { dform: s.read()?, sheet: s.read()?, show: s.read()? }),
-    ),
+    StepKind {
+        words: &[("\"outlines\"", "\"hamiltonian\"")],
+        ..step(
+            "dform",
+            "matching",
+            &[
+                DformParams::augment_args,
+                OutlineParams::augment_args,
+                SheetParams::augment_args,
+                ShowParams::augment_args,
+            ],
+            |s| {
+                Ok(Step::Dform {
+                    dform: s.read()?,
+                    outlines: s.read()?,
+                    sheet: s.read()?,
+                    show: s.read()?,
+                })
+            },
+        )
+    },
     step(
         "panels",
         "side",
@@ -132,7 +162,12 @@ const STEPS: &[StepKind] = &[
     step("nest", "pieces", &[NestStep::augment_args, SheetParams::augment_args], |s| {
         Ok(Step::Nest { nest: s.read()?, sheet: s.read()? })
     }),
-    step("render", "view", &[RenderParams::augment_args], |s| Ok(Step::Render(s.read()?))),
+    step(
+        "render",
+        "view",
+        &[RenderParams::augment_args, PointOut::augment_args, StoryParams::augment_args],
+        |s| Ok(Step::Render { render: s.read()?, point_out: s.read()?, story: s.read()? }),
+    ),
 ];
 
 const fn step(
@@ -157,12 +192,6 @@ fn operator<T: Args + DeserializeOwned + Operate + 'static>(
     verb: &'static str,
 ) -> Result<Step, RecipeError> {
     Ok(Step::Operator(OperatorStep { verb, params: Arc::new(step.read::<T>()?) }))
-}
-
-/// The names of a parameter struct's fields, as its command-line definition has them.
-pub(super) fn field_names<T: Args>() -> Vec<String> {
-    let command = T::augment_args(Command::new("step"));
-    command.get_arguments().map(|a| a.get_id().to_string()).collect()
 }
 
 /// The verbs, each once.

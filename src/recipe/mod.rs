@@ -2,13 +2,16 @@
 //!
 //! Every step is the same parameter struct as the verb of that name on the command line. The steps
 //! of a recipe share one
-//! [`Job`]: the mesh as it is by then, what the last step made, and the results that are written at the end.
+//! [`Job`]: the mesh as it is by then, what the last step made, and the results that are written at
+//! the end.
 
 mod draft;
 mod error;
+mod fields;
 mod job;
 mod keys;
 mod outputs;
+mod parameters;
 mod parse;
 mod schema;
 mod session;
@@ -31,9 +34,13 @@ pub use session::{Preview, Reached, Replay, Session, SessionError};
 
 use crate::check::CheckParams;
 use crate::io::ReadOptions;
-use crate::make::{DformParams, FabricateParams, NestStep, PanelFiles, PlanesStep, ShowParams};
+use crate::make::{
+    DformParams, FabricateParams, NestStep, OutlineParams, PanelFiles, PlanesStep, PointOut,
+    ShowParams,
+};
 use crate::op::{HullParams, Operate};
 use crate::panel::PanelParams;
+use crate::panelize::HeightParams;
 use crate::picture::RenderParams;
 use crate::shape::SolidParams;
 use crate::sheet::SheetParams;
@@ -60,6 +67,27 @@ pub struct ReadStep {
     pub options: ReadOptions,
 }
 
+/// What a recipe shows besides its model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::Args, Deserialize)]
+pub struct StoryParams {
+    /// Whether before.png shows the model as it was before the last operator, seen through, with the
+    /// sections along which it was cut
+    #[arg(long, value_enum, default_value_t)]
+    #[serde(default)]
+    pub before: Before,
+}
+
+/// Whether there is a picture of the model before the last operator.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Before {
+    /// No picture.
+    #[default]
+    Off,
+    /// `before.png`.
+    On,
+}
+
 /// An operator of [`crate::op`] with its parameters.
 #[derive(Debug, Clone)]
 pub struct OperatorStep {
@@ -77,6 +105,8 @@ pub enum Step {
     Solid(SolidParams),
     /// `read = "model.obj"`: a mesh file.
     Read(ReadStep),
+    /// `height = "2*sin(x/3)"`: a surface given as heights over a rectangle.
+    Height(HeightParams),
     /// `planes = "planes.csv"`: the solid that half-spaces bound.
     Planes(PlanesStep),
     /// `cut = "edge"`, `planarize = "exact"`, `subdivide = "loop"` and all other operators that
@@ -97,10 +127,13 @@ pub enum Step {
         /// What is made to be looked at.
         show: ShowParams,
     },
-    /// `dform = "hamiltonian"`: carves the folds of a D-form and unfolds it.
+    /// `dform = "hamiltonian"`: carves the folds of a D-form and unfolds it. `dform = "outlines"`:
+    /// joins flat outlines, as a first step.
     Dform {
         /// Which folds, and how to carve them.
         dform: DformParams,
+        /// The outlines, where it is made from these.
+        outlines: OutlineParams,
         /// Where the pieces go.
         sheet: SheetParams,
         /// What is made to be looked at.
@@ -123,7 +156,14 @@ pub enum Step {
         sheet: SheetParams,
     },
     /// `render = "iso"`: how the picture of the model looks.
-    Render(RenderParams),
+    Render {
+        /// Colours, view, numbers.
+        render: RenderParams,
+        /// What is pointed out.
+        point_out: PointOut,
+        /// What else is shown.
+        story: StoryParams,
+    },
 }
 
 impl Step {
@@ -132,6 +172,7 @@ impl Step {
         match self {
             Self::Solid(_) => "solid",
             Self::Read(_) => "read",
+            Self::Height(_) => "height",
             Self::Planes(_) => "planes",
             Self::Operator(step) => step.verb,
             Self::Hull(_) => "hull",
@@ -140,7 +181,7 @@ impl Step {
             Self::Dform { .. } => "dform",
             Self::Panels { .. } => "panels",
             Self::Nest { .. } => "nest",
-            Self::Render(_) => "render",
+            Self::Render { .. } => "render",
         }
     }
 }

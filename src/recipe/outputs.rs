@@ -7,10 +7,14 @@ use crate::io::report::json::check_json;
 use crate::io::report::page::{ReportPage, ReportRows};
 use crate::io::{MeshFormat, WriteOptions, mesh_bytes};
 use crate::make::{
-    MakeError, Output, fabrication_outputs, panel_outputs, report_pictures, sheet_picture,
-    show_outputs,
+    MakeError, Output, before_and_sections, fabrication_outputs, panel_outputs, report_pictures,
+    show_outputs, x_ray,
 };
-use crate::picture::render_model;
+use crate::mesh::{FaceId, Mesh};
+use crate::net::Net;
+use crate::op::OpContext;
+use crate::picture::{Colour, RenderParams, render_model, render_with};
+use crate::progress::Silent;
 
 /// The files of a whole recipe: model, picture, report, the steps of a hull where asked for, and if
 /// it was unfolded pieces, layout, sheets and their pictures.
@@ -24,7 +28,7 @@ pub fn job_outputs(job: &Job, command: &str) -> Result<Vec<Output>, MakeError> {
         let mesh = job.mesh()?;
         let options = WriteOptions { command: Some(command.to_owned()), ..WriteOptions::default() };
         outputs.push(("model.obj".to_owned(), mesh_bytes(MeshFormat::Obj, mesh, &options)?));
-        outputs.push(("model.png".to_owned(), render_model(mesh, &job.render)?.to_png()));
+        outputs.extend(pictures(job, mesh)?);
         outputs.push(("report.json".to_owned(), check_json(&job.report()?, command).into_bytes()));
         if job.is_check_asked {
             outputs.push(("report.html".to_owned(), report_page(job, command)?.into_bytes()));
@@ -34,26 +38,47 @@ pub fn job_outputs(job: &Job, command: &str) -> Result<Vec<Output>, MakeError> {
         outputs.push((step.file_name("model"), render_model(&step.mesh, &job.render)?.to_png()));
     }
     if let Some((panelled, sheet)) = &job.panelled {
-        outputs.extend(panel_outputs(panelled, sheet, command)?);
+        outputs.extend(panel_outputs(panelled, job.mesh()?, sheet, command)?);
     }
     if let Some((fabrication, sheet)) = &job.fabrication {
-        outputs.extend(fabrication_outputs(fabrication, sheet, command)?);
+        outputs.extend(fabrication_outputs(fabrication, job.mesh().ok(), sheet, command)?);
     }
-    let made = job
-        .fabrication
-        .as_ref()
-        .map(|(f, _)| f)
-        .or(job.panelled.as_ref().map(|(p, _)| &p.fabrication));
-    if let Some(fabrication) = made {
-        for drawing in &fabrication.sheets.drawings {
-            let picture = sheet_picture(drawing, job.render.width)?;
-            outputs.push((format!("{}.png", drawing.file_stem()), picture));
-        }
-    }
-    if let Some(((fabrication, _), mesh)) = job.fabrication.as_ref().zip(job.mesh().ok()) {
-        outputs.extend(show_outputs(fabrication, mesh, &job.show, &job.render, command)?);
+    if let Some(((fabrication, sheet), mesh)) = job.fabrication.as_ref().zip(job.mesh().ok()) {
+        let show = (&job.show, sheet.letter.labels);
+        outputs.extend(show_outputs(fabrication, mesh, show, &job.render, command)?);
     }
     Ok(outputs)
+}
+
+/// The picture of the model, and where it is asked for of the model before the last operator.
+fn pictures(job: &Job, mesh: &Mesh) -> Result<Vec<Output>, MakeError> {
+    let context = OpContext { made: job.made(), progress: &Silent };
+    let (shown, marks) = job.point_out.shown(mesh, job.made(), job.render.ids, &context)?;
+    let made = job.fabrication.as_ref().map(|(f, _)| f);
+    let (shown, render) = match made.filter(|_| job.render.colour == Colour::Piece) {
+        Some(made) => in_pieces(&made.net, shown, &job.render),
+        None => (shown, job.render.clone()),
+    };
+    let mut outputs =
+        vec![("model.png".to_owned(), render_with(&shown, &render, &marks)?.to_png())];
+    let before = job.before.as_deref();
+    if let Some((both, marks)) = before.and_then(|b| before_and_sections(b, mesh, job.made())) {
+        let picture = render_with(&both, &x_ray(&job.render), &marks)?;
+        outputs.push(("before.png".to_owned(), picture.to_png()));
+    }
+    Ok(outputs)
+}
+
+/// The mesh with its pieces as groups, so that they have the colours of groups.
+fn in_pieces(net: &Net, mut mesh: Mesh, render: &RenderParams) -> (Mesh, RenderParams) {
+    for piece in &net.pieces {
+        for face in piece.faces.iter().map(|f| FaceId::new(f.face)) {
+            if mesh.has_face(face) {
+                mesh.set_group(face, &piece.id.to_string());
+            }
+        }
+    }
+    (mesh, RenderParams { colour: Colour::Group, ..render.clone() })
 }
 
 /// The page of the report, with the pictures seen as the recipe says.

@@ -298,7 +298,7 @@ mod tests {
             assert_eq!(keys.len(), many, "{}", step.verb);
             assert_eq!(step.keys.iter().filter(|k| k.is_verb).count(), 1, "{}", step.verb);
             assert!(step.keys.iter().all(|k| k.is_verb || !k.help.is_empty()), "{}", step.verb);
-            assert_eq!(many, kind.keys().len() + usize::from(kind.kind.is_some()));
+            assert_eq!(many, kind.known_keys().all.len() + usize::from(kind.kind.is_some()));
         }
     }
 

@@ -223,7 +223,7 @@ pub fn table(
         all.push(folds);
     }
     if all.is_empty() {
-        // The solver tells why.
+        // The solver says why.
         super::least_matching(mesh, progress)?;
     }
     all.sort_unstable();

@@ -2,6 +2,7 @@
 
 use crate::code::codes;
 use crate::mesh::{EdgeId, VertexId};
+use crate::units::counted;
 
 /// Why folds or seams of the wanted kind cannot be given.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -12,9 +13,9 @@ pub enum SeamError {
     Empty,
     /// The mesh is open.
     #[error(
-        "the mesh is open: it has {holes} rim(s), one of them at edge {edge}; folds that meet \
-        every vertex once need a \
-         closed mesh, close it first"
+        "the mesh is open: it has {}, one of them at edge {edge}; folds that meet every vertex \
+        once need a closed mesh, close it first",
+        counted(*holes, "rim", "rims")
     )]
     Open {
         /// Number of rims.
@@ -24,9 +25,9 @@ pub enum SeamError {
     },
     /// A vertex has another valence than 3.
     #[error(
-        "vertex {vertex} has valence {valence}, and so {count} vertices in all have another \
-        valence than 3; cut the \
-        vertices that are `!valence=3` to make the mesh 3-valent"
+        "vertex {vertex} has valence {valence}, and so {} another valence than 3; cut the vertices \
+        that are `!valence=3` to make the mesh 3-valent",
+        counted(*count, "vertex in all has", "vertices in all have")
     )]
     Valence {
         /// The lowest such vertex.
@@ -38,10 +39,11 @@ pub enum SeamError {
     },
     /// No choice of folds meets every vertex exactly once.
     #[error(
-        "no folds meet every vertex exactly once: without the {} vertices {} the mesh falls into \
-        {odd_parts} parts with \
-         an odd number of vertices; change the mesh there (in a 3-valent mesh: remove the bridges)",
-        barrier.len(), Listed(barrier)
+        "no folds meet every vertex exactly once: without the {} {} the mesh falls into \
+        {odd_parts} parts with an odd number of vertices; change the mesh there (in a 3-valent \
+        mesh: remove the bridges)",
+        counted(barrier.len(), "vertex", "vertices"),
+        Listed(barrier)
     )]
     NoMatching {
         /// Vertices whose removal leaves more odd parts than vertices were removed (Tutte's

@@ -211,7 +211,7 @@ mod tests {
         assert!(matches!(TwoPieceSearch::new(&large, &Cancelled), Err(SeamError::Cancelled)));
     }
 
-    /// As an unfolder does: hundreds of short fold paths forbidden, five times. The bench tells how
+    /// As an unfolder does: hundreds of short fold paths forbidden, five times. The bench says how
     /// fast.
     #[test]
     fn many_forbidden_paths_leave_two_pieces() {

@@ -165,6 +165,6 @@ mod tests {
         let error = least_folds(&graph, &[1; 24], &Silent).expect_err("no perfect matching");
         let barrier = vec![crate::mesh::VertexId::new(0)];
         assert_eq!(error, SeamError::NoMatching { barrier, odd_parts: 3 });
-        assert!(error.to_string().contains("1 vertices [0]"), "{error}");
+        assert!(error.to_string().contains("1 vertex [0]"), "{error}");
     }
 }

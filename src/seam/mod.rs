@@ -10,12 +10,14 @@
 //! - [`Matchings`], [`table`] and [`matching`] list all of them for small meshes, up to symmetry.
 //! - [`TwoPieceSearch`] and [`hamiltonian_folds`] look for the seam of two pieces, or prove that
 //!   there is none.
+//! - [`two_piece_bound`] tells how good a two-piece seam is, by branch and bound.
 //! - [`one_piece_folds`] finds, on surfaces with handles, the seams that leave one piece.
 //! - [`edge_symmetries`] lists the symmetries of a mesh.
 //! - [`seam_cycles`], [`piece_count`], [`piece_of_faces`] and [`is_perfect_matching`] show what a
 //!   choice of folds means.
 
 mod blossom;
+mod bound;
 mod enumerate;
 mod error;
 mod exchange;
@@ -33,6 +35,7 @@ mod weight;
 #[cfg(test)]
 mod fixtures;
 
+pub use bound::{TwoPieceBound, two_piece_bound};
 pub use enumerate::{MATCHING_LIMIT, MatchingRow, Matchings, matching, table};
 pub use error::{NoHamiltonian, SeamError};
 pub use factor::{is_perfect_matching, piece_count, piece_of_faces, seam_cycles};

@@ -12,7 +12,7 @@ pub(super) struct Sat {
 /// What a call of [`Sat::solve`] came to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Answer {
-    /// All clauses can hold; [`Sat::value`] tells how.
+    /// All clauses can hold; [`Sat::value`] says how.
     Yes,
     /// They cannot.
     No,

@@ -20,7 +20,7 @@ pub(super) struct EdgeClasses {
 impl EdgeClasses {
     pub fn new(mesh: &Mesh, graph: &Graph) -> Self {
         let lengths: Vec<f64> = graph.edge_ids.iter().map(|&e| edge_length(mesh, e)).collect();
-        // An unknown angle is told apart from all real ones.
+        // An unknown angle is distinguished from all real ones.
         let angles: Vec<f64> =
             graph.edge_ids.iter().map(|&e| fold_angle(mesh, e).unwrap_or(10.0)).collect();
         let longest = lengths.iter().copied().fold(0.0, f64::max);

@@ -74,7 +74,9 @@ pub enum SelectError {
         known: Vec<String>,
     },
     /// There was no step before.
-    #[error("`{atom}` means what the last step made, but no step came before")]
+    #[error(
+        "`{atom}` means what the last step made, but no step came before: OBJ files tell it, others do not"
+    )]
     NothingMade {
         /// The condition.
         atom: String,
@@ -88,7 +90,10 @@ pub enum SelectError {
         source: SeamError,
     },
     /// Nothing fits.
-    #[error("`{selection}` selects no {kind}{}", found.as_ref().map(|found| format!("; {found}")).unwrap_or_default())]
+    #[error(
+        "`{selection}` selects no {kind}{}",
+        found.as_ref().map(|found| format!("; {found}")).unwrap_or_default()
+    )]
     Empty {
         /// The whole selection.
         selection: String,

@@ -102,26 +102,15 @@ impl Evaluation<'_> {
             Atom::Sides(compare, n) => {
                 faces(mesh, |f| compare.holds(mesh.sides(f).cmp(&(n as usize))))
             }
-            Atom::Fold(compare, angle) => {
-                let fold = |e| fold_angle(mesh, e).map(|fold| fold.abs().to_degrees());
-                edges(mesh, |e| {
-                    fold(e).is_some_and(|fold| compare_angles(compare, fold, angle.degrees()))
-                })
-            }
-            Atom::Along(direction, tolerance) => {
-                let direction = direction.unit();
-                edges(mesh, |e| {
-                    let [a, b] = mesh.edge_positions(e);
-                    let angle = angle_between(b - a, direction);
-                    angle.is_some_and(|angle| {
-                        compare_angles(
-                            Compare::LessOrEqual,
-                            angle.min(180.0 - angle),
-                            tolerance.degrees(),
-                        )
-                    })
-                })
-            }
+            Atom::Fold(compare, angle) => edges(mesh, |e| {
+                let fold = fold_angle(mesh, e).map(|fold| fold.abs().to_degrees());
+                fold.is_some_and(|fold| compare_angles(compare, fold, angle.degrees()))
+            }),
+            Atom::Along(direction, tolerance) => edges(mesh, |e| {
+                let [a, b] = mesh.edge_positions(e);
+                let angle = angle_between(b - a, direction.unit());
+                is_within(angle.map(|angle| angle.min(180.0 - angle)), tolerance.degrees())
+            }),
             Atom::Above(direction, height) => {
                 self.by_vertices(&self.beyond(direction, height.mm()))
             }
@@ -129,26 +118,18 @@ impl Evaluation<'_> {
                 self.by_vertices(&self.beyond(direction.reversed(), -height.mm()))
             }
             Atom::Normal(direction, tolerance) => self.by_normals(|normal| {
-                let angle = angle_between(normal, direction.unit());
-                angle.is_some_and(|angle| {
-                    compare_angles(Compare::LessOrEqual, angle, tolerance.degrees())
-                })
+                is_within(angle_between(normal, direction.unit()), tolerance.degrees())
             }),
             Atom::Group(ref name) => self.group(name)?,
             Atom::Made => {
-                let made =
-                    self.made.ok_or_else(|| SelectError::NothingMade { atom: atom.to_string() })?;
+                let made = self.made(atom)?;
                 match self.kind {
                     Vertex => self.listed(made.vertices.iter().map(|v| v.index())),
                     Edge => self.listed(made.edges.iter().map(|e| e.index())),
                     Face => self.listed(made.faces.iter().map(|f| f.index())),
                 }
             }
-            Atom::Strip => {
-                let made =
-                    self.made.ok_or_else(|| SelectError::NothingMade { atom: atom.to_string() })?;
-                self.listed(made.strip.iter().map(|e| e.index()))
-            }
+            Atom::Strip => self.listed(self.made(atom)?.strip.iter().map(|e| e.index())),
             Atom::Folds(which) => {
                 let folds = seams::folds(mesh, which, self.progress);
                 let folds = folds
@@ -156,6 +137,11 @@ impl Evaluation<'_> {
                 self.listed(folds.iter().map(|e| e.index()))
             }
         })
+    }
+
+    /// What the last step made.
+    fn made(&self, atom: &Atom) -> Result<&NewElements, SelectError> {
+        self.made.ok_or_else(|| SelectError::NothingMade { atom: atom.to_string() })
     }
 
     fn all(&self) -> Marks {
@@ -248,6 +234,11 @@ impl Evaluation<'_> {
             Face => of_group,
         })
     }
+}
+
+/// Whether there is an angle, and it is at most the other; both in degrees.
+fn is_within(angle: Option<f64>, most: f64) -> bool {
+    angle.is_some_and(|angle| compare_angles(Compare::LessOrEqual, angle, most))
 }
 
 fn vertices(mesh: &Mesh, fits: impl Fn(VertexId) -> bool) -> Marks {

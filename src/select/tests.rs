@@ -154,7 +154,10 @@ fn made_and_strip_are_what_the_last_step_made() {
     let error = select("made").faces(&context).expect_err("no faces");
     assert_eq!(error.to_string(), "`made` selects no face; the last step made none");
     let error = select("strip").edges(&Context::of(&mesh)).expect_err("no step");
-    assert_eq!(error.to_string(), "`strip` means what the last step made, but no step came before");
+    assert_eq!(
+        error.to_string(),
+        "`strip` means what the last step made, but no step came before: OBJ files tell it, others do not"
+    );
 }
 
 #[test]

@@ -9,7 +9,7 @@
 use glam::{DVec2, DVec3};
 
 use super::UnfoldError;
-use crate::check::Profile;
+use crate::check::{Profile, ROUNDED};
 use crate::geom::{Frame, Plane, fit_plane};
 use crate::measure::polygon_planarity;
 
@@ -17,9 +17,9 @@ use crate::measure::polygon_planarity;
 /// to the face's diameter.
 ///
 /// Projecting a side of length L whose ends lie d off on different sides shortens it by (2d)² / 2L.
-/// A limit of 1e-5 of the diameter D, and of 1.5e-5 of √(D·L) where sides are short, keeps mating
+/// The limit of [`ROUNDED`], 1e-5 of the diameter D, and of 1.5e-5 of √(D·L) where sides are short, keeps mating
 /// sides equal to 1e-9 of the diameter, and holds for files with single-precision coordinates.
-const PROJECTED: f64 = 1e-5;
+const PROJECTED: f64 = ROUNDED;
 
 /// A face that is not higher over its longest line than this many times the rounding bound has no
 /// plane that means anything.

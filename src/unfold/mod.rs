@@ -80,6 +80,17 @@ const REPAIR_SHARE: u64 = 3;
 ///
 /// # Errors
 /// See [`UnfoldError`]. A net that does not pass [`prove`] is never returned.
+///
+/// # Example
+/// ```
+/// use kerfold::prelude::*;
+///
+/// let cube = kerfold::shape::cube(40.0);
+/// let source = MeshSource { scale: 1.0, split_vertices: &[] };
+/// let net = unfold(&cube, &Seams::Free, &UnfoldParams::default(), &source, &Silent)?;
+/// assert_eq!((net.pieces.len(), net.folds.len(), net.seams.len()), (1, 5, 7));
+/// # Ok::<(), kerfold::unfold::UnfoldError>(())
+/// ```
 pub fn unfold(
     mesh: &Mesh,
     seams: &Seams,
@@ -127,8 +138,8 @@ struct Tried {
 
 /// The layout with the fewest pieces that the search finds: attempts from other starts, at most one
 /// more than there are steps of effort, until there are as few pieces as can be or the budget is
-/// spent; then seams of its own choice are made shorter. The first attempt keeps flat edges together
-/// as far as can be, and later ones open them only for fewer pieces.
+/// spent; then seams of its own choice are made shorter. The first attempt keeps flat edges
+/// together as far as can be, and later ones open them only for fewer pieces.
 fn fewest<'a>(
     [dual, loose]: [&'a Dual; 2],
     mesh: &Mesh,

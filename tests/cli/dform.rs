@@ -44,3 +44,59 @@ fn a_d_form_of_standard_input_is_that_of_the_file() {
     let [one, two] = [&by_file, &by_pipe].map(|out| fs::read(format!("{out}/model.png")));
     assert_eq!(one.expect("a picture"), two.expect("a picture"));
 }
+
+#[test]
+fn all_choices_are_drawn() {
+    let folder = Folder::new("dform-list");
+    let (out, file, picture) =
+        (folder.path("out"), folder.path("cube.obj"), folder.path("all.png"));
+    let ran = run(&["dform", "cube", "--list", "-o", &out]);
+    assert_eq!(ran.code, Some(0), "{}", ran.err);
+    assert!(ran.out.contains("matching:0") && ran.out.contains("choices.png"), "{}", ran.out);
+    assert_eq!(run(&["solid", "cube", "-o", &file]).code, Some(0));
+    let ran = run(&["seams", &file, "--draw", &picture]);
+    assert_eq!(ran.code, Some(0), "{}", ran.err);
+    let [one, two] = [format!("{out}/choices.png"), picture].map(fs::read);
+    assert_eq!(one.expect("a picture"), two.expect("a picture"));
+    let ran = run(&["seams", &file, "--draw", &folder.path("all.jpg")]);
+    assert_eq!(ran.code, Some(2), "{}", ran.err);
+}
+
+#[test]
+fn strips_too_narrow_for_the_material_are_a_finding() {
+    let folder = Folder::new("dform-narrow");
+    let with = |strips: &str| {
+        let out = folder.path("out");
+        run(&[
+            "dform",
+            "tetrahedron",
+            "--size",
+            "90mm",
+            "--strips",
+            strips,
+            "--material",
+            "card",
+            "-o",
+            &out,
+        ])
+    };
+    let narrow = with("90");
+    assert!(
+        narrow.code == Some(1) && narrow.text().contains("F631"),
+        "{}{}",
+        narrow.out,
+        narrow.err
+    );
+    let wide = with("4");
+    assert!(wide.code == Some(0) && !wide.text().contains("F631"), "{}", wide.err);
+}
+
+#[test]
+fn rolls_and_offsets_do_not_mix() {
+    let folder = Folder::new("dform-mixed");
+    let out = folder.path("out");
+    let ran = run(&["dform", "cube", "--roll", "5mm", "--offset", "0.2", "-o", &out]);
+    assert!(ran.code == Some(2) && ran.err.contains("E315"), "{}", ran.err);
+    let ran = run(&["dform", "cube", "--size", "90mm", "--roll", "80mm", "-o", &out]);
+    assert!(ran.code == Some(2) && ran.err.contains("E345"), "{}", ran.err);
+}

@@ -53,6 +53,13 @@ pub struct Ran {
     pub err: String,
 }
 
+impl Ran {
+    /// All that was printed.
+    pub fn text(&self) -> String {
+        format!("{}{}", self.out, self.err)
+    }
+}
+
 pub fn program() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_kerfold"));
     command.stdin(Stdio::null());

@@ -35,3 +35,32 @@ fn planes_that_bound_nothing_are_refused_with_place_and_reason() {
     let missing = run(&["hull", "--planes", &folder.path("none.csv"), "-o", &output]);
     assert!(missing.code == Some(2) && missing.err.contains("none.csv"), "{}", missing.err);
 }
+
+/// Two tetrahedra that touch in a vertex, each a group: their hulls keep the names, and the file of
+/// them gives the same hulls again.
+#[test]
+fn hulls_of_groups_are_the_same_when_their_file_is_read_again() {
+    let folder = Folder::new("by-group");
+    let model = folder.path("two.obj");
+    let text = "v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nv -9 0 0\nv 0 -9 0\nv 0 0 -9\n\
+        g first part\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n\
+        g second\nf 1 5 6\nf 1 7 5\nf 1 6 7\nf 5 7 6\n";
+    fs::write(&model, text).expect("a file");
+    let [once, twice] = ["once.obj", "twice.obj"].map(|name| folder.path(name));
+    let shape = |path: &str| {
+        let read = kerfold::io::read_mesh(Path::new(path), &Default::default()).expect("a mesh");
+        let groups: Vec<_> =
+            read.mesh.faces().map(|f| read.mesh.group(f).map(String::from)).collect();
+        (read.mesh.counts(), groups)
+    };
+    for (from, to) in [(&model, &once), (&once, &twice)] {
+        let ran = run(&["hull", from, "--by-group", "-o", to]);
+        assert_eq!(ran.code, Some(0), "{}", ran.err);
+        let (counts, groups) = shape(to);
+        assert_eq!((counts.vertices, counts.edges, counts.faces), (8, 12, 8));
+        assert_eq!((counts.components, counts.rims), (2, 0));
+        let of = |name: &str| groups.iter().filter(|g| g.as_deref() == Some(name)).count();
+        assert_eq!((of("first part"), of("second")), (4, 4));
+    }
+    assert_eq!(shape(&once), shape(&twice));
+}

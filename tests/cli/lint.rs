@@ -53,3 +53,42 @@ fn lint_tells_what_it_finds_and_passes_our_own_sheets() {
         assert!(ran.err.contains(words), "{arguments:?}: {}", ran.err);
     }
 }
+
+#[test]
+fn what_is_skipped_is_told_and_long_lists_are_cut_short() {
+    let plain = run(&["lint", "fixtures/lint/05-text.svg"]);
+    assert_eq!(plain.code, Some(1), "{}", plain.out);
+    assert!(plain.out.contains(" text"), "{}", plain.out);
+    let skipped = run(&["lint", "--skip", "text,order", "fixtures/lint/05-text.svg"]);
+    assert_eq!((skipped.code, skipped.err.as_str()), (Some(0), ""), "{}", skipped.out);
+    let (told, verdict) = ("not checked: ", ": pass\n");
+    assert!(skipped.out.contains(told) && skipped.out.ends_with(verdict), "{}", skipped.out);
+    let json = run(&["lint", "--json", "--skip", "text", "fixtures/lint/05-text.svg"]);
+    let json: Value = serde_json::from_str(&json.out).expect("JSON");
+    assert_eq!(json["files"][0]["skipped"], serde_json::json!(["text"]));
+    let wrong = run(&["lint", "--skip", "words", "fixtures/lint/05-text.svg"]);
+    assert_eq!((wrong.code, wrong.out.as_str()), (Some(2), ""));
+    assert!(wrong.err.contains("words"), "{}", wrong.err);
+
+    // Thirty open lines: twenty are listed, ten counted, all with `--all`, and JSON counts them.
+    let folder = Folder::new("lint-all");
+    let lines: String = (0..30)
+        .map(|i| format!("<path d='M {x} 10 L {x} 20' stroke='red' fill='none'/>", x = 3 * i + 5))
+        .collect();
+    let size = "width='100mm' height='30mm' viewBox='0 0 100 30'";
+    let svg = format!("<svg xmlns='http://www.w3.org/2000/svg' {size}>{lines}</svg>");
+    let file = folder.path("lines.svg");
+    std::fs::write(&file, svg).expect("a file");
+    let count = |text: &str| text.matches(" open-contour at ").count();
+    let few = run(&["lint", &file]);
+    assert_eq!((few.code, count(&few.out)), (Some(1), 20), "{}", few.out);
+    assert!(few.out.contains("10 more, list them with --all"), "{}", few.out);
+    let all = run(&["lint", "--all", &file]);
+    assert_eq!((all.code, count(&all.out)), (Some(1), 30), "{}", all.out);
+    assert!(!all.out.contains("more, list them"), "{}", all.out);
+    let json = run(&["lint", "--json", &file]);
+    let json: Value = serde_json::from_str(&json.out).expect("JSON");
+    let page = &json["files"][0];
+    let listed = page["findings"].as_array().map(Vec::len);
+    assert_eq!((page["counts"]["open-contour"].as_u64(), listed), (Some(30), Some(20)));
+}

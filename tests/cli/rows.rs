@@ -107,6 +107,10 @@ pub const ROWS: &[Row] = &[
         "hub.obj",
     ),
     row(Mesh, &["planarize", "IN", "-o", "OUT"], "out.obj"),
+    row(Mesh, &["merge", "IN", "--tolerance", "0.02mm", "-o", "OUT"], "merged.obj"),
+    row(Mesh, &["repair", "IN", "--close-holes", "10mm", "-o", "OUT"], "repaired.obj"),
+    row(Mesh, &["simplify", "IN", "--faces", "20", "-o", "OUT"], "simple.obj"),
+    row(Mesh, &["panelize", "IN", "--count", "60", "-o", "OUT"], "out.obj"),
     row(Mesh, &["unfold", "IN", "--sheet", "600x400", "-o", "OUT"], "out"),
     row(Mesh, &["unfold", "IN", "--sheet", "none", "--assembly", "pictures", "-o", "OUT"], "shown"),
     row(Mesh, &["seams", "IN"], ""),
@@ -120,6 +124,7 @@ pub const ROWS: &[Row] = &[
     row(Recipes, &["gallery", "IN", "--width", "64", "-o", "OUT"], "site"),
     row(Mesh, &["render", "IN", "--width", "64", "-o", "OUT"], "out.png"),
     row(Word("E101", "E1x1"), &["explain", "IN"], ""),
+    row(Word("merge", "mrege"), &["help", "IN"], ""),
     row(Word("bash", "bsh"), &["completions", "IN"], ""),
     row(Nothing, &["man", "-o", "OUT"], "man"),
 ];

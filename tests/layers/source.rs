@@ -85,6 +85,8 @@ pub struct Token {
 pub struct UsedPath {
     pub line: usize,
     pub segments: Vec<String>,
+    /// The name that a `use` brings in, `*` for all; none for a path in code.
+    pub name: Option<String>,
 }
 
 /// A source file without comments, strings and test items.
@@ -127,6 +129,15 @@ impl Source {
         let first = self.inner_path()?.split('/').next()?;
         let name = first.trim_end_matches(".rs");
         (!["lib", "main"].contains(&name)).then_some(name)
+    }
+
+    /// The name of the crate and the modules down to this file; none for the program.
+    pub fn module_path(&self) -> Option<Vec<String>> {
+        let (name, home) = super::CRATES.iter().find(|(_, home)| self.path.starts_with(home))?;
+        let inner = self.path[home.len()..].trim_end_matches(".rs").trim_end_matches("/mod");
+        let modules = inner.split('/').filter(|module| *module != "lib");
+        let path = std::iter::once(*name).chain(modules).map(str::to_owned).collect();
+        (inner != "main").then_some(path)
     }
 
     /// How many modules deep the file stands: 1 for `src/mesh/mod.rs`, 2 for `src/mesh/walk.rs`.
@@ -172,7 +183,7 @@ impl Source {
         paths
     }
 
-    fn is_word(&self, i: usize) -> bool {
+    pub fn is_word(&self, i: usize) -> bool {
         self.tokens
             .get(i)
             .is_some_and(|t| t.text.starts_with(|c: char| c.is_alphabetic() || c == '_'))
@@ -185,13 +196,14 @@ impl Source {
             segments.push(self.tokens[i + 1].text.clone());
             i += 2;
         }
-        paths.push(UsedPath { line: self.tokens[start].line, segments });
+        paths.push(UsedPath { line: self.tokens[start].line, segments, name: None });
         i
     }
 
     /// Reads one branch of a `use` tree and returns the place after it.
     fn spread(&self, start: usize, before: &[String], paths: &mut Vec<UsedPath>) -> usize {
         let mut segments = before.to_vec();
+        let mut alias = None;
         let mut i = start;
         while let Some(token) = self.tokens.get(i) {
             match token.text.as_str() {
@@ -208,7 +220,10 @@ impl Source {
                 }
                 "," | "}" | ";" => break,
                 "::" => i += 1,
-                "as" => i += 2,
+                "as" => {
+                    alias = self.tokens.get(i + 1).map(|t| t.text.clone());
+                    i += 2;
+                }
                 word => {
                     segments.push(word.to_owned());
                     i += 1;
@@ -216,8 +231,12 @@ impl Source {
             }
         }
         let line = self.tokens.get(start).map_or(0, |t| t.line);
-        if !segments.is_empty() {
-            paths.push(UsedPath { line, segments });
+        if segments.len() > 1 {
+            segments.pop_if(|last| last == "self");
+        }
+        if let Some(last) = segments.last() {
+            let name = Some(alias.unwrap_or_else(|| last.clone()));
+            paths.push(UsedPath { line, segments, name });
         }
         i
     }
@@ -230,11 +249,16 @@ fn reads(tokens: &[Token], at: usize, wanted: &[&str]) -> bool {
 }
 
 /// The place after the item that begins at `start`: after its closing brace, or after its
-/// semicolon.
+/// semicolon; of a field after its comma, or before the brace that closes the others in.
 fn end_of_item(tokens: &[Token], start: usize) -> usize {
+    let is_field = is_field(tokens, start);
     let mut depth = 0_usize;
     for (i, token) in tokens.iter().enumerate().skip(start) {
         match token.text.as_str() {
+            "}" if is_field && depth == 0 => return i,
+            "," if is_field && depth == 0 => return i + 1,
+            "{" | "(" | "[" | "<" if is_field => depth += 1,
+            "}" | ")" | "]" | ">" if is_field => depth -= 1,
             "{" | "(" | "[" => depth += 1,
             "}" if depth <= 1 => return i + 1,
             "}" | ")" | "]" => depth = depth.saturating_sub(1),
@@ -243,6 +267,18 @@ fn end_of_item(tokens: &[Token], start: usize) -> usize {
         }
     }
     tokens.len()
+}
+
+/// Whether a field begins at `start`, of a struct or of a value: a word and a colon.
+fn is_field(tokens: &[Token], start: usize) -> bool {
+    let mut i = start;
+    if reads(tokens, i, &["pub"]) {
+        i += 1;
+        if reads(tokens, i, &["("]) {
+            i += tokens[i..].iter().take_while(|token| token.text != ")").count() + 1;
+        }
+    }
+    reads(tokens, i + 1, &[":"])
 }
 
 /// Divides a text into words, `::` and single signs; comments, strings, characters and lifetimes

@@ -1,4 +1,4 @@
-//! How long work tells how far it is and learns that it should stop; layer 0, knows nothing but
+//! How long work says how far it is and learns that it should stop; layer 0, knows nothing but
 //! itself.
 
 /// What a long computation reports to and asks. The command line shows it on a terminal and stops

@@ -13,6 +13,9 @@ use tempfile::{NamedTempFile, TempPath};
 use super::IoError;
 
 mod stale;
+mod temporary;
+
+pub use temporary::TemporaryFolder;
 
 /// The letters and digits of temporary names, drawn by the system's randomness: runs in containers
 /// that share a folder and not their process numbers never meet.
@@ -24,6 +27,15 @@ const RANDOM_LETTERS: usize = 12;
 /// # Errors
 /// When the folder does not exist, a folder stands in the way, or the system refuses; then nothing
 /// has changed.
+///
+/// # Example
+/// ```
+/// let path = std::env::temp_dir().join(format!("kerfold-doc-{}-note.txt", std::process::id()));
+/// kerfold::io::write_file(&path, b"whole, or not at all")?;
+/// assert_eq!(std::fs::read(&path)?, b"whole, or not at all");
+/// # std::fs::remove_file(&path)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), IoError> {
     if path.as_os_str() == "-" {
         let mut out = std::io::stdout().lock();
@@ -39,6 +51,16 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), IoError> {
 ///
 /// # Errors
 /// As [`write_file`].
+///
+/// # Example
+/// ```
+/// let name = |n| std::env::temp_dir().join(format!("kerfold-doc-{}-{n}.txt", std::process::id()));
+/// kerfold::io::write_files(&[(name(1), b"one".to_vec()), (name(2), b"two".to_vec())])?;
+/// assert_eq!(std::fs::read(name(2))?, b"two");
+/// # std::fs::remove_file(name(1))?;
+/// # std::fs::remove_file(name(2))?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn write_files(files: &[(PathBuf, Vec<u8>)]) -> Result<(), IoError> {
     for (path, _) in files {
         check_parent(path)?;
@@ -124,8 +146,8 @@ impl OutputFolder {
         self.files.iter().map(|(name, _)| name.as_str())
     }
 
-    /// Writes all files, making the folder and its parents when they are missing. Other files in the
-    /// folder stay as they are; those of an earlier run are named in the result.
+    /// Writes all files, making the folder and its parents when they are missing. Other files in
+    /// the folder stay as they are; those of an earlier run are named in the result.
     ///
     /// # Errors
     /// When the folder cannot be made, a folder stands where a file should go, or the system

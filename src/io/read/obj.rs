@@ -13,6 +13,11 @@ const VERTEX_EXAMPLE: &str = "v 0 1.5 2";
 const FACE_EXAMPLE: &str = "f 1 2 3";
 /// The group whose `l` lines are seams.
 const SEAM: &str = "seam";
+/// The group of points and lines that the last step made, and of the long ones among the lines.
+const MADE: &str = "made";
+const STRIP: &str = "strip";
+/// What follows the group of faces that the last step made.
+const MADE_MARK: &str = " made";
 /// What OBJ calls faces that belong to no group.
 const NO_GROUP: &str = "default";
 /// Statements that make no shape, so nobody misses them.
@@ -148,7 +153,8 @@ impl Scan {
         match keyword {
             b"v" => self.vertex(statement)?,
             b"f" | b"fo" => self.face(statement)?,
-            b"l" => self.seam(statement)?,
+            b"l" => self.line(statement)?,
+            b"p" if self.is_group(MADE) => self.point(statement)?,
             b"o" => {
                 self.object = name(rest);
                 self.group = None;
@@ -226,35 +232,59 @@ impl Scan {
     }
 
     fn start_group(&mut self) {
-        let name =
-            self.group.clone().or_else(|| self.object.clone()).filter(|name| name != NO_GROUP);
-        self.raw.groups.push(GroupRun { first_face: self.raw.face_lines.len(), name });
+        let name = self.group.clone().or_else(|| self.object.clone());
+        let unmarked = name.as_ref().and_then(|name| name.strip_suffix(MADE_MARK));
+        let (name, is_made) = match unmarked {
+            Some(unmarked) => (Some(unmarked.trim_end().to_owned()), true),
+            None => (name, false),
+        };
+        let name = name.filter(|name| name != NO_GROUP);
+        self.raw.groups.push(GroupRun { first_face: self.raw.face_lines.len(), name, is_made });
     }
 
-    fn seam(&mut self, statement: &Statement) -> Result<(), Located> {
-        let is_seam =
-            |name: &Option<String>| name.as_ref().is_some_and(|n| n.eq_ignore_ascii_case(SEAM));
-        if !is_seam(&self.group) && !is_seam(&self.object) {
+    fn is_group(&self, name: &str) -> bool {
+        let is_name = |n: &Option<String>| n.as_ref().is_some_and(|n| n.eq_ignore_ascii_case(name));
+        is_name(&self.group) || is_name(&self.object)
+    }
+
+    /// `p 1 2` of the group `made`: vertices that the last step made.
+    fn point(&mut self, statement: &Statement) -> Result<(), Located> {
+        let vertices = self.vertices(statement, 1)?;
+        self.raw.made.vertices.extend(vertices);
+        Ok(())
+    }
+
+    /// `l 1 2 3`: a seam, or edges that the last step made.
+    fn line(&mut self, statement: &Statement) -> Result<(), Located> {
+        if !(self.is_group(SEAM) || self.is_group(MADE) || self.is_group(STRIP)) {
             self.passed_over.add(statement.line);
             return Ok(());
         }
+        let vertices = self.vertices(statement, 2)?;
+        let pairs = vertices.windows(2).map(|w| [w[0], w[1]]);
+        if self.is_group(MADE) {
+            self.raw.made.edges.extend(pairs);
+        } else if self.is_group(STRIP) {
+            self.raw.made.strip.extend(pairs);
+        } else {
+            let line = statement.line;
+            self.raw.seams.extend(pairs.map(|ends| SeamSegment { line, ends }));
+        }
+        Ok(())
+    }
+
+    /// The vertices that a line or point names, at least so many.
+    fn vertices(&self, statement: &Statement, least: usize) -> Result<Vec<u32>, Located> {
         let (_, rest) = statement.parts();
         let count = self.raw.positions.len();
         let indices: Option<Vec<i64>> = words(without_comment(rest)).map(index).collect();
         let fault = |fault| Located::at(statement.line, fault);
         let not_a_seam = || fault(ContentFault::NotASeam { text: excerpt(&statement.text) });
-        let indices = indices.filter(|i| i.len() >= 2).ok_or_else(not_a_seam)?;
-        let vertices: Result<Vec<u32>, Located> = indices
-            .into_iter()
-            .map(|i| {
-                resolve(i, count).ok_or_else(|| fault(no_such_vertex(&statement.text, i, count)))
-            })
-            .collect();
-        let segments = vertices?;
-        let segments =
-            segments.windows(2).map(|w| SeamSegment { line: statement.line, ends: [w[0], w[1]] });
-        self.raw.seams.extend(segments);
-        Ok(())
+        let indices = indices.filter(|i| i.len() >= least).ok_or_else(not_a_seam)?;
+        let resolved = indices.into_iter().map(|i| {
+            resolve(i, count).ok_or_else(|| fault(no_such_vertex(&statement.text, i, count)))
+        });
+        resolved.collect()
     }
 }
 

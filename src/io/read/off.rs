@@ -31,7 +31,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawMesh, Located> {
 }
 
 /// Whether a word is the keyword of the format, alone or with a count glued to it (`OFF8`).
-pub(in crate::io) fn begins_off(word: &[u8]) -> bool {
+pub(super) fn begins_off(word: &[u8]) -> bool {
     keyword(word).is_some_and(|rest| rest.first().is_none_or(u8::is_ascii_digit))
 }
 

@@ -32,11 +32,21 @@ pub fn read_points(path: &Path) -> Result<Vec<DVec3>, IoError> {
     read_points_bytes(path, &bytes)
 }
 
-/// Reads the points of a polyline from the content of a file; `path` tells the format and is named
+/// Reads the points of a polyline from the content of a file; `path` shows the format and is named
 /// in messages.
 ///
 /// # Errors
 /// As [`read_points`].
+///
+/// # Example
+/// ```
+/// use std::path::Path;
+///
+/// let text = b"0,0,0  # x,y,z in mm\n0,0,5\n";
+/// let points = kerfold::io::read_points_bytes(Path::new("axis.txt"), text)?;
+/// assert_eq!(points[1], glam::DVec3::new(0.0, 0.0, 5.0));
+/// # Ok::<(), kerfold::io::IoError>(())
+/// ```
 pub fn read_points_bytes(path: &Path, bytes: &[u8]) -> Result<Vec<DVec3>, IoError> {
     let is_obj = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("obj"));
     let (mut points, mut order) = (Vec::new(), Vec::new());

@@ -14,6 +14,7 @@ pub(super) struct RawMesh {
     pub ends: Vec<usize>,
     pub groups: Vec<GroupRun>,
     pub seams: Vec<SeamSegment>,
+    pub made: RawMade,
     /// The line of each vertex; empty in binary files.
     pub vertex_lines: Vec<u32>,
     /// The line of each face in the file, dropped ones included; empty in binary files.
@@ -29,6 +30,16 @@ pub(super) struct RawMesh {
 pub(super) struct GroupRun {
     pub first_face: usize,
     pub name: Option<String>,
+    /// Whether the last step made them.
+    pub is_made: bool,
+}
+
+/// What the file says that the last step made, besides faces.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct RawMade {
+    pub vertices: Vec<u32>,
+    pub edges: Vec<[u32; 2]>,
+    pub strip: Vec<[u32; 2]>,
 }
 
 /// A stretch of a seam line.
@@ -149,7 +160,8 @@ impl RawMesh {
             if !self.groups.is_empty() {
                 let run = self.groups.iter().rev().find(|run| run.first_face <= face);
                 let name = run.and_then(|run| run.name.clone());
-                self.groups.push(GroupRun { first_face: self.ends.len(), name });
+                let is_made = run.is_some_and(|run| run.is_made);
+                self.groups.push(GroupRun { first_face: self.ends.len(), name, is_made });
             }
             self.push_face(part);
         }

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::weld::position_key;
+use crate::mend::position_key;
 use crate::mesh::{HalfEdgeId, Mesh, VertexId};
 
 /// Rim edges that lie exactly on other rim edges.

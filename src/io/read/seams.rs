@@ -38,11 +38,22 @@ pub fn read_seams(
     read_seams_bytes(path, &bytes, mesh, splits)
 }
 
-/// Reads the edges that the content of a seam file names; `path` tells the format and is named in
+/// Reads the edges that the content of a seam file names; `path` shows the format and is named in
 /// messages.
 ///
 /// # Errors
 /// As [`read_seams`].
+///
+/// # Example
+/// ```
+/// use std::path::Path;
+///
+/// let cube = kerfold::shape::cube(10.0);
+/// let text = b"0 1  # two vertices of an edge\n";
+/// let seams = kerfold::io::read_seams_bytes(Path::new("seams.txt"), text, &cube, &[])?;
+/// assert_eq!(seams.len(), 1);
+/// # Ok::<(), kerfold::io::IoError>(())
+/// ```
 pub fn read_seams_bytes(
     path: &Path,
     bytes: &[u8],

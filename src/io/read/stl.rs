@@ -6,8 +6,8 @@ use glam::{DVec3, Vec3};
 use super::ReadNote;
 use super::raw::RawMesh;
 use super::text::{Commas, Lines, words};
-use super::weld::first_equal;
 use crate::io::error::{ContentFault, Located, excerpt};
+use crate::mend::first_equal;
 
 const HEADER: usize = 80;
 const TRIANGLE: usize = 50;
@@ -37,7 +37,7 @@ pub(super) fn read(bytes: &[u8], text: &[u8]) -> Result<RawMesh, Located> {
 
 /// Whether the length is what the number of triangles in a binary header asks for. Some binary
 /// files begin with `solid`.
-pub(in crate::io) fn is_binary(bytes: &[u8]) -> bool {
+pub(super) fn is_binary(bytes: &[u8]) -> bool {
     announced(bytes)
         .is_some_and(|count| (bytes.len() - HEADER - 4) as u64 == count * TRIANGLE as u64)
 }

@@ -4,6 +4,7 @@ use std::collections::HashSet;
 use std::fmt::Write;
 
 use crate::check::{Element, Report};
+use crate::io::csv_cell::cell;
 
 /// One row per face: `face,sides,mm,permille,degrees,percent,verdict,command`. `percent` is empty
 /// for faces without four sides; the verdict is `fail` for a face with any finding. The command
@@ -24,7 +25,7 @@ pub fn check_csv(report: &Report, command: &str) -> String {
     let failed: HashSet<usize> =
         report.findings.iter().filter(|f| f.element == Element::Face).map(|f| f.id).collect();
     let mut out = String::from("face,sides,mm,permille,degrees,percent,verdict,command\r\n");
-    let mut command = quoted(command);
+    let mut command = cell(command);
     for f in &report.faces {
         let p = &f.planarity;
         let percent = p.percent.map(|p| format!("{p:?}")).unwrap_or_default();
@@ -38,15 +39,6 @@ pub fn check_csv(report: &Report, command: &str) -> String {
         .expect("writing to a string cannot fail");
     }
     out
-}
-
-/// A field, in quotes where it needs them.
-fn quoted(field: &str) -> String {
-    if field.contains([',', '"', '\r', '\n']) {
-        format!("\"{}\"", field.replace('"', "\"\""))
-    } else {
-        field.to_owned()
-    }
 }
 
 #[cfg(test)]

@@ -227,6 +227,12 @@ struct Profile {
     max_mm: Option<f64>,
     max_permille: Option<f64>,
     max_degrees: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    min_angle_degrees: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    min_edge_mm: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    max_mitre_degrees: Option<f64>,
     require: Vec<String>,
     note: &'static str,
 }
@@ -336,12 +342,16 @@ fn finding(f: &CheckFinding) -> FindingRow<'_> {
 }
 
 fn profile(report: &Report) -> Profile {
-    let Limits { mm, permille, degrees } = report.limits;
+    let Limits { mm, permille, degrees, min_angle_degrees, min_edge_mm, max_mitre_degrees } =
+        report.limits;
     Profile {
         name: report.profile.name(),
         max_mm: mm,
         max_permille: permille,
         max_degrees: degrees,
+        min_angle_degrees,
+        min_edge_mm,
+        max_mitre_degrees,
         require: report.require.iter().map(ToString::to_string).collect(),
         note: "limits are kerfold's own defaults or the user's, not norms",
     }

@@ -1,4 +1,5 @@
-//! The report of a check in every form: text, JSON, CSV, and the page with pictures as HTML and PDF.
+//! The report of a check in every form: text, JSON, CSV, and the page with pictures as HTML and
+//! PDF.
 
 pub mod csv;
 pub mod html;

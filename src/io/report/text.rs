@@ -295,10 +295,15 @@ fn advice(report: &Report) -> Vec<String> {
     }
     if has(CheckKind::Closed) {
         lines.push(
-            "rims are cut like any outline; to close the model, add the missing faces where it was \
-            drawn".to_owned(),
+            "rims are cut like any outline; to close small holes: kerfold repair IN --close-holes \
+            10mm -o OUT"
+                .to_owned(),
         );
     }
+    if has(CheckKind::InsideOut) || has(CheckKind::Junction) || has(CheckKind::Doubled) {
+        lines.push("to mend the surface: kerfold repair IN -o OUT".to_owned());
+    }
+    lines.extend(report.flat.proposal());
     if has(CheckKind::Convex) {
         lines.push("for the convex hull: kerfold hull IN -o OUT".to_owned());
         if report.convexity.deepest_mm < FILE_DIGITS * report.model.size_mm.length() {
@@ -391,7 +396,18 @@ fn limits(limits: &Limits) -> String {
         .into_iter()
         .filter_map(|(limit, unit)| Some(format!("{}{unit}", short(limit?))))
         .collect();
-    parts.join(" and ")
+    parts.join(" and ") + &shape_limits(limits)
+}
+
+/// The limits of shapes as they follow those of planarity; empty without any.
+pub(super) fn shape_limits(limits: &Limits) -> String {
+    let least = [
+        (limits.min_angle_degrees, "corners of at least ", "°"),
+        (limits.min_edge_mm, "edges of at least ", " mm"),
+        (limits.max_mitre_degrees, "mitres of at most ", "°"),
+    ];
+    let said = least.into_iter().filter_map(|(limit, what, unit)| Some((limit?, what, unit)));
+    said.map(|(limit, what, unit)| format!("; {what}{}{unit}", short(limit))).collect()
 }
 
 fn histogram(counts: &BTreeMap<usize, usize>) -> String {

@@ -28,7 +28,7 @@ pub fn sheet_bytes(
 ) -> Vec<u8> {
     match format {
         SheetFormat::Svg => write_svg(drawing, params.style(), command).into_bytes(),
-        SheetFormat::Dxf => write_dxf(drawing, command).into_bytes(),
+        SheetFormat::Dxf => write_dxf(drawing, params.style(), command).into_bytes(),
         SheetFormat::Pdf => write_pdf(drawing, params.style(), command),
         SheetFormat::Lbrn2 => {
             write_lbrn2(drawing, |layer| params.speed(layer), command).into_bytes()

@@ -58,7 +58,9 @@ pub fn write_lbrn2(
     }
     for layer in &drawing.layers {
         let (index, ..) = setting(layer.kind);
-        layer.marks.iter().for_each(|mark| shape(&mut text, mark, index));
+        // LightBurn's palette is its own: what the colours of the other formats mean is no help.
+        let own = layer.marks.iter().filter(|mark| !mark.id.starts_with("legend-colours"));
+        own.for_each(|mark| shape(&mut text, mark, index));
     }
     text +=
         &format!("  <Notes ShowOnLoad=\"0\" Notes=\"{}\"/>\n</LightBurnProject>\n", xml(command));

@@ -169,7 +169,9 @@ pub fn glb_bytes(scene: &GlbScene, command: &str) -> Result<Vec<u8>, IoError> {
     let animation = file.animation(scene)?;
     let File { bytes, views, accessors, meshes, .. } = file;
     let mut root = Map::new();
-    let generator = json!({ "version": "2.0", "generator": "kerfold", "extras": { "command": one_line(command) } });
+    let generator = json!({
+        "version": "2.0", "generator": "kerfold", "extras": { "command": one_line(command) },
+    });
     root.insert("asset".to_owned(), generator);
     root.insert("scene".to_owned(), json!(0));
     root.insert(
@@ -229,7 +231,8 @@ fn material(material: &GlbMaterial) -> Value {
     let mut value = json!({
         "name": one_line(&material.name),
         "pbrMetallicRoughness": {
-            "baseColorFactor": [r, g, b, rounded(material.opacity)], "metallicFactor": 0.0, "roughnessFactor": 0.9
+            "baseColorFactor": [r, g, b, rounded(material.opacity)], "metallicFactor": 0.0,
+            "roughnessFactor": 0.9
         },
         "doubleSided": true,
     });
@@ -276,7 +279,8 @@ impl File {
         }
         let half = std::f32::consts::FRAC_1_SQRT_2;
         let mut all = json!({
-            "name": "millimetres, z up", "rotation": [-half, 0.0, 0.0, half], "scale": [0.001_f32, 0.001_f32, 0.001_f32]
+            "name": "millimetres, z up", "rotation": [-half, 0.0, 0.0, half],
+            "scale": [0.001_f32, 0.001_f32, 0.001_f32]
         });
         if let Some(roots) = children.last().filter(|roots| !roots.is_empty()) {
             all["children"] = json!(roots);
@@ -373,7 +377,9 @@ impl File {
 
     fn indices(&mut self, places: &[u32]) -> usize {
         let view = self.view(places.iter().flat_map(|i| i.to_le_bytes()), Some(34963));
-        let accessor = json!({ "bufferView": view, "componentType": UNSIGNED, "count": places.len(), "type": "SCALAR" });
+        let accessor = json!({
+            "bufferView": view, "componentType": UNSIGNED, "count": places.len(), "type": "SCALAR",
+        });
         self.accessors.push(accessor);
         self.accessors.len() - 1
     }

@@ -7,6 +7,7 @@ use super::error::IoError;
 use super::format::MeshFormat;
 use super::output;
 use crate::mesh::Mesh;
+use crate::select::NewElements;
 
 pub mod glb;
 mod obj;
@@ -15,6 +16,7 @@ mod off;
 pub mod plates;
 mod ply;
 mod polygons;
+mod read_back;
 pub mod step;
 mod stl;
 
@@ -24,6 +26,9 @@ pub struct WriteOptions {
     /// The whole command line that made the mesh (`kerfold solid cube -o cube.obj`), for a comment
     /// in the file.
     pub command: Option<String>,
+    /// What the last step made, for OBJ: groups `made` and `strip`, which the selections of those
+    /// names find again when the file is read.
+    pub made: Option<NewElements>,
     /// How PLY files are encoded.
     pub ply: PlyEncoding,
 }
@@ -47,6 +52,9 @@ impl WriteOptions {
         self.command.as_ref().map(|command| one_line(command))
     }
 }
+
+/// What the comments of mesh files say about their numbers; `--units` is compared with it.
+const UNITS: &str = "units: mm";
 
 /// The text without control characters, which would end a line.
 fn one_line(text: &str) -> String {
@@ -82,9 +90,10 @@ pub fn write_mesh(path: &Path, mesh: &Mesh, options: &WriteOptions) -> Result<()
 /// rounds to single precision and cuts faces into triangles.
 ///
 /// # Errors
-/// [`IoError::NotForFiles`] for a mesh that would not be read again; [`IoError::NotReadBack`] for a
-/// fault of the OBJ writer, which another reader checks;
-/// [`IoError::TooFarForStl`] when a coordinate does not fit.
+/// [`IoError::NotForFiles`] for a mesh that would not be read again, [`IoError::ReadAsOther`] for
+/// one that would be read as another; [`IoError::NotReadBack`] for a fault of a writer: all files
+/// are read back by other code. [`IoError::TooFarForStl`] when a coordinate does not fit,
+/// [`IoError::NotForStl`] when parts touch that STL cannot tell apart.
 ///
 /// # Example
 /// ```
@@ -103,18 +112,25 @@ pub fn mesh_bytes(
     if let Some(&fault) = mesh.file_faults().first() {
         return Err(IoError::NotForFiles { fault });
     }
-    Ok(match format {
-        MeshFormat::Obj => {
-            let text = obj::write(mesh, options);
-            if !obj_check::says(&text, mesh) {
-                return Err(IoError::NotReadBack);
-            }
-            text
-        }
+    read_back::check_counts(mesh)?;
+    let bytes = match format {
+        MeshFormat::Obj => obj::write(mesh, options),
         MeshFormat::Ply => ply::write(mesh, options),
         MeshFormat::Off => off::write(mesh, options),
         MeshFormat::Stl => stl::write(mesh, options)?,
-    })
+    };
+    read_back::check_bytes(format, &bytes, mesh)?;
+    Ok(bytes)
+}
+
+/// What the user should know of the file of a mesh: what holds a mesh in memory together, but is no
+/// part of files.
+pub fn file_note(mesh: &Mesh) -> Option<String> {
+    let counts = mesh.file_counts().filter(|_| read_back::has_more_than_files(mesh))?;
+    Some(format!(
+        "self-loops and faces with two sides are no part of files: the file has {counts}; smooth \
+        the model before it is written to keep it in one"
+    ))
 }
 
 #[cfg(test)]

@@ -2,8 +2,8 @@
 
 use std::io::Write as _;
 
-use super::WriteOptions;
 use super::polygons::Polygons;
+use super::{UNITS, WriteOptions};
 use crate::mesh::Mesh;
 
 pub(super) fn write(mesh: &Mesh, options: &WriteOptions) -> Vec<u8> {
@@ -23,6 +23,7 @@ fn write_into(
     if let Some(command) = options.comment() {
         writeln!(text, "# {command}")?;
     }
+    writeln!(text, "# {UNITS}")?;
     writeln!(text, "{} {} {}", polygons.positions.len(), polygons.face_count(), mesh.edge_count())?;
     for p in &polygons.positions {
         writeln!(text, "{} {} {}", p.x, p.y, p.z)?;

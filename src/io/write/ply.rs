@@ -3,7 +3,7 @@
 use std::io::Write as _;
 
 use super::polygons::Polygons;
-use super::{PlyEncoding, WriteOptions};
+use super::{PlyEncoding, UNITS, WriteOptions};
 use crate::mesh::Mesh;
 
 pub(super) fn write(mesh: &Mesh, options: &WriteOptions) -> Vec<u8> {
@@ -38,6 +38,7 @@ fn write_header(
     if let Some(command) = options.comment() {
         writeln!(bytes, "comment {command}")?;
     }
+    writeln!(bytes, "comment {UNITS}")?;
     writeln!(bytes, "element vertex {}", polygons.positions.len())?;
     writeln!(bytes, "property double x\nproperty double y\nproperty double z")?;
     writeln!(bytes, "element face {}", polygons.face_count())?;

@@ -98,8 +98,8 @@ impl StepFile {
         product
     }
 
-    /// The body of a plate. Its round holes are cylinders, so of the faces of the body, in which they
-    /// are polygons, only those around the plate are taken.
+    /// The body of a plate. Its round holes are cylinders, so of the faces of the body, in which
+    /// they are polygons, only those around the plate are taken.
     fn solid(&mut self, plate: &Plate, body: &Solid, name: &str) -> usize {
         let corners = 2 * plate.front.len();
         let points = &body.points[..corners];

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::WriteOptions;
 use super::polygons::Polygons;
+use super::{UNITS, WriteOptions};
 use crate::geom::{Frame, triangulate};
 use crate::io::error::IoError;
 use crate::mesh::Mesh;
@@ -50,7 +50,7 @@ fn triangles(points: &[DVec3], frame: Option<&Frame>) -> Vec<[usize; 3]> {
 /// The 80 bytes of free text. They must not begin with `solid`, as text files do, and end between
 /// characters.
 fn header(comment: &str) -> Vec<u8> {
-    let text = format!("binary STL: {comment}");
+    let text = format!("binary STL, {UNITS}: {comment}");
     let end =
         (0..=HEADER.min(text.len())).rev().find(|&end| text.is_char_boundary(end)).unwrap_or(0);
     let mut bytes = text.as_bytes()[..end].to_vec();

@@ -55,7 +55,7 @@ fn an_obj_comes_back_as_it_was_and_byte_for_byte() {
     let bytes = |mesh| mesh_bytes(MeshFormat::Obj, mesh, &options).expect("written");
     assert_eq!(bytes(&back), bytes(&mesh));
     let text = String::from_utf8(bytes(&mesh)).expect("text");
-    assert!(text.starts_with("# kerfold x  -o y\nv 0.1 0.2 0\nv 2 0 0\n"), "{text}");
+    assert!(text.starts_with("# kerfold x  -o y\n# units: mm\nv 0.1 0.2 0\nv 2 0 0\n"), "{text}");
     assert!(text.contains("v 0.1 0.2 0.3333333333333333\n"), "{text}");
     assert!(
         text.contains("g caps and more\nf 6 5 4 3 2 1\nf 7 8 9 10 11 12\ng default\nf 1 2 8 7\n"),
@@ -75,7 +75,7 @@ fn ply_and_off_keep_every_digit_and_the_order() {
             MeshFormat::Ply,
             "a.ply",
             &mesh,
-            &WriteOptions { command: command.clone(), ply },
+            &WriteOptions { command: command.clone(), ply, made: None },
         );
         assert_eq!(content(&back), (positions.clone(), plain.clone(), vec![]));
     }

@@ -110,7 +110,7 @@ impl Cutter {
         is_joined.iter().filter(|joined| !**joined).count()
     }
 
-    /// Lays one bridge. `closes` tells that both its walks are connected already: then it must
+    /// Lays one bridge. `closes` says that both its walks are connected already: then it must
     /// divide their face. Returns `false`, with nothing done, if it would not.
     fn lay_bridge(
         &mut self,

@@ -5,27 +5,9 @@
 //! cap. Nothing is divided that would be removed again, so the cut costs as much as the corner has
 //! edges, whatever the sizes of its faces and of the mesh.
 
-use super::cutter::{Capping, Cutter, End, SlicingPlane};
+use super::cutter::{Capping, CornerWork, Cutter, End, SlicingPlane};
 use crate::geom::{Plane, Side};
-use crate::mesh::{FaceId, FaceKind, HalfEdgeId, VertexId};
-
-/// A face about whose shape nothing is known; zero, so that a new table costs nothing.
-const UNKNOWN: u8 = 0;
-/// A face that every line meets in one piece.
-const CONVEX: u8 = 1;
-/// Any other face.
-const OTHER: u8 = 2;
-
-/// What a cut of one corner needs to look at, kept from cut to cut.
-#[derive(Clone, Default)]
-pub(super) struct CornerWork {
-    outgoing: Vec<HalfEdgeId>,
-    planes: Vec<Option<Plane>>,
-    /// The far ends of the edges.
-    ends: Vec<End>,
-    places: Vec<glam::DVec3>,
-    corners: Vec<VertexId>,
-}
+use crate::mesh::{FaceKind, VertexId};
 
 impl Cutter {
     /// Cuts off the corner `v` if it is the simple case; else returns `false` and has changed
@@ -47,7 +29,7 @@ impl Cutter {
         is_simple
     }
 
-    /// Collects the edges, planes and new places; tells whether the corner is the simple case.
+    /// Collects the edges, planes and new places; says whether the corner is the simple case.
     fn look_at_corner(
         &mut self,
         plane: &Plane,
@@ -119,51 +101,5 @@ impl Cutter {
             &plane.plane,
         );
         self.done.caps.extend((!stays_open).then_some(cap));
-    }
-
-    /// Whether every line meets the face in one piece. Asked once for each face; a cut leaves
-    /// convex faces convex.
-    #[inline]
-    pub(super) fn is_convex(&mut self, f: FaceId) -> bool {
-        if self.shapes[f.index()] == UNKNOWN {
-            self.shapes[f.index()] = if self.finds_convex(f) { CONVEX } else { OTHER };
-        }
-        self.shapes[f.index()] == CONVEX
-    }
-
-    /// A part of a face that was divided or merged: only convexity lasts.
-    pub(super) fn forget_shape_unless_convex(&mut self, f: FaceId) {
-        if self.shapes[f.index()] != CONVEX {
-            self.shapes[f.index()] = UNKNOWN;
-        }
-    }
-
-    fn finds_convex(&mut self, f: FaceId) -> bool {
-        let Some(first) = self.mesh.face_start(f).filter(|_| !self.mesh.is_hole(f)) else {
-            return false;
-        };
-        let (second, third) = (self.mesh.next(first), self.mesh.next(self.mesh.next(first)));
-        if self.mesh.next(third) == first {
-            let [a, b, c] = [first, second, third].map(|h| self.mesh.origin(h));
-            return a != b && b != c && c != a;
-        }
-        self.ensure_plane(f);
-        let Some(normal) = self.mesh.carried_plane(f).map(|p| p.normal()) else { return false };
-        let corner = |h: HalfEdgeId| self.mesh.position(self.mesh.origin(h));
-        let origin = corner(first);
-        let mut h = second;
-        // It turns left everywhere, and it does so once: seen from its first corner it never turns
-        // back.
-        while h != first {
-            let (before, here, after) =
-                (corner(self.mesh.prev(h)), corner(h), corner(self.mesh.next(h)));
-            let turns_left = normal.dot((here - before).cross(after - here)) >= 0.0;
-            if !turns_left || normal.dot((here - origin).cross(after - origin)) < 0.0 {
-                return false;
-            }
-            h = self.mesh.next(h);
-        }
-        let before = corner(self.mesh.prev(first));
-        normal.dot((origin - before).cross(corner(second) - origin)) >= 0.0
     }
 }

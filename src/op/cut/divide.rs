@@ -12,7 +12,7 @@
 use glam::DVec3;
 
 use super::cutter::{Cutter, SlicingPlane};
-use crate::geom::{Plane, Side};
+use crate::geom::Side;
 use crate::mesh::{FaceId, HalfEdgeId, VertexId};
 
 /// A corner on the plane: the half-edge that leaves it in its face, its place along the line, and
@@ -176,20 +176,6 @@ impl Cutter {
     fn crosses(&self, h: HalfEdgeId) -> bool {
         let ends = [self.mesh.origin(h), self.mesh.target(h)].map(|v| self.known_side(v));
         matches!(ends, [Side::Normal, Side::Reverse] | [Side::Reverse, Side::Normal])
-    }
-
-    /// Lets a face carry its plane from the first cut on, so that it cannot drift. Faces that are
-    /// not planar carry none.
-    pub(super) fn ensure_plane(&mut self, f: FaceId) {
-        if self.mesh.carried_plane(f).is_some() || self.mesh.is_hole(f) {
-            return;
-        }
-        let corners = self.mesh.face_positions(f);
-        if let Some(plane) = Plane::newell(&corners)
-            && corners.iter().all(|&p| plane.signed_distance(p).abs() <= self.bound)
-        {
-            self.mesh.set_plane(f, plane);
-        }
     }
 
     fn divide_by_line(

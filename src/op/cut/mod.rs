@@ -1,9 +1,10 @@
-//! The one cutting operator, behind one door: what stands outside this room sees [`Cutter`] and what
-//! its methods take and give, and none of its tables.
+//! The one cutting operator, behind one door: what stands outside this room sees [`Cutter`] and
+//! what its methods take and give, and none of its tables.
 //!
-//! Reach and bookkeeping (`cutter`), its short ways for one corner (`corner`) and for a whole mesh
-//! (`sweep`), dividing faces (`divide`), faces that lie in the plane (`flat`), closing the wound
-//! (`section`), caps with holes (`bridge`); and the chain of cuts for callers outside (`chain`).
+//! The workspace (`cutter`), one cut from the plane to the caps (`reach`), its short ways for one
+//! corner (`corner`) and for a whole mesh (`sweep`), dividing faces (`divide`), faces that lie in
+//! the plane (`flat`), closing the wound (`section`), caps with holes (`bridge`); and the chain of
+//! cuts for callers outside (`chain`).
 
 mod bridge;
 mod chain;
@@ -11,6 +12,7 @@ mod corner;
 mod cutter;
 mod divide;
 mod flat;
+mod reach;
 mod section;
 mod sweep;
 

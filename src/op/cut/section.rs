@@ -192,7 +192,8 @@ fn innermost(outers: &[SectionWalk], hole: &SectionWalk) -> Option<usize> {
     let middles: Vec<DVec2> = hole.corners.iter().zip(next).map(|(a, &b)| a.midpoint(b)).collect();
     let is_around = |outer: &SectionWalk| {
         let places = hole.corners.iter().chain(&middles).map(|&p| locate(&outer.corners, p));
-        // A hole may touch its outer walk: the first place that is clearly inside or outside tells.
+        // A hole may touch its outer walk: the first place that is clearly inside or outside
+        // decides.
         outer.area > -hole.area
             && places.into_iter().find(|&l| l != Location::Boundary) == Some(Location::Inside)
     };

@@ -78,6 +78,23 @@ pub(super) fn distance(mesh: &Mesh, faces: [FaceId; 2]) -> f64 {
     a.distance(b)
 }
 
+/// The points from start to end, each once: points at one place, and centroids that were given as
+/// well, are one.
+fn way_through(mesh: &Mesh, start: DVec3, points: &[DVec3], end: DVec3) -> Vec<DVec3> {
+    let same = mesh.bounds().map_or(0.0, |(low, high)| RoundingBound::of_box(low, high).length());
+    let mut way = vec![start];
+    for &p in points.iter().chain([&end]) {
+        if way[way.len() - 1].distance(p) > same {
+            way.push(p);
+        }
+    }
+    if way[way.len() - 1] != end {
+        way.pop();
+        way.push(end);
+    }
+    way
+}
+
 fn normals(mesh: &Mesh, faces: [FaceId; 2]) -> Result<[DVec3; 2], OpError> {
     let mut normals = [DVec3::ZERO; 2];
     for (normal, f) in normals.iter_mut().zip(faces) {
@@ -111,19 +128,7 @@ impl Curve {
     ) -> Result<Option<Self>, OpError> {
         let normals = normals(mesh, faces)?;
         let [start, end] = faces.map(|f| face_centroid(mesh, f));
-        let same =
-            mesh.bounds().map_or(0.0, |(low, high)| RoundingBound::of_box(low, high).length());
-        let mut way = vec![start];
-        for &p in points.iter().chain([&end]) {
-            // Points at one place, and centroids that were given as well, are one.
-            if way[way.len() - 1].distance(p) > same {
-                way.push(p);
-            }
-        }
-        if way[way.len() - 1] != end {
-            way.pop();
-            way.push(end);
-        }
+        let way = way_through(mesh, start, points, end);
         if way.len() < 2
             || way.iter().any(|p| !p.is_finite())
             || way.windows(2).any(|w| w[0] == w[1])
@@ -138,7 +143,10 @@ impl Curve {
             let (before, after) = (legs[i - 1] / knots[i - 1], legs[i] / knots[i]);
             before + after - (legs[i - 1] + legs[i]) / (knots[i - 1] + knots[i])
         };
-        let along = |normal: DVec3, leg: DVec3| if normal.dot(leg) < 0.0 { -normal } else { normal } * leg.length();
+        let along = |normal: DVec3, leg: DVec3| {
+            let towards = if normal.dot(leg) < 0.0 { -normal } else { normal };
+            towards * leg.length()
+        };
         let tangent = |i: usize, leg: usize| match i {
             0 => along(normals[0], legs[0]),
             _ if i == last => along(-normals[1], legs[last - 1]),

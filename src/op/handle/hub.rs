@@ -52,6 +52,26 @@ struct End {
     radius: f64,
 }
 
+/// The regular polygons around a hub, one for each face.
+struct Ports {
+    points: Vec<DVec3>,
+    /// For each face which of the points are the corners of its polygon.
+    corners: Vec<std::ops::Range<usize>>,
+}
+
+impl Ports {
+    /// For each port its face of the hub; `None` when one of them is no face of it.
+    fn faces(&self, polygons: &[Vec<u32>], hub_faces: &[FaceId]) -> Option<Vec<FaceId>> {
+        let face = |port: &std::ops::Range<usize>| {
+            let is_port = |polygon: &Vec<u32>| {
+                polygon.len() == port.len() && polygon.iter().all(|&i| port.contains(&(i as usize)))
+            };
+            polygons.iter().position(is_port).map(|i| hub_faces[i])
+        };
+        self.corners.iter().map(face).collect()
+    }
+}
+
 /// Where the hub lies.
 struct Hub {
     centre: DVec3,
@@ -65,57 +85,49 @@ pub(super) fn hub(
     context: &OpContext<'_>,
 ) -> Result<(Mesh, HandleReport), OpError> {
     let refuse = |reason| OpError::NoHandle { from: params.from.face, to: params.to.face, reason };
-    let corners: Vec<FaceCorner> =
-        [params.from, params.to].into_iter().chain(params.also.iter().copied()).collect();
-    let ends: Vec<End> =
-        corners.iter().map(|&corner| End::of(mesh, corner)).collect::<Result<_, _>>()?;
-    if (1..corners.len()).any(|i| corners[..i].iter().any(|c| c.face == corners[i].face)) {
-        return Err(refuse("one face is named twice among those to be joined; name each once"));
-    }
+    let ends = ends(mesh, params)?;
     let weights = params.weights.map(|w| w.0.map(crate::units::Length::mm));
     let hub = Hub::among(&ends, weights).map_err(refuse)?;
-    let (points, ports) = hub.polygons(&ends).map_err(refuse)?;
+    let ports = hub.ports(&ends).map_err(refuse)?;
     let no_room = "there is no room for a hub between them; choose other faces";
-    let hull = convex_hull(&points, Numbers::Constructed).map_err(|_| refuse(no_room))?;
+    let hull = convex_hull(&ports.points, Numbers::Constructed).map_err(|_| refuse(no_room))?;
     let polygons: Vec<Vec<u32>> = hull.iter().map(<[u32]>::to_vec).collect();
-    let (mut made_mesh, joined, hub_faces) =
-        with_component(mesh, &points, &polygons, hub.is_inside);
-    let port_of = |port: &std::ops::Range<usize>| {
-        let is_port =
-            |p: &Vec<u32>| p.len() == port.len() && p.iter().all(|&i| port.contains(&(i as usize)));
-        polygons.iter().position(is_port).map(|i| hub_faces[i])
-    };
-    let port_faces: Vec<FaceId> =
-        ports.iter().map(port_of).collect::<Option<_>>().ok_or_else(|| refuse(no_room))?;
-    let mut made = NewElements {
-        faces: hub_faces.iter().copied().filter(|f| !port_faces.contains(f)).collect(),
-        ..NewElements::default()
-    };
-    made.vertices = (0..points.len())
-        .map(|i| VertexId::new(made_mesh.vertex_slots() - points.len() + i))
-        .collect();
-    let mut report = HandleReport::default();
+    let with_hub = WithHub::build(mesh, &ports.points, &polygons, hub.is_inside);
+    let port_faces = ports.faces(&polygons, &with_hub.hub_faces).ok_or_else(|| refuse(no_room))?;
+    let mut report = HandleReport { made: with_hub.made(&port_faces), ..HandleReport::default() };
     let course = weights
         .map_or(Course::Free { sign: if hub.is_inside { -1.0 } else { 1.0 } }, Course::Weighed);
+    let WithHub { mesh: mut made_mesh, moved, .. } = with_hub;
     for (i, (end, &port)) in ends.iter().zip(&port_faces).enumerate() {
         context.progress.report("joining faces", i, ends.len());
-        let from = joined.corner(end.corner);
+        let from = moved.corner(end.corner);
         let to = FaceCorner { face: port.index() as u32, vertex: None };
         let joined_by =
             Join { from, to, segments: params.segments, twist: params.twist.radians(), course };
         let (next, tube) = join(&made_mesh, &joined_by, context)?;
         made_mesh = next;
-        made.faces.extend(tube.made.faces);
-        made.vertices.extend(tube.made.vertices);
+        report.made.faces.extend(tube.made.faces);
+        report.made.vertices.extend(tube.made.vertices);
         report.crossing.extend(tube.crossing);
         report.halved += tube.halved;
     }
     report.crossing.sort_unstable();
     report.crossing.dedup();
-    made.faces.sort_unstable();
-    made.vertices.sort_unstable();
-    report.made = made;
+    report.made.faces.sort_unstable();
+    report.made.vertices.sort_unstable();
     Ok((made_mesh, report))
+}
+
+/// The faces that are to be joined, each once.
+fn ends(mesh: &Mesh, params: &HandleParams) -> Result<Vec<End>, OpError> {
+    let corners = [params.from, params.to].into_iter().chain(params.also.iter().copied());
+    let ends: Vec<End> = corners.map(|corner| End::of(mesh, corner)).collect::<Result<_, _>>()?;
+    let is_twin = |i: usize| ends[..i].iter().any(|other| other.corner.face == ends[i].corner.face);
+    if (1..ends.len()).any(is_twin) {
+        let reason = "one face is named twice among those to be joined; name each once";
+        return Err(OpError::NoHandle { from: params.from.face, to: params.to.face, reason });
+    }
+    Ok(ends)
 }
 
 impl End {
@@ -164,26 +176,10 @@ impl Hub {
         Ok(Self { centre: middle + up * lift, is_inside })
     }
 
-    /// The corners of all polygons, and for each face which of them are its own.
-    fn polygons(
-        &self,
-        ends: &[End],
-    ) -> Result<(Vec<DVec3>, Vec<std::ops::Range<usize>>), &'static str> {
-        let aims: Vec<DVec3> = ends
-            .iter()
-            .map(|e| {
-                let above = (self.centre - e.centroid).dot(e.normal);
-                let from =
-                    if self.is_inside { e.centroid } else { e.centroid + e.normal * (0.5 * above) };
-                from - self.centre
-            })
-            .collect();
-        let mut nearest = std::f64::consts::PI;
-        for i in 1..aims.len() {
-            for j in 0..i {
-                nearest = nearest.min(aims[i].angle_between(aims[j]));
-            }
-        }
+    /// The polygons around the hub.
+    fn ports(&self, ends: &[End]) -> Result<Ports, &'static str> {
+        let aims: Vec<DVec3> = ends.iter().map(|end| self.aim(end)).collect();
+        let nearest = nearest_directions(&aims);
         // NaN, for an aim without length, is refused, too.
         if nearest.is_nan() || nearest < NARROWEST {
             return Err(
@@ -195,7 +191,7 @@ impl Hub {
         let smallest = ends.iter().map(|e| e.radius).fold(f64::INFINITY, f64::min);
         let reach = aims.iter().map(|a| a.length()).fold(f64::INFINITY, f64::min);
         let radius = (PORT * smallest / width.sin()).min(LARGEST * reach);
-        let (mut points, mut ports) = (Vec::new(), Vec::new());
+        let mut ports = Ports { points: Vec::new(), corners: Vec::new() };
         for (end, aim) in ends.iter().zip(&aims) {
             let towards = aim.normalize();
             let leaves = if self.is_inside { end.normal } else { -end.normal };
@@ -203,57 +199,127 @@ impl Hub {
             let x = (across - towards * across.dot(towards))
                 .normalize_or(towards.any_orthonormal_vector());
             let y = towards.cross(x);
-            let start = points.len();
+            let start = ports.points.len();
             for k in 0..end.sides {
                 let (sin, cos) = (TAU * k as f64 / end.sides as f64).sin_cos();
                 let out = towards * width.cos() + (x * cos + y * sin) * width.sin();
-                points.push(self.centre + out * radius);
+                ports.points.push(self.centre + out * radius);
             }
-            ports.push(start..points.len());
+            ports.corners.push(start..ports.points.len());
         }
-        Ok((points, ports))
+        Ok(ports)
+    }
+
+    /// From the hub towards a face, or towards a point half-way above it.
+    fn aim(&self, end: &End) -> DVec3 {
+        let above = (self.centre - end.centroid).dot(end.normal);
+        let from =
+            if self.is_inside { end.centroid } else { end.centroid + end.normal * (0.5 * above) };
+        from - self.centre
     }
 }
 
-/// Where the elements of a mesh went.
-struct Joined {
-    vertices: VertexMap<VertexId>,
-    faces: FaceMap<FaceId>,
+/// The least angle between two directions, in radians.
+fn nearest_directions(aims: &[DVec3]) -> f64 {
+    let mut nearest = std::f64::consts::PI;
+    for i in 1..aims.len() {
+        for j in 0..i {
+            nearest = nearest.min(aims[i].angle_between(aims[j]));
+        }
+    }
+    nearest
 }
 
-impl Joined {
+/// Where the elements of a mesh went.
+struct Moved {
+    vertices: VertexMap<VertexId>,
+    faces: FaceMap<FaceId>,
+    sides: HalfEdgeMap<HalfEdgeId>,
+}
+
+impl Moved {
+    /// Copies a mesh without its gaps.
+    fn copy(mesh: &Mesh, walks: &mut WalkBuilder) -> Self {
+        let mut vertices = VertexMap::filled(mesh.vertex_slots(), VertexId::new(0));
+        let mut faces = FaceMap::filled(mesh.face_slots(), FaceId::new(0));
+        let mut sides = HalfEdgeMap::filled(mesh.half_edge_slots(), HalfEdgeId(u32::MAX));
+        mesh.vertices().for_each(|v| vertices[v] = walks.vertex(mesh.position(v)));
+        for e in mesh.edges() {
+            let [h, t] = e.half_edges();
+            sides[h] = walks.edge(vertices[mesh.origin(h)], vertices[mesh.origin(t)]);
+            sides[t] = sides[h].twin();
+        }
+        for f in mesh.faces() {
+            faces[f] = walks.face(mesh.face_half_edges(f).map(|h| sides[h]));
+        }
+        Self { vertices, faces, sides }
+    }
+
     fn corner(&self, old: FaceCorner) -> FaceCorner {
         let face = self.faces[FaceId::new(old.face as usize)].index() as u32;
         let vertex = old.vertex.map(|v| self.vertices[VertexId::new(v as usize)].index() as u32);
         FaceCorner { face, vertex }
     }
+
+    /// Gives the copy what the mesh knew: which positions are given, groups, planes, seams.
+    fn dress(&self, mesh: &Mesh, copy: &mut Mesh) {
+        for v in mesh.vertices() {
+            copy.set_position(self.vertices[v], mesh.position(v), mesh.is_given(v));
+        }
+        for f in mesh.faces() {
+            if let Some(name) = mesh.group(f) {
+                copy.set_group(self.faces[f], name);
+            }
+            if let Some(plane) = mesh.carried_plane(f) {
+                copy.set_plane(self.faces[f], plane);
+            }
+        }
+        for e in mesh.edges().filter(|&e| mesh.is_seam(e)) {
+            copy.set_seam(self.sides[e.half_edge()].edge(), true);
+        }
+    }
 }
 
-/// The mesh, without gaps, and a component more. Returns where its elements went, and the new faces
-/// in the order of the polygons.
-fn with_component(
-    mesh: &Mesh,
+/// The mesh, without gaps, and the hub as a component more.
+struct WithHub {
+    mesh: Mesh,
+    /// Where the elements of the mesh went.
+    moved: Moved,
+    /// In the order of the polygons.
+    hub_faces: Vec<FaceId>,
+    hub_vertices: usize,
+}
+
+impl WithHub {
+    fn build(mesh: &Mesh, points: &[DVec3], polygons: &[Vec<u32>], is_turned: bool) -> Self {
+        let mut walks = WalkBuilder::with_capacity(
+            mesh.vertex_count() + points.len(),
+            mesh.edge_count() + 3 * points.len(),
+            mesh.face_count() + polygons.len(),
+        );
+        let moved = Moved::copy(mesh, &mut walks);
+        let hub_faces = add_polygons(&mut walks, points, polygons, is_turned);
+        let mut joined = walks.build();
+        moved.dress(mesh, &mut joined);
+        Self { mesh: joined, moved, hub_faces, hub_vertices: points.len() }
+    }
+
+    /// What is new: the hub, without the faces that tubes will take.
+    fn made(&self, port_faces: &[FaceId]) -> NewElements {
+        let faces = self.hub_faces.iter().copied().filter(|f| !port_faces.contains(f)).collect();
+        let first = self.mesh.vertex_slots() - self.hub_vertices;
+        let vertices = (first..self.mesh.vertex_slots()).map(VertexId::new).collect();
+        NewElements { faces, vertices, ..NewElements::default() }
+    }
+}
+
+/// Adds a closed component by its polygons; returns the faces in their order.
+fn add_polygons(
+    walks: &mut WalkBuilder,
     points: &[DVec3],
     polygons: &[Vec<u32>],
     is_turned: bool,
-) -> (Mesh, Joined, Vec<FaceId>) {
-    let mut walks = WalkBuilder::with_capacity(
-        mesh.vertex_count() + points.len(),
-        mesh.edge_count() + 3 * points.len(),
-        mesh.face_count() + polygons.len(),
-    );
-    let mut vertices = VertexMap::filled(mesh.vertex_slots(), VertexId::new(0));
-    let mut faces = FaceMap::filled(mesh.face_slots(), FaceId::new(0));
-    let mut sides = HalfEdgeMap::filled(mesh.half_edge_slots(), HalfEdgeId(u32::MAX));
-    mesh.vertices().for_each(|v| vertices[v] = walks.vertex(mesh.position(v)));
-    for e in mesh.edges() {
-        let [h, t] = e.half_edges();
-        sides[h] = walks.edge(vertices[mesh.origin(h)], vertices[mesh.origin(t)]);
-        sides[t] = sides[h].twin();
-    }
-    for f in mesh.faces() {
-        faces[f] = walks.face(mesh.face_half_edges(f).map(|h| sides[h]));
-    }
+) -> Vec<FaceId> {
     let corners: Vec<VertexId> = points.iter().map(|&p| walks.vertex(p)).collect();
     let mut edges: Vec<([u32; 2], HalfEdgeId)> = Vec::new();
     let mut made = Vec::with_capacity(polygons.len());
@@ -274,31 +340,5 @@ fn with_component(
         }
         made.push(walks.face(walk));
     }
-    let mut joined = walks.build();
-    dress(mesh, &mut joined, &vertices, &faces, &sides);
-    (joined, Joined { vertices, faces }, made)
-}
-
-/// Gives the copy what the mesh knew: which positions are given, groups, planes, seams.
-fn dress(
-    mesh: &Mesh,
-    copy: &mut Mesh,
-    vertices: &VertexMap<VertexId>,
-    faces: &FaceMap<FaceId>,
-    sides: &HalfEdgeMap<HalfEdgeId>,
-) {
-    for v in mesh.vertices() {
-        copy.set_position(vertices[v], mesh.position(v), mesh.is_given(v));
-    }
-    for f in mesh.faces() {
-        if let Some(name) = mesh.group(f) {
-            copy.set_group(faces[f], name);
-        }
-        if let Some(plane) = mesh.carried_plane(f) {
-            copy.set_plane(faces[f], plane);
-        }
-    }
-    for e in mesh.edges().filter(|&e| mesh.is_seam(e)) {
-        copy.set_seam(sides[e.half_edge()].edge(), true);
-    }
+    made
 }

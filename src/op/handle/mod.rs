@@ -33,13 +33,14 @@ mod tests;
 
 use glam::DVec3;
 
-use super::report::{MOST_PAIRS, crossing_note, first_few};
+use super::report::{crossing_note, crossing_pairs, first_few};
 use super::simple::{Mended, keep_simple};
-use super::size::check_size;
+use super::size::{ask, check_size};
 use super::{OpContext, OpError, OpFinding};
 use crate::code::Coded;
-use crate::measure::{CrossingPair, crossings};
+use crate::measure::CrossingPair;
 use crate::mesh::{FaceId, FaceMap, HalfEdgeId, Mesh, VertexId};
+use crate::progress::Progress;
 use crate::select::NewElements;
 
 pub use params::{FaceCorner, HandleAxis, HandleParams, Weights};
@@ -163,7 +164,7 @@ pub fn handle(
     check_size("segments", params.segments, edges)?;
     if !params.also.is_empty() {
         let (made_mesh, report) = hub::hub(mesh, params, context)?;
-        return finish(mesh, made_mesh, report);
+        return finish(mesh, made_mesh, report, context.progress);
     }
     let tube = Join {
         from: params.from,
@@ -173,7 +174,7 @@ pub fn handle(
         course,
     };
     let (made_mesh, report) = join(mesh, &tube, context)?;
-    finish(mesh, made_mesh, report)
+    finish(mesh, made_mesh, report, context.progress)
 }
 
 /// Makes the result one that files can hold, and finds where the tube goes through something.
@@ -181,12 +182,13 @@ fn finish(
     before: &Mesh,
     mut made_mesh: Mesh,
     mut report: HandleReport,
+    progress: &dyn Progress,
 ) -> Result<(Mesh, HandleReport), OpError> {
     let advice = "take more segments, or other faces";
     report.mended = keep_simple(before, &mut made_mesh, &mut report.made, advice)?;
     let mut is_new = FaceMap::filled(made_mesh.face_slots(), false);
     report.made.faces.iter().for_each(|&f| is_new[f] = true);
-    report.pairs = crossings(&made_mesh, MOST_PAIRS);
+    report.pairs = crossing_pairs(&made_mesh, progress)?;
     report.pairs.retain(|pair| is_new[pair.first] || is_new[pair.second]);
     Ok((made_mesh, report))
 }
@@ -281,7 +283,7 @@ fn join(
             same line; use at least three segments",
         ));
     }
-    report.made = tube.build(&plan.sections);
+    report.made = tube.build(&plan.sections, context.progress)?;
     Ok((tube.mesh, report))
 }
 
@@ -393,7 +395,11 @@ impl Tube {
     }
 
     /// Joins the ends through the sections, one pipe after the other.
-    fn build(&mut self, sections: &[Vec<DVec3>]) -> NewElements {
+    fn build(
+        &mut self,
+        sections: &[Vec<DVec3>],
+        progress: &dyn Progress,
+    ) -> Result<NewElements, OpError> {
         let mesh = &mut self.mesh;
         let ends = self.ends.map(|h| mesh.face(h));
         let carried: Vec<_> = mesh
@@ -406,7 +412,8 @@ impl Tube {
         mesh.clear_planes();
         let mut made = NewElements::default();
         let mut from = self.ends[0];
-        for section in sections {
+        for (turn, section) in sections.iter().enumerate() {
+            ask(progress, turn)?;
             let (front, back) =
                 mesh.create_face_manifold(section).expect("faces have at least three sides");
             let corners: Vec<HalfEdgeId> = mesh.face_half_edges(front).collect();
@@ -433,6 +440,6 @@ impl Tube {
         carried.into_iter().for_each(|(f, plane)| mesh.set_plane(f, plane));
         made.faces.sort_unstable();
         made.vertices.sort_unstable();
-        made
+        Ok(made)
     }
 }

@@ -43,7 +43,7 @@ impl Assembly {
         })
     }
 
-    /// Adds a polytope whose coordinates count from `origin`. `part` tells all but faces and what
+    /// Adds a polytope whose coordinates count from `origin`. `part` says all but faces and what
     /// has none.
     pub(super) fn add_polytope(
         &mut self,

@@ -3,8 +3,8 @@
 //! The most concave piece is cut first. Its plane passes through one of its sharpest concave edges:
 //! that of one of the faces there, or the one that halves the angle (Chazelle 1984, "Convex
 //! partitions of polyhedra", cuts through all such edges; here few parts are wanted, so that of a
-//! few planes the one is taken that leaves the hulls of the pieces smallest). Then pieces are joined
-//! again until few enough are left (`merge.rs`).
+//! few planes the one is taken that leaves the hulls of the pieces smallest). Then pieces are
+//! joined again until few enough are left (`merge.rs`).
 //!
 //! The work is bounded: [`most_cuts`] cuts, and trial cuts of [`MOST_FACES`] faces in all. The
 //! pieces cover the model exactly wherever it ends, so together the parts always hold all vertices.
@@ -14,8 +14,10 @@ use std::collections::HashSet;
 use glam::DVec3;
 
 use super::super::cut::{Cutter, Reach, SlicingPlane};
+use super::super::size::check_size;
 use super::super::{Capping, OpError};
-use super::merge::{Bundle, merged};
+use super::bundle::{Bundle, PartPoint};
+use super::merge::merged;
 use crate::geom::Plane;
 use crate::measure::{concave_edges, fold_angle, volume};
 use crate::mesh::{Component, EdgeId, FaceId, Mesh, MeshBuilder, VertexId};
@@ -29,9 +31,6 @@ const MOST_FACES: usize = 20_000_000;
 const VOLUME_KEPT: f64 = 1e-6;
 /// A cut that takes less than this share off the hulls of a piece is not used.
 const LEAST_GAIN: f64 = 1e-6;
-
-/// A point, and whether it came with the input.
-pub(super) type PartPoint = (DVec3, bool);
 
 /// How many cuts there may be for so many parts.
 fn most_cuts(parts: usize) -> usize {
@@ -63,23 +62,33 @@ pub(super) fn convex_parts(
         let holes = mesh.hole_count();
         return Err(OpError::NotClosed { what: "a division into convex parts", holes });
     }
+    check_parts(mesh, most)?;
     let pieces = pieces(mesh, most, concavity, progress)?;
     let mut held: HashSet<[u64; 3]> = HashSet::new();
     let mut bundles = Vec::new();
     for piece in &pieces {
-        let points: Vec<PartPoint> = piece
-            .mesh
-            .vertices()
-            .map(|v| (piece.mesh.position(v), piece.mesh.is_given(v)))
-            .collect();
-        held.extend(points.iter().map(|p| key(p.0)));
+        let points = part_points(&piece.mesh, piece.mesh.vertices());
+        held.extend(points.iter().map(|p| key(p.position)));
         bundles.push(Bundle::of(points));
     }
     // What no piece holds, such as a vertex without a face, goes to the nearest.
     let left = mesh.vertices().filter(|&v| !held.contains(&key(mesh.position(v))));
-    let left: Vec<PartPoint> = left.map(|v| (mesh.position(v), mesh.is_given(v))).collect();
-    let bundles = merged(bundles, left, most, progress)?;
+    let bundles = merged(bundles, part_points(mesh, left), most, progress)?;
     Ok(bundles.into_iter().map(Bundle::into_points).collect())
+}
+
+fn part_points(mesh: &Mesh, vertices: impl Iterator<Item = VertexId>) -> Vec<PartPoint> {
+    let point = |v| PartPoint { position: mesh.position(v), is_given: mesh.is_given(v) };
+    vertices.map(point).collect()
+}
+
+/// Refuses pieces that memory would not hold. A cut adds an edge for each edge that it divides, and
+/// two for each face; on an even mesh it divides about 4√E of them.
+fn check_parts(mesh: &Mesh, most: usize) -> Result<(), OpError> {
+    let edges = mesh.edge_count() as f64;
+    let of_cuts = 12.0 * edges.sqrt();
+    let asked = u32::try_from(most).unwrap_or(u32::MAX);
+    check_size("parts", asked, |parts| edges + of_cuts * most_cuts(parts as usize) as f64)
 }
 
 /// A position as a key; adding zero makes −0 and 0 one.
@@ -98,8 +107,7 @@ struct Piece {
 
 impl Piece {
     fn of(mesh: Mesh) -> Self {
-        let points = mesh.vertices().map(|v| (mesh.position(v), mesh.is_given(v))).collect();
-        let hull_volume = Bundle::of(points).volume();
+        let hull_volume = Bundle::of(part_points(&mesh, mesh.vertices())).volume;
         Self { volume: volume(&mesh), hull_volume, is_done: false, mesh }
     }
 
@@ -335,7 +343,7 @@ mod tests {
             let parts = convex_parts(&mesh, most, 0.01, &Silent).expect("parts");
             assert_eq!(parts.len(), most);
             let held: HashSet<[u64; 3]> =
-                parts.iter().flatten().map(|point| key(point.0)).collect();
+                parts.iter().flatten().map(|point| key(point.position)).collect();
             assert!(most < 300 || held.len() > 2000, "{}", held.len());
         }
     }

@@ -3,8 +3,7 @@
 use glam::DVec3;
 
 use super::super::OpError;
-use super::decompose::PartPoint;
-use crate::geom::hull::{Numbers, convex_hull};
+use super::bundle::{Bundle, PartPoint};
 use crate::progress::Progress;
 
 /// More pieces than this are first gathered by where they lie, since pairs of them are compared.
@@ -12,69 +11,8 @@ const MOST_COMPARED: usize = 256;
 /// Boxes nearer than this share of the size touch.
 const NEAR: f64 = 1e-6;
 
-/// Points with the volume of their hull.
-#[derive(Debug, Clone)]
-pub(super) struct Bundle {
-    /// The corners of the hull; all points where they span no volume.
-    points: Vec<PartPoint>,
-    volume: f64,
-    low: DVec3,
-    high: DVec3,
-}
-
-impl Bundle {
-    pub(super) fn of(points: Vec<PartPoint>) -> Self {
-        let positions: Vec<DVec3> = points.iter().map(|point| point.0).collect();
-        let low = positions.iter().copied().reduce(DVec3::min).unwrap_or_default();
-        let high = positions.iter().copied().reduce(DVec3::max).unwrap_or_default();
-        let Ok(faces) = convex_hull(&positions, Numbers::Given) else {
-            return Self { points, volume: 0.0, low, high };
-        };
-        let apex = positions[faces.corners()[0] as usize];
-        let mut six_volumes = 0.0;
-        for run in faces.iter() {
-            let corner = |i: usize| positions[run[i] as usize] - apex;
-            for i in 2..run.len() {
-                six_volumes += corner(0).dot(corner(i - 1).cross(corner(i)));
-            }
-        }
-        let mut corners = faces.corners().to_vec();
-        corners.sort_unstable();
-        corners.dedup();
-        let points = corners.into_iter().map(|i| points[i as usize]).collect();
-        Self { points, volume: six_volumes / 6.0, low, high }
-    }
-
-    /// The volume of the hull; zero where there is none.
-    pub(super) fn volume(&self) -> f64 {
-        self.volume
-    }
-
-    /// Points of which it is the hull.
-    pub(super) fn into_points(self) -> Vec<PartPoint> {
-        self.points
-    }
-
-    fn joined(&self, other: &Self) -> Self {
-        Self::of(self.points.iter().chain(&other.points).copied().collect())
-    }
-
-    fn middle(&self) -> DVec3 {
-        self.low.midpoint(self.high)
-    }
-
-    fn touches(&self, other: &Self, margin: f64) -> bool {
-        (self.low - margin).cmple(other.high).all() && (other.low - margin).cmple(self.high).all()
-    }
-
-    /// The diagonal of the box around both.
-    fn span(&self, other: &Self) -> f64 {
-        (self.high.max(other.high) - self.low.min(other.low)).length()
-    }
-}
-
-/// Joins bundles until at most `most` are left. The points of those that span no volume, and `left`,
-/// go to the nearest of the others. Empty when none spans a volume.
+/// Joins bundles until at most `most` are left. The points of those that span no volume, and
+/// `left`, go to the nearest of the others. Empty when none spans a volume.
 ///
 /// # Errors
 /// [`OpError::Cancelled`].
@@ -102,7 +40,7 @@ pub(super) fn merged(
 fn with_stray(mut bundles: Vec<Bundle>, stray: Vec<PartPoint>) -> Vec<Bundle> {
     let mut more: Vec<Vec<PartPoint>> = vec![Vec::new(); bundles.len()];
     for point in stray {
-        let off = |b: &Bundle| point.0.clamp(b.low, b.high).distance_squared(point.0);
+        let off = |b: &Bundle| point.position.clamp(b.low, b.high).distance_squared(point.position);
         let nearest =
             (0..bundles.len()).min_by(|&i, &j| off(&bundles[i]).total_cmp(&off(&bundles[j])));
         if let Some(i) = nearest {
@@ -110,8 +48,7 @@ fn with_stray(mut bundles: Vec<Bundle>, stray: Vec<PartPoint>) -> Vec<Bundle> {
         }
     }
     for (bundle, more) in bundles.iter_mut().zip(more).filter(|(_, more)| !more.is_empty()) {
-        let points = std::mem::take(&mut bundle.points);
-        *bundle = Bundle::of(points.into_iter().chain(more).collect());
+        bundle.add(more);
     }
     bundles
 }

@@ -7,12 +7,14 @@
 //! divided first into clusters, each with its own hull and component.
 //!
 //! Changes: everything; the result is a new mesh. n planes in general position: n faces, 3n − 6
-//! edges, 2n − 4 vertices, all of valence 3. Every result contains the points that it was made of, but for planes moved.
-//! Degenerate: where more than three planes meet the vertex has a higher valence, unless the simple
-//! form is asked for: then planes there are moved inwards by less than 1/32 768 of the size, so that
-//! the vertices of three edges lie apart. Points that span no volume are an error that says so.
+//! edges, 2n − 4 vertices, all of valence 3. Every result contains the points that it was made of,
+//! but for planes moved. Degenerate: where more than three planes meet the vertex has a higher
+//! valence, unless the simple form is asked for: then planes there are moved inwards by less than
+//! 1/32 768 of the size, so that the vertices of three edges lie apart. Points that span no volume
+//! are an error that says so.
 
 mod build;
+mod bundle;
 mod decompose;
 mod dual;
 mod merge;
@@ -24,6 +26,7 @@ mod tests;
 
 pub use params::{Axis, HullParams, HullStepChoice, HullStepList};
 
+use super::size::check_size;
 use super::{OpContext, OpError};
 use crate::geom::hull::{
     Apart, Form, HalfSpace, HalfSpaceError, HullError, Intersect, Numbers, Polygons,
@@ -93,8 +96,8 @@ pub struct HullPart {
     /// touch. Numbered from 0: as given, or the corners of the hull in the order of their vertices,
     /// then the six sides of the box.
     pub without_face: Vec<usize>,
-    /// How many half-spaces were moved inwards a little, so that the vertices of the simple form lie
-    /// apart.
+    /// How many half-spaces were moved inwards a little, so that the vertices of the simple form
+    /// lie apart.
     pub moved: usize,
     /// Number of faces.
     pub faces: usize,
@@ -144,6 +147,7 @@ pub fn hull(
     context: &OpContext<'_>,
 ) -> Result<(Mesh, HullReport), OpError> {
     params.check()?;
+    check_steps(mesh, params)?;
     let clusters = parts::clusters(mesh, params, context.progress)?;
     let mut report = HullReport { empty_clusters: clusters.empty, ..HullReport::default() };
     let mut result = Assembly::default();
@@ -173,6 +177,21 @@ pub fn hull(
         report.steps.push(HullStep { planes: step.planes().min(most), mesh: picture.mesh()? });
     }
     Ok((result, report))
+}
+
+/// Refuses more pictures than memory holds: each is a solid of at most one plane for each vertex and
+/// six for the box, and a solid of p planes has at most 3p − 6 edges.
+fn check_steps(mesh: &Mesh, params: &HullParams) -> Result<(), OpError> {
+    let steps = params.steps.as_ref().map_or(&[][..], |steps| &steps.0);
+    let edges_of =
+        |step: &HullStepChoice| 3.0 * (step.planes().min(mesh.vertex_count()) + 6) as f64;
+    let mut edges = vec![mesh.edge_count() as f64];
+    edges.extend(steps.iter().scan(edges[0], |sum, step| {
+        *sum += edges_of(step);
+        Some(*sum)
+    }));
+    let asked = u32::try_from(steps.len()).unwrap_or(u32::MAX);
+    check_size("steps", asked, |count| edges[(count as usize).min(steps.len())])
 }
 
 /// The faces of the hull of a cluster.

@@ -110,7 +110,7 @@ fn automatic(
     }
     let mut clusters: Vec<Cluster> = Vec::with_capacity(parts.len());
     for (i, points) in (1..).zip(parts) {
-        let (points, is_given) = points.into_iter().unzip();
+        let (points, is_given) = points.into_iter().map(|p| (p.position, p.is_given)).unzip();
         clusters.push(Cluster { name: format!("part-{i}"), points, is_given });
     }
     Ok(clusters)

@@ -32,12 +32,12 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Deserializer, de};
 
-use super::report::{MOST_PAIRS, crossing_note, first_few};
+use super::report::{crossing_note, crossing_pairs, first_few};
 use super::simple::{Mended, keep_simple};
 use super::size::check_size;
 use super::{OpContext, OpError, OpFinding};
 use crate::code::Coded;
-use crate::measure::{CrossingPair, crossings};
+use crate::measure::CrossingPair;
 use crate::mesh::Mesh;
 use crate::select::NewElements;
 use crate::units::{Angle, Length, UnitError, parse_number};
@@ -220,7 +220,7 @@ pub fn menger(
         }
         context.progress.report("digging tunnels", round as usize - 1, params.rounds as usize);
         let coarse = fine.as_ref().unwrap_or(mesh);
-        let (next, crossing) = round::round(coarse, params.thickness, params.collapse.radians())?;
+        let (next, crossing) = round::round(coarse, params, context.progress)?;
         if !crossing.is_empty() {
             report.crossing.push(RoundCrossing { round, faces: crossing });
         }
@@ -229,7 +229,7 @@ pub fn menger(
     let mut sponge = fine.expect("there is at least one round");
     let advice = "take another thickness, or other faces that meet at a right angle";
     report.mended = keep_simple(mesh, &mut sponge, &mut NewElements::default(), advice)?;
-    report.pairs = crossings(&sponge, MOST_PAIRS);
+    report.pairs = crossing_pairs(&sponge, context.progress)?;
     Ok((sponge, report))
 }
 

@@ -6,12 +6,15 @@ use std::f64::consts::PI;
 use glam::DVec3;
 
 use super::super::OpError;
-use super::Thickness;
+use super::super::size::ask;
+use super::{MengerParams, Thickness};
 use crate::geom::{Plane, RoundingBound, meet_planes_near};
 use crate::measure::dihedral_angle;
 use crate::mesh::{
-    EdgeMap, FaceId, FaceMap, HalfEdgeId, HalfEdgeMap, Mesh, VertexId, VertexMap, WalkBuilder,
+    EdgeId, EdgeMap, FaceId, FaceMap, HalfEdgeId, HalfEdgeMap, Mesh, VertexId, VertexMap,
+    WalkBuilder,
 };
+use crate::progress::Progress;
 
 /// Angles that differ by no more than this are equal: sides whose directions are opposite, faces at
 /// the angle of collapse.
@@ -32,6 +35,13 @@ enum Link {
     Bent(HalfEdgeId, VertexId, HalfEdgeId),
 }
 
+impl Link {
+    /// The vertex between its two edges.
+    fn bend(self) -> Option<VertexId> {
+        if let Self::Bent(_, bend, _) = self { Some(bend) } else { None }
+    }
+}
+
 /// Points of the new mesh by half-edges of the old one.
 struct Places {
     /// On the edge, near the origin.
@@ -44,18 +54,22 @@ struct Places {
 
 pub(super) fn round(
     mesh: &Mesh,
-    thickness: Thickness,
-    collapse: f64,
+    params: &MengerParams,
+    progress: &dyn Progress,
 ) -> Result<(Mesh, Vec<usize>), OpError> {
     let mut planes = FaceMap::filled(mesh.face_slots(), None);
-    for f in mesh.faces() {
+    for (turn, f) in mesh.faces().enumerate() {
+        ask(progress, turn)?;
         planes[f] = Some(mesh.plane(f).ok_or(OpError::NoArea(f))?);
     }
-    let mut places = Places::of(mesh, &planes, thickness);
+    let mut places = Places::of(mesh, &planes, params.thickness);
+    ask(progress, 0)?;
     let angles = angles(mesh);
-    let joins = Joins::of(mesh, &angles, collapse);
+    let joins = Joins::of(mesh, &angles, params.collapse.radians());
     joins.merge(mesh, &planes, &mut places.depths);
+    ask(progress, 0)?;
     let crossing = crossing(mesh, &planes, &places, &joins, &angles);
+    ask(progress, 0)?;
     let mut digger = Digger {
         mesh,
         planes: &planes,
@@ -72,6 +86,7 @@ pub(super) fn round(
         ),
     };
     let frames = digger.dig();
+    ask(progress, 0)?;
     let mut sponge = digger.walks.build();
     for (f, made) in frames {
         if let Some(name) = mesh.group(f) {
@@ -495,38 +510,7 @@ impl Digger<'_> {
     fn inner_skin(&mut self, sides: &Sides, links: &HalfEdgeMap<Link>) {
         let mesh = self.mesh;
         for e in mesh.edges().filter(|&e| !self.joins.closed[e]) {
-            let [h, t] = e.half_edges();
-            let (here, there) = (links[h], links[t]);
-            let bend =
-                |link: Link| if let Link::Bent(_, bend, _) = link { Some(bend) } else { None };
-            if bend(here).is_none() && bend(there).is_none() {
-                let ends = [there, here].map(|link| match link {
-                    Link::Straight(edge) => Some(edge.twin()),
-                    _ => None,
-                });
-                self.walks.face(
-                    [Some(sides.floors[h]), ends[0], Some(sides.floors[t]), ends[1]]
-                        .into_iter()
-                        .flatten(),
-                );
-                continue;
-            }
-            // From the bend at the origin of h to that at the origin of t; a bend that is not there
-            // is the vertex that both sides share.
-            let [a, b] =
-                [(here, h), (there, t)].map(|(link, h)| bend(link).unwrap_or(sides.depths[h]));
-            let ridge = self.walks.edge(a, b);
-            for (side, ridge, near, far) in
-                [(h, ridge, here, there), (t, ridge.twin(), there, here)]
-            {
-                // Around the strip: along the floor, to the far bend, along the ridge, to the
-                // floor.
-                let out = if let Link::Bent(_, _, edge) = far { Some(edge.twin()) } else { None };
-                let back = if let Link::Bent(edge, _, _) = near { Some(edge.twin()) } else { None };
-                self.walks.face(
-                    [Some(sides.floors[side]), out, Some(ridge.twin()), back].into_iter().flatten(),
-                );
-            }
+            self.strip(e, sides, links);
         }
         for v in mesh.vertices() {
             let mut walk = Vec::new();
@@ -542,6 +526,33 @@ impl Digger<'_> {
             if walk.len() > 2 && !is_slit {
                 self.walks.face(walk);
             }
+        }
+    }
+
+    /// The strip across an edge: one face, or two with a ridge between them where a link is bent.
+    fn strip(&mut self, e: EdgeId, sides: &Sides, links: &HalfEdgeMap<Link>) {
+        let [h, t] = e.half_edges();
+        let (here, there) = (links[h], links[t]);
+        if here.bend().is_none() && there.bend().is_none() {
+            let ends = [there, here].map(|link| match link {
+                Link::Straight(edge) => Some(edge.twin()),
+                _ => None,
+            });
+            let around = [Some(sides.floors[h]), ends[0], Some(sides.floors[t]), ends[1]];
+            self.walks.face(around.into_iter().flatten());
+            return;
+        }
+        // From the bend at the origin of h to that at the origin of t; a bend that is not there is
+        // the vertex that both sides share.
+        let [a, b] =
+            [(here, h), (there, t)].map(|(link, h)| link.bend().unwrap_or(sides.depths[h]));
+        let ridge = self.walks.edge(a, b);
+        for (side, ridge, near, far) in [(h, ridge, here, there), (t, ridge.twin(), there, here)] {
+            // Around the strip: along the floor, to the far bend, along the ridge, to the floor.
+            let out = if let Link::Bent(_, _, edge) = far { Some(edge.twin()) } else { None };
+            let back = if let Link::Bent(edge, _, _) = near { Some(edge.twin()) } else { None };
+            let around = [Some(sides.floors[side]), out, Some(ridge.twin()), back];
+            self.walks.face(around.into_iter().flatten());
         }
     }
 }

@@ -10,9 +10,11 @@
 //! Needs: faces whose corners are not all fixed. Keeps: V, E, F, genus, groups, seams. Changes:
 //! positions, so that faces are planar to the profile. Degenerate: a flat patch of hexagons has too
 //! few ways to bend; it is already planar, and the shift of the system (Levenberg 1944) keeps its
-//! steps small. What does not come to an end within the rounds is told, with the worst face.
+//! steps small. What does not come to an end within the rounds is reported, with the worst face.
 
 mod constraints;
+mod damage;
+mod report;
 
 #[cfg(test)]
 mod tests;
@@ -20,14 +22,14 @@ mod tests;
 use glam::DVec3;
 use serde::Deserialize;
 
+pub use self::report::{FarMove, Needle, PlanarizeReport};
+
 use self::constraints::Constraints;
-use super::report::first_few;
-use super::{OpContext, OpError, OpFinding};
-use crate::check::{Limits, Profile, short};
-use crate::code::Coded;
+use super::{OpContext, OpError};
+use crate::check::{Limits, Profile};
 use crate::geom::{RoundingBound, fit_plane};
-use crate::measure::{corner_angle, planarity, self_contact};
-use crate::mesh::{FaceId, HalfEdgeId, Mesh, VertexId};
+use crate::measure::{planarity, self_contact};
+use crate::mesh::{FaceId, Mesh, VertexId};
 use crate::select::Selection;
 
 /// The most rounds that may be asked for.
@@ -108,97 +110,6 @@ impl Default for PlanarizeParams {
     }
 }
 
-/// What planarizing did. Ids are those of the mesh, which keeps them.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PlanarizeReport {
-    /// How many rounds it took.
-    pub rounds: u32,
-    /// Whether all faces keep the limits of the profile.
-    pub is_planar: bool,
-    /// The face farthest from its limit, and the largest distance of a corner from a face's plane
-    /// before and after, in mm.
-    pub worst: Option<FaceId>,
-    /// Before.
-    pub before_mm: f64,
-    /// After.
-    pub after_mm: f64,
-    /// The longest way of a vertex, in mm.
-    pub largest_movement_mm: f64,
-    /// The mean way of all vertices, in mm.
-    pub mean_movement_mm: f64,
-    /// The vertex with the longest way.
-    pub farthest: Option<VertexId>,
-    /// Faces whose sides cross or touch each other now and did not before.
-    pub crossing: Vec<FaceId>,
-    /// Corners that were no needles before and are now.
-    pub needles: Vec<Needle>,
-}
-
-/// A corner of a face so sharp that no plate can be made of it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Needle {
-    /// The face.
-    pub face: FaceId,
-    /// The vertex at the corner.
-    pub vertex: VertexId,
-    /// Its angle, in degrees.
-    pub degrees: f64,
-}
-
-/// A corner with a smaller angle is a needle, in degrees; one as near to a full turn is a slit.
-const SHARPEST: f64 = 0.1;
-
-impl PlanarizeReport {
-    /// What the user should know, in words.
-    pub fn notes(&self) -> Vec<String> {
-        let mut notes = vec![format!(
-            "planarized in {} rounds: corners off their face's plane by {} mm at most before, {} \
-            mm after; vertices moved by {} mm at most{}, {} mm on average",
-            self.rounds,
-            short(self.before_mm),
-            short(self.after_mm),
-            short(self.largest_movement_mm),
-            self.farthest.map_or(String::new(), |v| format!(" (vertex {v})")),
-            short(self.mean_movement_mm)
-        )];
-        if let Some(worst) = self.worst.filter(|_| !self.is_planar) {
-            notes.push(format!(
-                "the profile is not reached: face {worst} is the worst; allow more rounds, free \
-                its fixed corners, or divide it ({})",
-                OpFinding::NotPlanar.code()
-            ));
-        }
-        if !self.crossing.is_empty() {
-            notes.push(format!(
-                "sides cross now at {} faces that were simple before ({}): take a looser profile \
-                or more fairness, or make them planar by `cut face` instead ({})",
-                self.crossing.len(),
-                first_few(&self.crossing, 8),
-                OpFinding::FacesCross.code()
-            ));
-        }
-        if let Some(worst) = self.needles.first() {
-            notes.push(format!(
-                "{} corners became sharper than {SHARPEST}°, the first in face {} at vertex {} \
-                ({:.2e}°): no plate can be made of them; take a looser profile or more fairness, or \
-                merge the two ends of the short side there ({})",
-                self.needles.len(),
-                worst.face,
-                worst.vertex,
-                worst.degrees,
-                OpFinding::NeedleCorners.code()
-            ));
-        }
-        notes
-    }
-
-    /// Whether the profile is reached, and no face crosses itself or has a needle that did not
-    /// before.
-    pub fn is_clean(&self) -> bool {
-        self.is_planar && self.crossing.is_empty() && self.needles.is_empty()
-    }
-}
-
 /// Moves vertices as little as possible until every face is planar to the profile. Where the rounds
 /// do not suffice the best so far is returned, and the report says so; it names the faces whose
 /// sides cross for the movement, too.
@@ -244,23 +155,12 @@ pub fn planarize(
     let crosses =
         |f: &FaceId| self_contact(&made, *f).is_some() && self_contact(mesh, *f).is_none();
     report.crossing = made.faces().filter(crosses).collect();
-    report.needles = needles(mesh, &made);
+    report.needles = damage::needles(mesh, &made);
+    report.sharp = damage::sharp(mesh, &made);
+    report.concave = damage::concave(mesh, &made);
+    report.far = damage::far_moves(mesh, &made);
+    report.is_quads = damage::is_quads(mesh);
     Ok((made, report))
-}
-
-/// The needles of a mesh at corners that were none before, in the order of faces.
-fn needles(before: &Mesh, after: &Mesh) -> Vec<Needle> {
-    let angle = |mesh: &Mesh, h: HalfEdgeId| corner_angle(mesh, h).map(f64::to_degrees);
-    let is_needle = |degrees: f64| !(SHARPEST..=360.0 - SHARPEST).contains(&degrees);
-    let corners = after.faces().flat_map(|f| after.face_half_edges(f));
-    corners
-        .filter_map(|h| {
-            let degrees = angle(after, h).filter(|&degrees| is_needle(degrees))?;
-            let was_one = angle(before, h).is_none_or(is_needle);
-            let (face, vertex) = (after.face(h), after.origin(h));
-            (!was_one).then_some(Needle { face, vertex, degrees })
-        })
-        .collect()
 }
 
 fn check_numbers(params: &PlanarizeParams) -> Result<(), OpError> {
@@ -452,6 +352,10 @@ impl Work<'_> {
             farthest: farthest.map(|i| self.start[i].0),
             crossing: Vec::new(),
             needles: Vec::new(),
+            sharp: Vec::new(),
+            concave: Vec::new(),
+            far: Vec::new(),
+            is_quads: false,
         };
         (self.mesh, report)
     }

@@ -164,7 +164,7 @@ fn what_cannot_move_is_told() {
         assert!(planarize(&torus, &bad, &OpContext { made: None, progress: &Silent }).is_err());
     }
     let (_, report) = run(&torus, &PlanarizeParams { rounds: 1, ..PlanarizeParams::default() });
-    assert!(!report.is_planar && report.worst.is_some() && report.notes().len() == 2);
+    assert!(!report.is_planar && report.worst.is_some() && report.notes().len() == 3);
 }
 
 #[test]
@@ -190,4 +190,31 @@ fn faces_that_the_movement_made_cross_are_named() {
     assert!(told.contains("(F505)") && told.contains(&format!("{}, ", new[0])), "{told}");
     let (_, report) = run(&shaken_torus(24, 4.0), &PlanarizeParams::default());
     assert!(report.is_clean() && report.crossing.is_empty());
+}
+
+/// A plate with a tip of 0.13° between two corners that lie above and below it: pressed flat, the
+/// tip is a needle.
+#[test]
+fn a_tip_that_becomes_a_needle_is_a_finding() {
+    let points = [
+        [0.0, 0.0, 0.0],
+        [100.0, 0.0, 0.1],
+        [100.0, -100.0, 0.0],
+        [300.0, -100.0, 0.0],
+        [300.0, 100.0, 0.0],
+        [100.0, 100.0, 0.0],
+        [100.0, 0.1, -0.1],
+    ];
+    let mesh =
+        Mesh::from_faces(points.map(DVec3::from_array), [[0, 1, 2, 3, 4, 5, 6]]).expect("a plate");
+    let (_, report) = run(&mesh, &PlanarizeParams::default());
+    let [needle] = report.needles[..] else { panic!("{:?}", report.needles) };
+    assert_eq!((needle.face.index(), needle.vertex.index()), (0, 0));
+    assert!(
+        needle.degrees > 0.01 && needle.degrees < super::report::SHARPEST,
+        "{}",
+        needle.degrees
+    );
+    assert!(!report.is_clean() && report.is_planar);
+    assert!(report.notes().iter().any(|note| note.contains("F506")), "{:?}", report.notes());
 }

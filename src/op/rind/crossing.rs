@@ -2,80 +2,124 @@
 
 use glam::{DVec3, IVec3};
 
+use super::super::OpError;
+use super::super::size::ask;
 use super::Opening;
 use super::offset::Skin;
 use crate::geom::{Frame, triangulate};
 use crate::mesh::{FaceId, FaceMap, Mesh};
+use crate::progress::Progress;
 
 /// By how much less than the thickness a distance may be: the rounding of the construction, with
 /// room for flat corners.
 const SLACK: f64 = 1e-6;
 
-/// The faces that stay and that the second skin comes nearer to than their thickness, or whose
-/// sides turn round; ascending.
-pub(super) fn crossing_faces(
-    mesh: &Mesh,
-    openings: &FaceMap<Opening>,
-    thickness: &FaceMap<f64>,
-    skin: &Skin,
-) -> Vec<usize> {
-    let solid: Vec<FaceId> = mesh.faces().filter(|&f| openings[f] == Opening::None).collect();
-    let turns_round = |f: FaceId| {
-        mesh.face_half_edges(f).any(|h| {
-            let (a, b) = (mesh.origin(h), mesh.target(h));
-            let before = mesh.position(b) - mesh.position(a);
-            a != b
-                && before.dot(skin.positions[b] - skin.positions[a])
-                    < -SLACK * before.length_squared()
-        })
-    };
-    let mut found: Vec<usize> =
-        solid.iter().filter(|&&f| turns_round(f)).map(|f| f.index()).collect();
-    found.extend(too_near(mesh, &solid, thickness, skin).iter().map(|f| f.index()));
-    found.sort_unstable();
-    found.dedup();
-    found
+/// The first skin, and how thick the shell is to be.
+pub(super) struct Outer<'a> {
+    pub mesh: &'a Mesh,
+    pub openings: &'a FaceMap<Opening>,
+    pub thickness: &'a FaceMap<f64>,
+}
+
+impl Outer<'_> {
+    /// The faces that stay and that the second skin comes nearer to than their thickness, or whose
+    /// sides turn round; ascending.
+    pub fn crossing_faces(
+        &self,
+        skin: &Skin,
+        progress: &dyn Progress,
+    ) -> Result<Vec<usize>, OpError> {
+        let mesh = self.mesh;
+        let is_solid = |&f: &FaceId| self.openings[f] == Opening::None;
+        let solid: Vec<FaceId> = mesh.faces().filter(is_solid).collect();
+        let turns_round = |f: FaceId| {
+            mesh.face_half_edges(f).any(|h| {
+                let (a, b) = (mesh.origin(h), mesh.target(h));
+                let before = mesh.position(b) - mesh.position(a);
+                a != b
+                    && before.dot(skin.positions[b] - skin.positions[a])
+                        < -SLACK * before.length_squared()
+            })
+        };
+        let mut found: Vec<usize> =
+            solid.iter().filter(|&&f| turns_round(f)).map(|f| f.index()).collect();
+        let near = too_near(mesh, &solid, self.thickness, (skin, progress))?;
+        found.extend(near.iter().map(|f| f.index()));
+        found.sort_unstable();
+        found.dedup();
+        Ok(found)
+    }
 }
 
 /// Faces with a vertex of the second skin nearer than their thickness.
-fn too_near(mesh: &Mesh, solid: &[FaceId], thickness: &FaceMap<f64>, skin: &Skin) -> Vec<FaceId> {
-    let Some((low, high)) = mesh.bounds() else { return Vec::new() };
+fn too_near(
+    mesh: &Mesh,
+    solid: &[FaceId],
+    thickness: &FaceMap<f64>,
+    (skin, progress): (&Skin, &dyn Progress),
+) -> Result<Vec<FaceId>, OpError> {
+    let Some((low, high)) = mesh.bounds() else { return Ok(Vec::new()) };
     let reach = solid.iter().map(|&f| thickness[f].abs()).fold(0.0, f64::max);
     let fineness = (solid.len() as f64).sqrt().clamp(4.0, 128.0);
-    let cells = Cells { low, size: reach.max((high - low).max_element() / fineness) };
-    let mut entries: Vec<([i32; 3], u32)> = Vec::new();
-    let triangles = triangles_of(mesh, solid);
-    for (i, (_, corners)) in triangles.iter().enumerate() {
-        let bounds =
-            corners.iter().fold((corners[0], corners[0]), |(a, b), p| (a.min(*p), b.max(*p)));
-        cells.between(bounds.0, bounds.1).for_each(|cell| entries.push((cell, i as u32)));
+    let size = reach.max((high - low).max_element() / fineness);
+    let triangles = Triangles::new(triangles_of(mesh, solid), Cells { low, size });
+    let unevenness = unevenness(mesh, solid);
+    let mut is_near = FaceMap::filled(mesh.face_slots(), false);
+    for (turn, v) in mesh.vertices().enumerate() {
+        ask(progress, turn)?;
+        let p = skin.positions[v];
+        if p.cmplt(low - reach).any() || p.cmpgt(high + reach).any() {
+            continue;
+        }
+        triangles.around(p, reach, |f, corners| {
+            let wanted = thickness[f].abs() * (1.0 - SLACK) - skin.residuals[v] - unevenness[f];
+            is_near[f] |= nearest_on_triangle(p, corners).distance(p) < wanted;
+        });
     }
-    entries.sort_unstable();
-    // The skin keeps its distance from planes; the corners of a face that is not planar lie beside
-    // its plane.
+    Ok(solid.iter().copied().filter(|&f| is_near[f]).collect())
+}
+
+/// How far the corners of a face lie beside its plane. The skin keeps its distance from planes, so
+/// a face that is not planar may be nearer by so much.
+fn unevenness(mesh: &Mesh, solid: &[FaceId]) -> FaceMap<f64> {
     let mut unevenness = FaceMap::filled(mesh.face_slots(), 0.0);
     for &f in solid {
         let plane = mesh.plane(f).expect("the skin was made of planes");
         let beside = mesh.face_vertices(f).map(|v| plane.signed_distance(mesh.position(v)).abs());
         unevenness[f] = beside.fold(0.0, f64::max);
     }
-    let mut is_near = FaceMap::filled(mesh.face_slots(), false);
-    for v in mesh.vertices() {
-        let p = skin.positions[v];
-        if p.cmplt(low - reach).any() || p.cmpgt(high + reach).any() {
-            continue;
+    unevenness
+}
+
+/// Triangles by the cells that their boxes touch.
+struct Triangles {
+    all: Vec<(FaceId, [DVec3; 3])>,
+    cells: Cells,
+    /// Cells with the triangles in them, ascending.
+    entries: Vec<([i32; 3], u32)>,
+}
+
+impl Triangles {
+    fn new(all: Vec<(FaceId, [DVec3; 3])>, cells: Cells) -> Self {
+        let mut entries = Vec::new();
+        for (i, (_, [a, b, c])) in all.iter().enumerate() {
+            let (low, high) = (a.min(*b).min(*c), a.max(*b).max(*c));
+            cells.between(low, high).for_each(|cell| entries.push((cell, i as u32)));
         }
-        for cell in cells.between(p - reach, p + reach) {
-            let start = entries.partition_point(|e| e.0 < cell);
-            for &(_, i) in entries[start..].iter().take_while(|e| e.0 == cell) {
-                let (f, corners) = &triangles[i as usize];
-                let wanted =
-                    thickness[*f].abs() * (1.0 - SLACK) - skin.residuals[v] - unevenness[*f];
-                is_near[*f] |= nearest_on_triangle(p, corners).distance(p) < wanted;
+        entries.sort_unstable();
+        Self { all, cells, entries }
+    }
+
+    /// Visits the triangles, some more than once, that may come as near to a point as `reach`.
+    fn around(&self, p: DVec3, reach: f64, mut visit: impl FnMut(FaceId, &[DVec3; 3])) {
+        for cell in self.cells.between(p - reach, p + reach) {
+            let start = self.entries.partition_point(|entry| entry.0 < cell);
+            for &(_, i) in self.entries[start..].iter().take_while(|entry| entry.0 == cell) {
+                let (f, corners) = &self.all[i as usize];
+                visit(*f, corners);
             }
         }
     }
-    solid.iter().copied().filter(|&f| is_near[f]).collect()
 }
 
 fn triangles_of(mesh: &Mesh, faces: &[FaceId]) -> Vec<(FaceId, [DVec3; 3])> {

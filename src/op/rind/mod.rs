@@ -2,8 +2,8 @@
 //!
 //! The second skin has the links of the first, turned inside out; each of its vertices lies where
 //! the planes of its faces meet after each was moved by the thickness: exactly with three planes,
-//! in the least-squares sense with more, with the residual told. A punched face is joined to its
-//! partner by a pipe, a quad for each side. Peeling also takes away the walls without thickness
+//! in the least-squares sense with more, with the residual reported. A punched face is joined to
+//! its partner by a pipe, a quad for each side. Peeling also takes away the walls without thickness
 //! between neighbouring openings, the vertices in the midst of peeled faces, and the 2-gons that
 //! would be left over. Rims are openings, too, so a sheet becomes a slab.
 //!
@@ -35,15 +35,16 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Deserializer, de};
 
-use super::report::{MOST_PAIRS, crossing_note, first_few};
+use super::report::{crossing_note, crossing_pairs, first_few};
 use super::simple::{Mended, keep_simple};
 use super::size::check_size;
 use super::{OpContext, OpError, OpFinding};
 use crate::check::short;
 use crate::code::Coded;
 use crate::geom::RoundingBound;
-use crate::measure::{CrossingKind, CrossingPair, crossings};
+use crate::measure::{CrossingKind, CrossingPair};
 use crate::mesh::{FaceId, FaceMap, Mesh, VertexId};
+use crate::progress::Progress;
 use crate::select::{NewElements, Selection};
 use crate::units::Length;
 
@@ -229,9 +230,9 @@ pub fn rind(
             });
         }
         let (opened, report) = given::open(mesh, &openings, params.thickness.mm().abs())?;
-        return finish(mesh, opened, report);
+        return finish(mesh, opened, report, context.progress);
     }
-    let skin = offset::offset(mesh, &thickness)?;
+    let skin = offset::offset(mesh, &thickness, context.progress)?;
     if context.progress.is_cancelled() {
         return Err(OpError::Cancelled);
     }
@@ -243,8 +244,9 @@ pub fn rind(
     if report.residual_mm <= bound(mesh) {
         report.residual_mm = 0.0;
     }
-    report.crossing = crossing::crossing_faces(mesh, &openings, &thickness, &skin);
-    finish(mesh, made_mesh, report)
+    report.crossing = crossing::Outer { mesh, openings: &openings, thickness: &thickness }
+        .crossing_faces(&skin, context.progress)?;
+    finish(mesh, made_mesh, report, context.progress)
 }
 
 /// Makes the result one that files can hold, and finds the faces that go through each other.
@@ -252,10 +254,11 @@ fn finish(
     before: &Mesh,
     mut shell: Mesh,
     mut report: RindReport,
+    progress: &dyn Progress,
 ) -> Result<(Mesh, RindReport), OpError> {
     let advice = "open faces that touch each other less, or peel instead of punching";
     report.mended = keep_simple(before, &mut shell, &mut report.made, advice)?;
-    report.pairs = crossings(&shell, MOST_PAIRS);
+    report.pairs = crossing_pairs(&shell, progress)?;
     report.pairs.retain(|pair| !is_thin_wall(&shell, pair));
     Ok((shell, report))
 }

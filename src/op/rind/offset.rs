@@ -3,8 +3,10 @@
 use glam::DVec3;
 
 use super::super::OpError;
+use super::super::size::ask;
 use crate::geom::{Plane, meet_planes_near};
 use crate::mesh::{FaceMap, Mesh, VertexMap};
+use crate::progress::Progress;
 
 /// Least squares with planes that hardly differ can run far along the direction of which they say
 /// nothing. With more than three planes that do not meet, a vertex moves at most so many times as
@@ -20,7 +22,11 @@ pub(super) struct Skin {
     pub planes: FaceMap<Option<Plane>>,
 }
 
-pub(super) fn offset(mesh: &Mesh, thickness: &FaceMap<f64>) -> Result<Skin, OpError> {
+pub(super) fn offset(
+    mesh: &Mesh,
+    thickness: &FaceMap<f64>,
+    progress: &dyn Progress,
+) -> Result<Skin, OpError> {
     let mut planes = FaceMap::filled(mesh.face_slots(), None);
     for f in mesh.faces() {
         let plane = mesh.plane(f).ok_or(OpError::NoArea(f))?;
@@ -31,7 +37,8 @@ pub(super) fn offset(mesh: &Mesh, thickness: &FaceMap<f64>) -> Result<Skin, OpEr
         residuals: VertexMap::filled(mesh.vertex_slots(), 0.0),
         planes,
     };
-    for v in mesh.vertices() {
+    for (turn, v) in mesh.vertices().enumerate() {
+        ask(progress, turn)?;
         let at = mesh.position(v);
         let mut around: Vec<Plane> = mesh.vertex_faces(v).filter_map(|f| skin.planes[f]).collect();
         around.dedup();

@@ -56,31 +56,50 @@ impl<'a> Shell<'a> {
             2 * mesh.face_count() + mesh.edge_count() / 2,
         );
         let skins = self.skins(skin, &mut walks);
+        let copies = self.skin_faces(&skins, grows_outwards, &mut walks);
+        let walls = self.walls(&skins, grows_outwards, &mut walks);
+        let made = NewElements {
+            vertices: skins.vertices.iter().map(|v| v.1[1]).collect(),
+            faces: copies.iter().map(|c| c.1[1]).chain(walls).collect(),
+            ..NewElements::default()
+        };
+        let mut made_mesh = walks.build();
+        self.dress(&mut made_mesh, skin, &skins, &copies, grows_outwards);
+        (made_mesh, made)
+    }
+
+    /// The faces that stay, each with its copies on the first and on the second skin.
+    fn skin_faces(
+        &self,
+        skins: &Skins,
+        grows_outwards: bool,
+        walks: &mut WalkBuilder,
+    ) -> Vec<(FaceId, [FaceId; 2])> {
         let [first, second] = if grows_outwards { [1, 0] } else { [0, 1] };
-        let mut copies: Vec<(FaceId, [FaceId; 2])> = Vec::new();
-        for f in mesh.faces().filter(|&f| !self.is_open(f)) {
-            let around: Vec<HalfEdgeId> = mesh.face_half_edges(f).collect();
+        let mut copies = Vec::new();
+        for f in self.mesh.faces().filter(|&f| !self.is_open(f)) {
+            let around: Vec<HalfEdgeId> = self.mesh.face_half_edges(f).collect();
             let out = walks.face(around.iter().map(|&h| skins.sides[first][h]));
             let back = walks.face(around.iter().rev().map(|&h| skins.sides[second][h].twin()));
             copies.push((f, if grows_outwards { [back, out] } else { [out, back] }));
         }
-        let mut made = NewElements {
-            faces: copies.iter().map(|c| c.1[1]).collect(),
-            ..NewElements::default()
-        };
-        made.vertices = skins.vertices.iter().map(|v| v.1[1]).collect();
+        copies
+    }
+
+    /// The walls of the openings.
+    fn walls(&self, skins: &Skins, grows_outwards: bool, walks: &mut WalkBuilder) -> Vec<FaceId> {
+        let mesh = self.mesh;
+        let mut walls = Vec::new();
         for f in mesh.faces_and_holes().filter(|&f| self.is_open(f)) {
             for h in mesh.face_half_edges(f).filter(|h| !self.removed[h.edge()]) {
                 // From the first skin to the second at the end of the side, and back at its start.
                 let (down, up) = (skins.rungs[mesh.next(h)], skins.rungs[h].twin());
                 let wall = [skins.sides[0][h], down, skins.sides[1][h].twin(), up];
                 let turned = [up.twin(), skins.sides[1][h], down.twin(), skins.sides[0][h].twin()];
-                made.faces.push(if grows_outwards { walks.face(turned) } else { walks.face(wall) });
+                walls.push(walks.face(if grows_outwards { turned } else { wall }));
             }
         }
-        let mut made_mesh = walks.build();
-        self.dress(&mut made_mesh, skin, &skins, &copies, grows_outwards);
-        (made_mesh, made)
+        walls
     }
 
     fn skins(&self, skin: &Skin, walks: &mut WalkBuilder) -> Skins {

@@ -61,8 +61,8 @@ fn counts_are_those_that_were_measured_and_volumes_exact() {
     assert_eq!((counts(&shell), genus(&shell)), ([16, 28, 14], 0));
     let (shell, _) = run(&cube, &params(2.0, &[a, b], &[]));
     assert_eq!((counts(&shell), genus(&shell)), ([16, 32, 16], 1));
-    // Neighbours: a wall without thickness that goes when one of them is peeled. At either end of it
-    // two edges join the skins, of which one gets a vertex in between.
+    // Neighbours: a wall without thickness that goes when one of them is peeled. At either end of
+    // it two edges join the skins, of which one gets a vertex in between.
     let (shell, report) = run(&cube, &params(2.0, &[a, c], &[]));
     assert_eq!((counts(&shell), genus(&shell), report.mended.split), ([18, 34, 16], 1, 2));
     assert!(report.pairs.is_empty(), "{:?}", report.pairs);

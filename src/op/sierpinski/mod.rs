@@ -19,8 +19,8 @@
 //! Needs: nothing. Keeps: components, positions of old vertices, groups (the triangles at the
 //! corners of a face inherit its group). Planarity: corner triangles are planar, bases of pyramids
 //! are for valence 3, others by luck. Degenerate cases: at the rim of an open mesh no loop is made,
-//! and the pyramids of rim vertices have no base, so that the rim runs through their openings; faces
-//! of loops only stay.
+//! and the pyramids of rim vertices have no base, so that the rim runs through their openings;
+//! faces of loops only stay.
 
 mod vertex_kind;
 
@@ -29,11 +29,12 @@ mod tests;
 
 use serde::Deserialize;
 
-use super::simple::dissolve_lines;
+use super::simple::{dissolve_lines, part_rims};
 use super::size::{ask, check_size};
 use super::{OpContext, OpError};
 use crate::mesh::{EdgeId, FaceId, HalfEdgeId, HalfEdgeMap, Mesh, VertexId, WalkBuilder};
 use crate::progress::Progress;
+use crate::select::NewElements;
 
 pub use vertex_kind::{VertexKind, vertex_kind};
 
@@ -122,6 +123,7 @@ pub fn sierpinski(
     }
     let mut fine = fine.expect("there is at least one round");
     let flat_faces = dissolve_flat_faces(mesh, &mut fine);
+    part_rims(&mut fine, &mut NewElements::default());
     let loops = fine.edges().filter(|e| is_loop(&fine, e.half_edge())).count();
     Ok((fine, SierpinskiReport { kinds, loops, flat_faces }))
 }

@@ -99,7 +99,7 @@ fn default_rounds() -> u32 {
     1
 }
 
-/// The share of an edge that a truncation cuts off unless told otherwise.
+/// The share of an edge that a truncation cuts off unless said otherwise.
 const DEFAULT_OFFSET: f64 = 0.25;
 
 impl SubdivideParams {

@@ -131,7 +131,11 @@ pub enum ProofError {
         limit: f64,
     },
     /// Two faces of a piece share area.
-    #[error("faces {} and {} overlap in piece {piece} ({pairs} overlapping pairs in all)", faces[0], faces[1])]
+    #[error(
+        "faces {} and {} overlap in piece {piece} ({pairs} overlapping pairs in all)",
+        faces[0],
+        faces[1]
+    )]
     Overlap {
         /// The piece, counted from 1 as in its name.
         piece: usize,
@@ -191,7 +195,11 @@ pub enum EdgeFault {
     #[error("it is listed twice; it must be listed exactly once among folds, seams and rims")]
     Times,
     /// Not listed.
-    #[error("it is neither fold nor seam nor rim; it must be listed, it parts the faces {} and {}", faces[0], faces[1])]
+    #[error(
+        "it is neither fold nor seam nor rim; it must be listed, it parts the faces {} and {}",
+        faces[0],
+        faces[1]
+    )]
     Missing {
         /// The faces beside it (of a rim, the hole is one).
         faces: [usize; 2],
@@ -250,6 +258,19 @@ codes!(finding EdgeFault {
 /// # Errors
 /// The first fault, in the order structure, congruence, overlap, refold, angles;
 /// see [`ProofError`].
+///
+/// # Example
+/// ```
+/// use kerfold::prelude::*;
+///
+/// let cube = kerfold::shape::cube(40.0);
+/// let source = MeshSource { scale: 1.0, split_vertices: &[] };
+/// let mut net = unfold(&cube, &Seams::Free, &UnfoldParams::default(), &source, &Silent)?;
+/// assert_eq!(prove(&cube, &net)?.overlaps, 0);
+/// net.pieces[0].faces[0].polygon[0].x += 1.0;
+/// assert!(prove(&cube, &net).is_err());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn prove(mesh: &Mesh, net: &Net) -> Result<Proof, ProofError> {
     let size = size(mesh);
     structure::check(mesh, net, size)?;

@@ -25,6 +25,11 @@ impl AxisBox {
         self.low.cmple(other.high).all() && other.low.cmple(self.high).all()
     }
 
+    /// How far a point is from the box; 0 inside.
+    pub fn distance(&self, p: DVec3) -> f64 {
+        p.distance(p.clamp(self.low, self.high))
+    }
+
     fn around(self, other: Self) -> Self {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
@@ -112,6 +117,40 @@ impl<'a> BoxTree<'a> {
         }
     }
 
+    /// The box whose content is nearest to a point, and how far it is: `distance` measures the
+    /// content of one box, which must lie inside it. Of several the lowest number; `None` without
+    /// boxes, or when no distance is a number.
+    pub fn nearest(
+        &self,
+        p: DVec3,
+        mut distance: impl FnMut(usize) -> f64,
+    ) -> Option<(usize, f64)> {
+        let mut best: Option<(usize, f64)> = None;
+        let reach = |node: u32| self.nodes[node as usize].bounds.distance(p);
+        let mut open = if self.nodes.is_empty() { Vec::new() } else { vec![0_u32] };
+        while let Some(number) = open.pop() {
+            let node = &self.nodes[number as usize];
+            if best.is_some_and(|(_, found)| node.bounds.distance(p) > found) {
+                continue;
+            }
+            if node.second != 0 {
+                // The nearer half is looked at first, so it is pushed last.
+                let (a, b) = (number + 1, node.second);
+                open.extend(if reach(a) <= reach(b) { [b, a] } else { [a, b] });
+                continue;
+            }
+            for &i in self.run(node) {
+                let d = distance(i as usize);
+                let is_nearer =
+                    best.is_none_or(|(j, found)| d < found || d == found && (i as usize) < j);
+                if d.is_finite() && is_nearer {
+                    best = Some((i as usize, d));
+                }
+            }
+        }
+        best
+    }
+
     fn leaf_pairs(
         &self,
         is_one: bool,
@@ -171,6 +210,11 @@ mod tests {
                 .filter(|&(i, j)| boxes[i].meets(&boxes[j]))
                 .collect();
             assert_eq!(found, all);
+            let p = DVec3::new(number(), number(), number());
+            let from = |i: usize| boxes[i].distance(p);
+            let nearest = (0..count).min_by(|&i, &j| from(i).total_cmp(&from(j)));
+            let wanted = nearest.map(|i| (i, from(i)));
+            assert_eq!(BoxTree::new(&boxes).nearest(p, from), wanted);
         }
     }
 }

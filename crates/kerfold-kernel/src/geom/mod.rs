@@ -4,13 +4,18 @@ mod bending;
 mod box_tree;
 mod fit;
 mod frame;
+#[cfg(feature = "sparse")]
+pub mod fronts;
 mod grid;
 pub mod hull;
+#[cfg(feature = "sparse")]
+pub mod ldl;
 mod meet;
 mod meet_three;
 mod plane;
 pub mod polygon;
 pub mod predicate;
+mod quadric;
 mod rounding;
 pub mod segments;
 #[cfg(feature = "sparse")]
@@ -27,6 +32,7 @@ pub use meet::{meet_planes, meet_planes_near};
 pub use meet_three::meet_three;
 pub use plane::Plane;
 pub use predicate::Side;
+pub use quadric::{HeightSample, fit_quadric};
 pub use rounding::RoundingBound;
 pub use triangulate::{triangulate, triangulate_contours, triangulate_region};
 pub use triple::{Double, triple_product};

@@ -19,7 +19,7 @@ pub enum Side {
 }
 
 impl Side {
-    /// The side that the sign of `value` tells; zero is on.
+    /// The side that the sign of `value` shows; zero is on.
     #[inline]
     pub fn of(value: f64) -> Self {
         if value > 0.0 {
@@ -58,7 +58,7 @@ pub fn side_of_plane(normal: DVec3, point: DVec3, x: DVec3) -> Side {
 
 /// The side as far as rounded arithmetic can tell it; `None` when `x` is so near to the plane that
 /// only exact arithmetic could. No rounded construction, such as the point where an edge crosses
-/// the plane, can be told from such an `x`.
+/// the plane, can be distinguished from such an `x`.
 #[inline]
 pub fn rounded_side(normal: DVec3, point: DVec3, x: DVec3) -> Option<Side> {
     let products = normal * (x - point);

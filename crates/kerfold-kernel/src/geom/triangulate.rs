@@ -15,6 +15,16 @@ use super::predicate::orient2d;
 ///
 /// The same polygon always gives the same triangles. Simple polygons go through a constrained
 /// Delaunay triangulation (Chew 1989, by the `spade` crate), which avoids slivers where it can.
+///
+/// # Example
+/// ```
+/// use glam::DVec2;
+/// use kerfold_kernel::geom::triangulate;
+///
+/// let ell = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]];
+/// let ell = ell.map(|[x, y]| DVec2::new(f64::from(x), f64::from(y)));
+/// assert_eq!(triangulate(&ell).len(), 4);
+/// ```
 pub fn triangulate(polygon: &[DVec2]) -> Vec<[usize; 3]> {
     let Some(polygon) = scaled(polygon) else { return fan(polygon.len()) };
     match polygon.len() {

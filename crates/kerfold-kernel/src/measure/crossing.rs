@@ -39,23 +39,44 @@ pub enum CrossingKind {
 ///
 /// Time is n log n besides the pairs whose boxes meet.
 pub fn crossings(mesh: &Mesh, most: usize) -> Vec<CrossingPair> {
-    let Some((low, high)) = mesh.bounds() else { return Vec::new() };
+    crossings_while(mesh, most, &|| true).expect("nobody stops it")
+}
+
+/// So many pairs are compared between two questions whether to go on.
+const STRIDE: usize = 1024;
+
+/// As [`crossings`], for as long as `goes_on` says so; `None` when it was stopped.
+pub fn crossings_while(
+    mesh: &Mesh,
+    most: usize,
+    goes_on: &dyn Fn() -> bool,
+) -> Option<Vec<CrossingPair>> {
+    let Some((low, high)) = mesh.bounds() else { return Some(Vec::new()) };
     let near = 8.0 * RoundingBound::of_box(low, high).length();
     let pieces = Piece::all(mesh, near);
     let boxes: Vec<AxisBox> = pieces.iter().map(|piece| piece.bounds).collect();
     let mut found = Found { pairs: Vec::new(), contacts: Vec::new() };
+    if !goes_on() {
+        return None;
+    }
+    let (mut turn, mut is_stopped) = (0_usize, false);
     BoxTree::new(&boxes).pairs(|i, j| {
         let (a, b) = (&pieces[i], &pieces[j]);
         if a.face != b.face {
             found.compare(a, b, near);
         }
-        found.pairs.len() < most
+        turn += 1;
+        is_stopped = turn.is_multiple_of(STRIDE) && !goes_on();
+        found.pairs.len() < most && !is_stopped
     });
+    if is_stopped {
+        return None;
+    }
     found.passing_edges(mesh);
     found.pairs.sort_unstable();
     found.pairs.dedup();
     found.pairs.truncate(most);
-    found.pairs
+    Some(found.pairs)
 }
 
 /// A planar face, or a triangle of one that is not.
@@ -66,6 +87,31 @@ struct Piece {
     /// The edge from each corner to the next; `None` inside a face.
     edges: Vec<Option<EdgeId>>,
     bounds: AxisBox,
+    /// In its plane along the longest side and across it: the box of a slanted strip says little
+    /// of where it lies, and thousands of them side by side are the wall of a tube.
+    spans: [Span; 2],
+}
+
+/// How far something reaches along a direction.
+struct Span {
+    along: DVec3,
+    from: f64,
+    to: f64,
+}
+
+impl Span {
+    fn of(along: DVec3, corners: &[DVec3]) -> Self {
+        let places = || corners.iter().map(|p| along.dot(*p));
+        let (from, to) =
+            (places().fold(f64::INFINITY, f64::min), places().fold(f64::NEG_INFINITY, f64::max));
+        Self { along, from, to }
+    }
+
+    /// Whether all points lie beyond one end.
+    fn is_clear_of(&self, corners: &[DVec3], near: f64) -> bool {
+        let other = Self::of(self.along, corners);
+        other.from > self.to + near || other.to < self.from - near
+    }
 }
 
 impl Piece {
@@ -100,7 +146,18 @@ impl Piece {
     fn new(face: FaceId, corners: Vec<DVec3>, edges: Vec<Option<EdgeId>>) -> Option<Self> {
         let plane = Plane::newell(&corners)?;
         let bounds = AxisBox::of(corners.iter().copied())?;
-        Some(Self { face, plane, corners, edges, bounds })
+        let n = corners.len();
+        let sides = (0..n).map(|i| corners[(i + 1) % n] - corners[i]);
+        let longest =
+            sides.reduce(|a, b| if b.length_squared() > a.length_squared() { b } else { a })?;
+        let along = longest.normalize_or_zero();
+        let spans = [along, plane.normal().cross(along)].map(|along| Span::of(along, &corners));
+        Some(Self { face, plane, corners, edges, bounds, spans })
+    }
+
+    /// Whether another piece lies apart from this one in the directions of its plane.
+    fn is_apart(&self, other: &Self, near: f64) -> bool {
+        self.spans.iter().any(|span| span.is_clear_of(&other.corners, near))
     }
 
     /// How far each corner lies in front of a plane; zero within rounding.
@@ -142,6 +199,9 @@ struct Found {
 
 impl Found {
     fn compare(&mut self, a: &Piece, b: &Piece, near: f64) {
+        if a.is_apart(b, near) || b.is_apart(a, near) {
+            return;
+        }
         let on_b = a.heights(&b.plane, near);
         if is_beside(&on_b) {
             return;

@@ -47,6 +47,12 @@ pub fn surface_area(mesh: &Mesh) -> f64 {
 /// The signed volume enclosed by the faces; holes are closed as if by a fan. Positive when the
 /// faces look outwards. Right to the last digits of the given positions, for needles and far from
 /// the origin, too.
+///
+/// # Example
+/// ```
+/// let cube = kerfold_kernel::shape::cube(10.0);
+/// assert!((kerfold_kernel::measure::volume(&cube) - 1000.0).abs() < 1e-9);
+/// ```
 pub fn volume(mesh: &Mesh) -> f64 {
     let Some((low, high)) = mesh.bounds() else { return 0.0 };
     let centre = low.midpoint(high);

@@ -16,7 +16,7 @@ mod winding;
 pub use contact::self_contact;
 pub use convexity::convexity_of;
 pub use convexity::{Convexity, concave_edges, convexity};
-pub use crossing::{CrossingKind, CrossingPair, crossings};
+pub use crossing::{CrossingKind, CrossingPair, crossings, crossings_while};
 pub use edge::{dihedral_angle, edge_length, fold_angle};
 pub use extent::{face_area, face_centroid, face_diameter, face_width, size, surface_area, volume};
 pub use planarity::{Planarity, planarity, plane_deviation, polygon_planarity};

@@ -7,9 +7,9 @@ use glam::DVec3;
 use crate::mesh::{FaceId, Mesh};
 
 /// How often closed surfaces made of these faces go around a point: 1 inside a solid whose faces
-/// look outwards, 0 outside and in a cavity, −1 inside a body that is turned inside out. Summed from
-/// solid angles (Van Oosterom and Strackee 1983), so it is near a whole number unless the point lies
-/// on the surface or the surface is open.
+/// look outwards, 0 outside and in a cavity, −1 inside a body that is turned inside out. Summed
+/// from solid angles (Van Oosterom and Strackee 1983), so it is near a whole number unless the
+/// point lies on the surface or the surface is open.
 pub fn winding_number(mesh: &Mesh, faces: impl IntoIterator<Item = FaceId>, p: DVec3) -> f64 {
     let mut sum = 0.0;
     let mut corners: Vec<DVec3> = Vec::new();

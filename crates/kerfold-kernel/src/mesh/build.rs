@@ -266,7 +266,7 @@ impl MeshBuilder {
         Ok(edges)
     }
 
-    /// Three faces at an edge, or two that run the same way: tells which, with all faces at the
+    /// Three faces at an edge, or two that run the same way: says which, with all faces at the
     /// edge.
     fn edge_error(&self, a: u32, b: u32, face: usize) -> BuildError {
         let runs = |f: usize, a: u32, b: u32| {

@@ -93,7 +93,7 @@ impl Mesh {
             let [a, b] = self.edge_positions(h.edge());
             if a == b {
                 has_length = false;
-                // Each edge is told once, by its first half-edge where that is in a file.
+                // Each edge is reported once, by its first half-edge where that is in a file.
                 if *h == h.edge().half_edge() || self.is_hole(self.face(h.twin())) {
                     faults.push(FileFault::ZeroLengthEdge(h.edge()));
                 }

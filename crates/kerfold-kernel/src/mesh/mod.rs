@@ -2,6 +2,7 @@
 
 mod build;
 mod faults;
+mod file_counts;
 mod file_faults;
 mod id;
 mod operators;
@@ -11,6 +12,7 @@ mod walks;
 
 pub use build::{BuildError, MeshBuilder, SplitVertex};
 pub use faults::{Fault, assert_sound};
+pub use file_counts::FileCounts;
 pub use file_faults::FileFault;
 pub use id::{
     EdgeId, EdgeMap, FaceId, FaceMap, HalfEdgeId, HalfEdgeMap, Id, SideTable, VertexId, VertexMap,

@@ -77,7 +77,7 @@ pub enum Operation {
 }
 
 impl Operation {
-    /// What the name of a layer tells, if anything.
+    /// What the name of a layer says, if anything.
     pub fn of_name(name: &str) -> Option<Self> {
         let name = name.to_ascii_lowercase();
         let has = |words: &[&str]| words.iter().any(|w| name.contains(w));

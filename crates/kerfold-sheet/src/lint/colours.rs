@@ -7,7 +7,7 @@ use crate::geom::polygon::bounds;
 /// A colour: red, green, blue.
 pub type Rgb = [u8; 3];
 
-/// The colours of a drawing, `None` where a layer tells the operation.
+/// The colours of a drawing, `None` where a layer shows the operation.
 #[derive(Debug, Clone, Default)]
 pub struct Colours {
     /// Of the paths, in their order.

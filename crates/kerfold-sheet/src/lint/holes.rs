@@ -12,8 +12,8 @@ use crate::geom::polygon::convex_hull;
 /// Holes narrower than that many thicknesses are findings.
 const LEAST: f64 = 1.5;
 
-/// A slot takes the edge of a plate: its width in thicknesses, from a press fit to a plate that leans:
-/// at an angle δ between the plates a slot is (1 + |cos δ|) / sin δ thicknesses wide.
+/// A slot takes the edge of a plate: its width in thicknesses, from a press fit to a plate that
+/// leans: at an angle δ between the plates a slot is (1 + |cos δ|) / sin δ thicknesses wide.
 const SLOT_WIDTH: [f64; 2] = [0.9, 1.5];
 
 /// A slot is at least that many times as long as wide.

@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 use glam::DVec2;
 
 use super::artwork::{ArtPath, Artwork, Operation};
-use super::pairs::distance;
+use super::distance::distance;
 use super::work::{LintError, Work};
 use crate::geom::Grid;
 use crate::geom::segments::{Segment, SegmentTree};

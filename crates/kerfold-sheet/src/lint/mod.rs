@@ -7,6 +7,7 @@
 mod artwork;
 mod colours;
 mod contours;
+mod distance;
 mod features;
 mod hinges;
 mod holes;
@@ -71,7 +72,7 @@ fn judge(artwork: &Artwork, params: &LintParams, work: &mut Work) -> Result<Lint
     features::texts(artwork, &mut report);
     features::size(artwork, &joined, params, &mut report);
     features::stray_points(artwork, &joined, &mut report);
-    // Lines drawn twice are told once and judged once.
+    // Lines drawn twice are reported once and judged once.
     let (lines, twins) = lines::without_twins(joined);
     features::twins(&lines, &twins, &mut report);
     judge_lines(artwork, &lines, params, &mut report, work)?;

@@ -5,8 +5,8 @@ use super::contours::Contours;
 use super::lines::{Line, label};
 use super::report::{Check, LintReport};
 
-/// The operations' order, and inner contours before those around them. Each kind of fault is told
-/// once per line that comes too late.
+/// The operations' order, and inner contours before those around them. Each kind of fault is
+/// reported once per line that comes too late.
 pub(super) fn order(
     artwork: &Artwork,
     lines: &[Line],

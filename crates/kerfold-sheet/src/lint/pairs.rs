@@ -6,6 +6,7 @@ use std::collections::btree_map::Entry;
 use glam::DVec2;
 
 use super::artwork::Operation;
+use super::distance::distance;
 use super::lines::{Line, Strokes};
 use super::work::{LintError, Work, ended, flow};
 use crate::geom::polygon::segments_cross;
@@ -186,15 +187,6 @@ fn crossing_point([p, q]: [DVec2; 2], [r, s]: [DVec2; 2]) -> DVec2 {
     let (u, v) = (q - p, s - r);
     let t = (r - p).perp_dot(v) / u.perp_dot(v);
     if t.is_finite() { p + u * t } else { p.midpoint(q) }
-}
-
-/// The distance of a point from a segment, and the nearest point on it.
-pub(super) fn distance(p: DVec2, [a, b]: [DVec2; 2]) -> (f64, DVec2) {
-    let along = b - a;
-    let squared = along.length_squared();
-    let t = if squared > 0.0 { ((p - a).dot(along) / squared).clamp(0.0, 1.0) } else { 0.0 };
-    let foot = a + along * t;
-    (p.distance(foot), foot)
 }
 
 /// The least distance of two segments, and the middle between the nearest points.

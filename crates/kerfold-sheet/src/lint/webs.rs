@@ -3,9 +3,10 @@
 use glam::DVec2;
 
 use super::contours::Contours;
+use super::distance::distance;
 use super::features::short;
 use super::lines::Line;
-use super::pairs::{Pairs, distance};
+use super::pairs::Pairs;
 use super::params::LintParams;
 use super::report::{Check, LintReport};
 use super::work::{LintError, Work};

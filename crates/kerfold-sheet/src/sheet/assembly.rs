@@ -9,8 +9,8 @@
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 
-use super::joint::Boundaries;
-use super::letter::{Stretch, stretches};
+use super::boundary::Boundaries;
+use super::stretch::{Stretch, stretches};
 use crate::geom::polygon::signed_area;
 use crate::net::{Net, PieceId};
 
@@ -30,6 +30,26 @@ pub struct AssemblyStep {
     pub number: usize,
     /// The piece that this step attaches; nothing when both sides are connected already.
     pub attaches: Option<PieceId>,
+}
+
+/// Stretches that are closed in one step at most.
+const TOGETHER: usize = 6;
+
+impl Assembly {
+    /// The steps as they are told: a piece is attached in a step of its own, stretches that are
+    /// closed one after the other are put together, up to six.
+    pub fn together(&self) -> Vec<&[AssemblyStep]> {
+        let mut steps = self.steps.as_slice();
+        let mut all = Vec::new();
+        while let Some(first) = steps.first() {
+            let closing = steps.iter().take(TOGETHER).take_while(|s| s.attaches.is_none()).count();
+            let count = if first.attaches.is_some() { 1 } else { closing };
+            let (group, rest) = steps.split_at(count);
+            all.push(group);
+            steps = rest;
+        }
+        all
+    }
 }
 
 /// In which order the seams of a net are closed.
@@ -173,7 +193,7 @@ fn attach_all(net: &Net, stretches: &[Stretch]) -> Vec<AssemblyStep> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::{net_of, square, twins, two_pieces};
+    use super::super::testing::{net_of, random_convex, square, twins, two_pieces};
     use super::*;
 
     #[test]
@@ -183,6 +203,15 @@ mod tests {
         let assembly = assembly_of(&twins(square(40.0), 60.0));
         assert_eq!(assembly.steps.iter().filter(|s| s.attaches.is_some()).count(), 1);
         assert_eq!(assembly.steps.len(), assembly.stretches.len());
+    }
+
+    #[test]
+    fn closing_steps_are_put_together_and_attaching_ones_stand_alone() {
+        let assembly = assembly_of(&twins(random_convex(7), 60.0));
+        let groups = assembly.together();
+        assert_eq!(groups.concat(), assembly.steps);
+        assert_eq!((groups[0].len(), groups[0][0].attaches.is_some()), (1, true));
+        assert_eq!(groups.len(), 1 + (assembly.steps.len() - 1).div_ceil(TOGETHER));
     }
 
     #[test]

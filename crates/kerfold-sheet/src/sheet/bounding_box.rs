@@ -27,6 +27,17 @@ pub struct OrientedBox {
 
 /// The bounding rectangle of least area, lying: `width` is at least `height`. All zero without
 /// points.
+///
+/// # Example
+/// ```
+/// use glam::DVec2;
+/// use kerfold_sheet::sheet::smallest_box;
+///
+/// // A square that stands on a corner.
+/// let corners = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]].map(DVec2::from_array);
+/// let found = smallest_box(&corners);
+/// assert!((found.width - 2.0_f64.sqrt()).abs() < 1e-12);
+/// ```
 pub fn smallest_box(points: &[DVec2]) -> OrientedBox {
     let hull = convex_hull(points);
     let best = best_of(&hull, flush_angles(&hull).into_iter(), |_| true);

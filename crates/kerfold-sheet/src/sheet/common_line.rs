@@ -1,6 +1,6 @@
-//! Every line is cut once. What has been drawn for one part is left out of the next, where parts may
-//! share lines; and where the outline of a part comes by its own line again, only the first way is
-//! cut.
+//! Every line is cut once. What has been drawn for one part is left out of the next, where parts
+//! may share lines; and where the outline of a part comes by its own line again, only the first way
+//! is cut.
 
 use std::collections::BTreeMap;
 
@@ -320,7 +320,8 @@ mod tests {
         );
     }
 
-    /// A frame that is closed where its ends meet, along 10 mm, and one whose ends are set off by 4.
+    /// A frame that is closed where its ends meet, along 10 mm, and one whose ends are set off by
+    /// 4.
     fn frames() -> [Vec<DVec2>; 2] {
         let inner = [(10.0, 10.0), (10.0, 30.0), (30.0, 30.0), (30.0, 10.0)];
         let outer = [(40.0, 0.0), (40.0, 40.0), (0.0, 40.0), (0.0, 0.0)];

@@ -10,21 +10,17 @@ use super::features::{Features, features};
 use super::joint::{FlapFold, Jointed, on_material};
 use super::kerf::CutShape;
 use super::layout::{Layout, Placed, SheetReport};
-use super::letter::{PieceLettering, Stretch, lettering};
-use super::params::{PieceKind, SheetParams, Stock};
+use super::letter::{PieceLettering, sheet_letter};
+use super::params::{PieceKind, SheetParams};
 use super::score::{Hinges, ScorePlan, with_holding_tabs};
-use crate::geom::polygon::bounds;
+use super::stretch::Stretch;
 use crate::net::{FoldKind, Net, Piece, PieceId};
-
-/// Sides of the reference square that are tried, in mm.
-const REFERENCE_SIDES: [f64; 3] = [100.0, 10.0, 1.0];
 
 /// Draws every sheet of a layout.
 pub(crate) fn draw(
     net: &Net,
     shapes: &[CutShape],
     layout: &Layout,
-    stock: &Stock,
     (params, stretches, jointed): (&SheetParams, &[Stretch], Option<&Jointed>),
 ) -> Result<(Vec<Drawing>, SheetReport), SheetError> {
     let features = features(net, stretches)?;
@@ -55,12 +51,11 @@ pub(crate) fn draw(
                 Vec::new()
             };
             obstacles.extend(hinges.rows.iter().flat_map(|r| &r.slits).map(|slit| slit.to_vec()));
-            let lettering =
-                PieceLettering::new(net, (piece, here, placed), &obstacles, params.letter);
+            let letter = sheet_letter(DVec2::new(sheet.width, sheet.height));
+            let on = (piece, here, placed);
+            let lettering = PieceLettering::new(net, on, &obstacles, (params.letter, letter));
             lettering.draw(&mut drawing, &mut report)?;
         }
-        let stock = Stock { size: DVec2::new(sheet.width, sheet.height), ..*stock };
-        draw_info(&mut drawing, &stock, params)?;
         drawing.arrange();
         drawings.push(drawing);
     }
@@ -162,69 +157,13 @@ fn draw_flap_folds<'a>(
     }
 }
 
-/// The reference square, clear of all pieces where there is room and else in the lower left corner;
-/// and a note in the lower margin, where it is high enough.
-fn draw_info(drawing: &mut Drawing, stock: &Stock, params: &SheetParams) -> Result<(), SheetError> {
-    let inset = stock.margin / 2.0;
-    let room = stock.size - DVec2::splat(2.0 * inset);
-    if let Some(side) = REFERENCE_SIDES.into_iter().find(|&s| s <= room.min_element()) {
-        let low = free_corner(drawing, stock, side).unwrap_or(DVec2::splat(inset));
-        let corners = [(0.0, 0.0), (side, 0.0), (side, side), (0.0, side)]
-            .map(|(x, y)| low + DVec2::new(x, y));
-        let mut strokes = vec![Stroke { points: corners.to_vec(), closed: true }];
-        let text = lettering(&format!("{side} MM"), side / 20.0)?;
-        strokes.extend(text_strokes(text.strokes, low + DVec2::splat(side / 20.0)));
-        drawing.add(MarkKind::Reference, "reference".to_owned(), None, strokes);
-    }
-    let short = |value: f64| (value * 1e4).round() / 1e4;
-    let (width, height, kerf) =
-        (short(stock.size.x), short(stock.size.y), short(params.stock.kerf.mm()));
-    let text = lettering(
-        &format!("{}  {width} X {height} MM  KERF {kerf} MM", drawing.sheet),
-        (stock.margin / 2.0).min(3.0),
-    )?;
-    let fits = text.high.x + 2.0 * stock.margin <= stock.size.x;
-    if stock.margin >= 2.0 && fits {
-        let strokes = text_strokes(
-            text.strokes,
-            DVec2::new(stock.margin, stock.margin / 4.0 + 0.25 * -text.low.y),
-        );
-        drawing.add(MarkKind::Note, "note".to_owned(), None, strokes);
-    }
-    Ok(())
-}
-
-fn text_strokes(strokes: Vec<Vec<DVec2>>, at: DVec2) -> Vec<Stroke> {
-    let moved = |points: Vec<DVec2>| points.into_iter().map(|p| p + at).collect();
-    strokes.into_iter().map(|points| Stroke { points: moved(points), closed: false }).collect()
-}
-
-/// The lower left corner of a free square on the sheet, searched from the upper right on a grid of
-/// places.
-fn free_corner(drawing: &Drawing, stock: &Stock, side: f64) -> Option<DVec2> {
-    const PLACES: usize = 24;
-    let outlines = drawing.marks().filter(|m| m.kind == MarkKind::Outline).flat_map(|m| &m.strokes);
-    let boxes: Vec<(DVec2, DVec2)> = outlines.filter_map(|s| bounds(&s.points)).collect();
-    let (first, room) = (DVec2::splat(stock.margin), stock.usable() - DVec2::splat(side));
-    let corner = |i: usize| {
-        let part = |k: usize| 1.0 - k as f64 / (PLACES - 1) as f64;
-        first + room * DVec2::new(part(i % PLACES), part(i / PLACES))
-    };
-    let is_free = |low: &DVec2| {
-        let high = *low + DVec2::splat(side);
-        boxes.iter().all(|(l, h)| l.cmpgt(high).any() || h.cmplt(*low).any())
-    };
-    Some(room).filter(|r| r.min_element() >= 0.0)?;
-    (0..PLACES * PLACES).map(corner).find(is_free)
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::distance::edges;
     use super::super::drawing::LayerKind;
     use super::super::drawing::Mark;
     use super::super::lay_out;
-    use super::super::testing::{net_of, random_convex, ring, square, strips, two_pieces};
+    use super::super::testing::{random_convex, ring, strips, two_pieces};
     use super::super::{Labels, LetterParams, ScoreParams, ScoreStyle, StockParams};
     use super::super::{NestParams, Rotation};
     use super::*;
@@ -259,7 +198,10 @@ mod tests {
         let mut engraved = ids(&drawing, LayerKind::Engrave);
         engraved.sort_unstable();
         assert_eq!(engraved, ["E016-number-1", "E016-number-2", "P01-name", "P02-name"]);
-        assert_eq!(ids(&drawing, LayerKind::Info), ["reference", "note", "offcut"]);
+        let info = ids(&drawing, LayerKind::Info);
+        let legend = ["legend-1", "legend-2", "legend-3", "legend-colours-4", "legend-colours-5"];
+        assert_eq!(info[..3], ["offcut", "offcut-label", "reference"]);
+        assert_eq!(info[3..], legend);
         assert_eq!(report, SheetReport::default());
         let mut seen: Vec<[DVec2; 2]> = Vec::new();
         for (_, a, b) in lines(&drawing) {
@@ -403,24 +345,6 @@ mod tests {
         net.folds[0].kind = FoldKind::Flat;
         let (drawing, report) = drawn(&net, &SheetParams::default());
         assert_eq!((ids(&drawing, LayerKind::Score).len(), report.flat_folds), (0, 1));
-    }
-
-    #[test]
-    fn the_reference_square_shrinks_with_the_sheet() {
-        let sizes = [(600.0, 100.0), (60.0, 10.0), (9.0, 1.0)].map(|(sheet, side)| {
-            let params = SheetParams {
-                stock: StockParams {
-                    sheet: super::super::SheetSize::of_mm(sheet, sheet),
-                    margin: Length::from_mm(1.0),
-                    ..StockParams::default()
-                },
-                ..SheetParams::default()
-            };
-            let (drawing, _) = drawn(&net_of(vec![square(5.0)]), &params);
-            let reference = drawing.marks().find(|m| m.id == "reference").expect("a reference");
-            (reference.strokes[0].length() / 4.0 - side).abs() < 1e-9
-        });
-        assert_eq!(sizes, [true; 3]);
     }
 
     #[test]

@@ -22,6 +22,18 @@ pub struct Drawing {
     /// Whole contours of the parts that share lines with others, which the layers hold without what
     /// others draw.
     pub whole: Vec<Mark>,
+    /// Outlines of the two sides of bevelled plates, as they lie; for formats that can tell them
+    /// apart from cuts. Whoever makes the plates adds them.
+    pub sides: Vec<(PlateSide, Mark)>,
+}
+
+/// A side of a plate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum PlateSide {
+    /// The outside of the model.
+    Front,
+    /// The inside.
+    Back,
 }
 
 /// What is done in one go.
@@ -181,6 +193,7 @@ impl Drawing {
             height: sheet.height,
             layers,
             whole: Vec::new(),
+            sides: Vec::new(),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::joint::Joint;
+use super::joint_kind::Joint;
 use super::layout::SheetId;
 use crate::code::codes;
 use crate::net::PieceId;
@@ -128,8 +128,26 @@ pub enum SheetError {
         /// The option, as a flag without its dashes.
         option: &'static str,
     },
+    /// A sheet that takes far too many pages of paper.
+    #[error(
+        "a sheet of {width} × {height} mm would be printed on about {pages} pages, and {most} are \
+        the most; take a smaller sheet or larger paper, or leave out tile"
+    )]
+    TooManyTiles {
+        /// Width of the sheet in mm.
+        width: f64,
+        /// Height of the sheet in mm.
+        height: f64,
+        /// About how many pages.
+        pages: f64,
+        /// How many there may be.
+        most: f64,
+    },
     /// A parameter names a piece that is not there.
-    #[error("{name} names piece {piece}, but there are only {pieces} pieces, P01 to {}", PieceId(pieces.saturating_sub(1)))]
+    #[error(
+        "{name} names piece {piece}, but there are only {pieces} pieces, P01 to {}",
+        PieceId(pieces.saturating_sub(1))
+    )]
     NoSuchPiece {
         /// The parameter.
         name: &'static str,
@@ -224,7 +242,9 @@ pub enum SheetError {
         piece: PieceId,
     },
     /// A character without a glyph.
-    #[error("no glyph for {character:?} in {text:?}; use A-Z, 0-9, space and - . / # + : _ ° %")]
+    #[error(
+        "no glyph for {character:?} in {text:?}; use A-Z, 0-9, space and - . / # + : _ ° % , ( ) = × Ø <"
+    )]
     NoGlyph {
         /// The character.
         character: char,
@@ -268,6 +288,16 @@ pub enum SheetError {
         /// What it must be.
         spacing: f64,
     },
+    /// A line of the info layer on a part.
+    #[error("{mark} lies on piece {piece} on sheet {sheet}; please report this bug")]
+    InfoOnPart {
+        /// The name of the mark.
+        mark: String,
+        /// The piece.
+        piece: PieceId,
+        /// The sheet.
+        sheet: SheetId,
+    },
 }
 
 codes!(error SheetError {
@@ -298,6 +328,8 @@ codes!(error SheetError {
     TooClose = 525,
     CommonLineKerf = 526,
     CommonLineOption = 527,
+    TooManyTiles = 528,
+    InfoOnPart = 531,
 });
 
 /// A piece that fits on no sheet.

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::error::SheetError;
-use super::letter::Stretch;
+use super::stretch::Stretch;
 use crate::net::{Fold, Net, PieceId, Seam};
 
 /// Folds, seams and stretches of one piece.

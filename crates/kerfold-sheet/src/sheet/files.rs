@@ -29,6 +29,16 @@ pub struct FileParams {
     #[arg(long, value_enum, default_value = "off")]
     #[serde(default)]
     pub part_files: PartFiles,
+    /// Whether a square to measure after cutting or printing stands on the info layer, beside the
+    /// parts
+    #[arg(long, value_enum, default_value = "on")]
+    #[serde(default)]
+    pub reference: Reference,
+    /// Name of the project in the legend of every sheet; the name of the recipe or of the model
+    /// unless given
+    #[arg(long, value_name = "NAME")]
+    #[serde(default)]
+    pub title: Option<String>,
 }
 
 /// Colours and stroke widths that a machine's software expects.
@@ -61,6 +71,16 @@ pub enum SheetFormat {
     Pdf,
     /// LightBurn project.
     Lbrn2,
+}
+
+impl super::params::SheetParams {
+    /// The same with a name of the project, unless it has one already; an empty name is none.
+    pub fn titled(mut self, title: &str) -> Self {
+        if self.files.title.is_none() && !title.is_empty() {
+            self.files.title = Some(title.to_owned());
+        }
+        self
+    }
 }
 
 impl SheetFormat {
@@ -182,6 +202,18 @@ pub enum PartFiles {
     On,
 }
 
+/// Whether a reference square stands on the info layer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Reference {
+    /// A square of 100 mm beside the parts; a smaller one or a bar in the margin where there is no
+    /// room.
+    #[default]
+    On,
+    /// None.
+    Off,
+}
+
 /// A colour, red, green and blue.
 pub type Rgb = [u8; 3];
 
@@ -212,7 +244,7 @@ pub struct Style {
 pub struct Pen {
     /// Its colour.
     pub colour: Rgb,
-    /// Stroke width in mm, at most 0.1.
+    /// Stroke width in mm.
     pub width: f64,
 }
 
@@ -229,20 +261,28 @@ const BLACK: Rgb = [0, 0, 0];
 const GREEN: Rgb = [0, 255, 0];
 const GREY: Rgb = [128, 128, 128];
 
+/// Stroke width that the eye sees on screen and on paper, in mm.
+const VISIBLE: f64 = 0.2;
+
+/// Widest stroke that Epilog, Trotec and ULS cut, in mm: 0.001 in.
+const HAIRLINE: f64 = 0.0254;
+
+/// Stroke width that Ponoko cuts, in mm.
+const PONOKO: f64 = 0.01;
+
 impl Style {
-    /// The pen of a layer. Strokes are hairlines, never above 0.1 mm: wider ones are taken for
-    /// areas to engrave.
+    /// The pen of a layer. Strokes are wide enough to be seen, but for machines that tell cuts from
+    /// engraving by the width of the stroke: those get hairlines.
     pub fn pen(&self, layer: LayerKind) -> Pen {
         // In the order of `LayerKind::ALL`: engrave, score, inner cuts, outer cuts, info.
         let (colours, width) = match self.preset {
-            Preset::RedCut | Preset::Glowforge | Preset::Epilog => {
-                ([BLACK, BLUE, RED, RED, GREY], 0.0254)
-            }
-            Preset::Boxes => ([GREEN, GREEN, BLUE, BLACK, GREY], 0.1),
+            Preset::RedCut | Preset::Glowforge => ([BLACK, BLUE, RED, RED, GREY], VISIBLE),
+            Preset::Epilog => ([BLACK, BLUE, RED, RED, GREY], HAIRLINE),
+            Preset::Boxes => ([GREEN, GREEN, BLUE, BLACK, GREY], VISIBLE),
             // C03, C02, C01, C00 and T1 of its palette; T1 is a tool layer, which is never run.
-            Preset::Lightburn => ([[0, 0xE0, 0], RED, BLUE, BLACK, [0xF3, 0x69, 0x26]], 0.0254),
+            Preset::Lightburn => ([[0, 0xE0, 0], RED, BLUE, BLACK, [0xF3, 0x69, 0x26]], VISIBLE),
             // Black means a filled area there; single strokes are line engraving, and so red.
-            Preset::Ponoko => ([RED, RED, BLUE, BLUE, GREY], 0.01),
+            Preset::Ponoko => ([RED, RED, BLUE, BLUE, GREY], PONOKO),
         };
         let (at, own) = match layer {
             LayerKind::Engrave => (0, self.colours.engrave),
@@ -270,10 +310,13 @@ mod tests {
     }
 
     #[test]
-    fn no_stroke_is_wide_and_a_material_has_the_last_word() {
+    fn only_machines_that_cut_by_width_get_hairlines_and_a_material_has_the_last_word() {
         for preset in Preset::value_variants() {
+            let cuts_by_width = matches!(preset, Preset::Epilog | Preset::Ponoko);
             for layer in LayerKind::ALL {
-                assert!(Style::from(*preset).pen(layer).width <= 0.1);
+                let width = Style::from(*preset).pen(layer).width;
+                assert_eq!(width <= HAIRLINE, cuts_by_width, "{preset:?}");
+                assert!(cuts_by_width || width == VISIBLE, "{preset:?}");
             }
         }
         let own = Colours { score: Some([1, 2, 3]), ..Colours::default() };

@@ -5,18 +5,22 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::DVec2;
 
 use super::assembly::{Assembly, assembly};
+use super::boundary::Boundaries;
 use super::bounding_box::{rounded, smallest_box};
 use super::distance::contour_distance;
 use super::draw::draw;
-use super::drawing::{Drawing, MarkKind, Stroke};
+use super::drawing::Drawing;
 use super::error::{SheetError, TooLarge};
-use super::joint::{Boundaries, join};
+use super::info::{draw_info, verify_info};
+use super::joint::join;
 use super::kerf::CutShape;
 use super::layout::{Layout, Placed, Sheet, SheetId, SheetReport};
-use super::letter::stretches;
 use super::nest::{CommonLine, Laid, StockSheet, candidates, lay, offcut};
-use super::params::{SheetParams, Stock};
+use super::params::SheetParams;
+use super::score_gap::near_scores;
 use super::slit::mend;
+use super::stock::Stock;
+use super::stretch::stretches;
 use super::verify::verify;
 use crate::geom::polygon::bounds;
 use crate::net::{Net, Piece, PieceId};
@@ -36,6 +40,19 @@ pub struct SheetSet {
     pub report: SheetReport,
 }
 
+impl SheetSet {
+    /// Length of the travel moves of all sheets, in mm.
+    pub fn travel_length(&self) -> f64 {
+        self.drawings.iter().map(Drawing::travel_length).sum()
+    }
+
+    /// Estimated seconds on the machine for all sheets, where a material has speeds.
+    pub fn seconds(&self, params: &SheetParams) -> Option<f64> {
+        let speeds = params.stock.made_of.as_ref()?.speed;
+        Some(self.drawings.iter().map(|d| speeds.seconds(d)).sum())
+    }
+}
+
 /// Whether a piece, kerf included, fits on an empty sheet at an angle that is allowed. Every piece
 /// fits on `sheet = none`.
 ///
@@ -44,7 +61,9 @@ pub struct SheetSet {
 pub fn fits(piece: &Piece, params: &SheetParams) -> Result<bool, SheetError> {
     let Some(sheets) = params.sheets()? else { return Ok(true) };
     let shapes = [CutShape::of_piece(piece, params.stock.kerf.mm())?];
-    Ok(candidates(&shapes, &sheets, params).iter().all(|c| c.poses.iter().any(Option::is_some)))
+    Ok(candidates(&shapes, &sheets, &params.nest)
+        .iter()
+        .all(|c| c.poses.iter().any(Option::is_some)))
 }
 
 /// Places, letters, draws and measures all pieces of a net. For `sheet = none` everything is empty.
@@ -56,6 +75,27 @@ pub fn fits(piece: &Piece, params: &SheetParams) -> Result<bool, SheetError> {
 /// fit at no angle, so that they can be split; [`SheetError::NoPlace`] for pieces that outlines,
 /// defects and groups leave no place for; [`SheetError::BadContour`], [`SheetError::KerfSplit`] and
 /// [`SheetError::UnknownPiece`] for a broken net; what [`verify`] finds, for a bug of ours.
+///
+/// # Example
+/// ```
+/// use glam::DVec2;
+/// use kerfold_sheet::net::{MeshCounts, Net, Piece, PieceId, Proof};
+/// use kerfold_sheet::sheet::{SheetParams, lay_out};
+///
+/// let outline = [[0.0, 0.0], [80.0, 0.0], [80.0, 50.0]].map(DVec2::from).to_vec();
+/// let net = Net {
+///     scale: 1.0,
+///     counts: MeshCounts { vertices: 0, edges: 0, faces: 0 },
+///     pieces: vec![Piece { id: PieceId(0), outline, holes: vec![], faces: vec![] }],
+///     folds: vec![],
+///     seams: vec![],
+///     rims: vec![],
+///     proof: Proof { congruence_mm: 0.0, refold_mm: 0.0, overlaps: 0 },
+/// };
+/// let sheets = lay_out(&net, &SheetParams::default())?;
+/// assert_eq!(sheets.layout.sheets[0].placed.len(), 1);
+/// # Ok::<(), kerfold_sheet::sheet::SheetError>(())
+/// ```
 pub fn lay_out(net: &Net, params: &SheetParams) -> Result<SheetSet, SheetError> {
     lay_out_watched(net, params, &Silent)
 }
@@ -78,7 +118,7 @@ pub fn lay_out_watched(
     let net = mended.as_ref().map_or(net, |m| &m.net);
     let boundaries = Boundaries::new(net);
     let stretches = stretches(net, &boundaries);
-    let jointed = join(net, params)?;
+    let jointed = join(net, &params.joint, &params.stock)?;
     let bare = net;
     let net = jointed.as_ref().map_or(net, |j| &j.net);
     let shapes = net
@@ -86,10 +126,9 @@ pub fn lay_out_watched(
         .iter()
         .map(|p| CutShape::of_piece(p, params.stock.kerf.mm()))
         .collect::<Result<Vec<_>, _>>()?;
-    let mut layout = place_all(net, &shapes, (params, &sheets), progress)?;
-    let usual = &sheets[sheets.len() - 1].stock;
+    let (mut layout, widened) = place_all(net, &shapes, (params, &sheets), progress)?;
     let (mut drawings, mut report) =
-        draw(net, &shapes, &layout, usual, (params, &stretches, jointed.as_ref()))?;
+        draw(net, &shapes, &layout, (params, &stretches, jointed.as_ref()))?;
     for (drawing, sheet) in drawings.iter_mut().zip(&layout.sheets) {
         let tolerance = 6.0 * sheets[sheet.stock].stock.rounding();
         // With a kerf, lines of one part that meet have become one.
@@ -100,8 +139,10 @@ pub fn lay_out_watched(
         if meets_itself || params.nest.common_line == CommonLine::On {
             drawing.arrange();
         }
-        draw_sheet(drawing, sheet, &sheets[sheet.stock]);
     }
+    draw_info(&mut drawings, (net, &shapes), (&layout, &sheets), params, &mut report)?;
+    report.near_scores = near_scores(net, &drawings, params);
+    report.widened_pieces = widened;
     report.lost_holes = shapes.iter().map(|s| s.lost_holes).sum();
     report.closed_notches = shapes.iter().map(|s| s.closed_notches).sum();
     report.narrow_holes = bare.pieces.iter().map(|p| narrow_holes(p, params)).sum();
@@ -114,6 +155,7 @@ pub fn lay_out_watched(
     layout.cut_length = drawings.iter().map(Drawing::cut_length).sum();
     layout.score_length = drawings.iter().map(Drawing::score_length).sum();
     verify(&shapes, &layout, params)?;
+    verify_info(&drawings, &shapes, &layout)?;
     report.joints = jointed.map(|j| j.report).unwrap_or_default();
     let mut assembly = assembly(bare, stretches);
     if let Some(mended) = mended {
@@ -166,8 +208,8 @@ fn place_all(
     shapes: &[CutShape],
     (params, sheets): (&SheetParams, &[StockSheet]),
     progress: &dyn Progress,
-) -> Result<Layout, SheetError> {
-    let candidates = candidates(shapes, sheets, params);
+) -> Result<(Layout, Vec<PieceId>), SheetError> {
+    let candidates = candidates(shapes, sheets, &params.nest);
     let too_large: Vec<TooLarge> = net
         .pieces
         .iter()
@@ -193,12 +235,12 @@ fn place_all(
         return Err(SheetError::PiecesTooLarge { pieces: too_large, width, height, margin });
     }
     if shapes.is_empty() {
-        return Ok(Layout::default());
+        return Ok((Layout::default(), Vec::new()));
     }
-    let laid = lay(&candidates, sheets, params, progress).map_err(|no_place| {
+    let laid = lay(&candidates, sheets, &params.nest, progress).map_err(|no_place| {
         SheetError::NoPlace { pieces: no_place.pieces.iter().map(|&i| shapes[i].piece).collect() }
     })?;
-    Ok(layout_of(shapes, &laid, sheets))
+    Ok((layout_of(shapes, &laid, sheets), laid.widened))
 }
 
 fn layout_of(shapes: &[CutShape], laid: &Laid, stock: &[StockSheet]) -> Layout {
@@ -235,27 +277,6 @@ fn layout_of(shapes: &[CutShape], laid: &Laid, stock: &[StockSheet]) -> Layout {
     let all: f64 = sheets.iter().map(|s| s.width * s.height).sum();
     let density = if sheets.is_empty() { 0.0 } else { area / all };
     Layout { sheets, density, cut_length: 0.0, score_length: 0.0 }
-}
-
-/// What the sheet itself is like, on the layer that is never machined: its outline, its defects,
-/// the cuts from edge to edge and where the offcut begins.
-fn draw_sheet(drawing: &mut Drawing, sheet: &Sheet, stock: &StockSheet) {
-    let mut note = |id: String, points: Vec<DVec2>, closed| {
-        drawing.add(MarkKind::Note, id, None, vec![Stroke { points, closed }]);
-    };
-    if !stock.outline.is_empty() {
-        note("sheet-outline".to_owned(), stock.outline.clone(), true);
-    }
-    for (i, defect) in stock.defects.iter().enumerate() {
-        note(format!("defect-{}", i + 1), defect.clone(), true);
-    }
-    for (i, cut) in sheet.cuts.iter().enumerate() {
-        note(format!("guillotine-{}", i + 1), cut.to_vec(), false);
-    }
-    if let Some([low, high]) = sheet.offcut {
-        let edge = if low.x > 0.0 { DVec2::new(low.x, high.y) } else { DVec2::new(high.x, low.y) };
-        note("offcut".to_owned(), vec![low, edge], false);
-    }
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::joint::JointReport;
+use crate::code::codes;
 use crate::net::{EdgeLabel, PieceId};
 
 /// A sheet's number, counted from 0, shown as `S01`.
@@ -91,6 +92,30 @@ impl Turn {
     }
 }
 
+/// What breaks a limit of the material.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum SheetFinding {
+    /// Folds are scored nearer to each other than the material can take.
+    NearScores,
+}
+
+codes!(finding SheetFinding { NearScores = 631 });
+
+/// Folds of one face that are scored nearer to each other than the material can take: it tears or
+/// breaks between them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NearScores {
+    /// Number of pairs of folds.
+    pub pairs: usize,
+    /// The least distance between two, in mm.
+    pub least: f64,
+    /// What it should be: twice the thickness, at least 1 mm.
+    pub limit: f64,
+    /// The pieces that have such folds.
+    pub pieces: Vec<PieceId>,
+}
+
 /// What could not be drawn, in numbers; nothing here makes a sheet wrong.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SheetReport {
@@ -112,8 +137,8 @@ pub struct SheetReport {
     pub widened_notches: usize,
     /// Seams whose two sides lie on one another: they are left uncut and fold.
     pub uncut_seams: Vec<EdgeLabel>,
-    /// Holes that pieces have of their own, not for joints, and that are narrow for the thickness or
-    /// near another cut.
+    /// Holes that pieces have of their own, not for joints, and that are narrow for the thickness
+    /// or near another cut.
     pub narrow_holes: usize,
     /// Folds without room for their angle, where angles were asked for.
     pub unmarked_angles: usize,
@@ -122,6 +147,16 @@ pub struct SheetReport {
     /// What is left between two parts and the least that the material wants, in mm, when that is
     /// more.
     pub narrow_spacing: Option<[f64; 2]>,
+    /// Pieces whose lines cross, which nesting took for larger than they are.
+    pub widened_pieces: Vec<PieceId>,
+    /// Sheets without room for the reference, beside the parts or in the margin.
+    pub sheets_without_reference: usize,
+    /// Sheets without room for all of the legend.
+    pub sheets_without_legend: usize,
+    /// Cuts from edge to edge, and borders of offcuts, without room for their label.
+    pub unlabelled_lines: usize,
+    /// Folds that are scored nearer to each other than the material can take.
+    pub near_scores: Option<NearScores>,
     /// Whether the search was stopped before its effort was used up.
     pub is_stopped: bool,
     /// What became of the joints.

@@ -4,10 +4,7 @@ use serde::Deserialize;
 
 use super::drawing::{Drawing, LayerKind};
 use super::error::SheetError;
-use super::files::{Colours, Rgb, Style};
-use super::joint::Joint;
-use super::lay_out::SheetSet;
-use super::params::SheetParams;
+use super::files::Rgb;
 use crate::units::Length;
 
 /// A material on a machine. In files every length may have a unit; speeds are millimetres per
@@ -28,6 +25,9 @@ pub struct Material {
     pub web: Length,
     /// How fast it is machined.
     pub speed: Speeds,
+    /// Whether it breaks rather than folds along a scored line, as plywood, acrylic and glass do.
+    #[serde(default)]
+    pub rigid: bool,
     /// Colours that take the place of the preset's, as `#RRGGBB`.
     #[serde(default)]
     pub colours: MaterialColours,
@@ -91,8 +91,8 @@ impl Speeds {
         }
     }
 
-    /// Estimated seconds on the machine: all lines at their speeds, and the travel moves between them;
-    /// without acceleration.
+    /// Estimated seconds on the machine: all lines at their speeds, and the travel moves between
+    /// them; without acceleration.
     pub fn seconds(&self, drawing: &Drawing) -> f64 {
         let layers = drawing.layers.iter().filter_map(|l| self.of(l.kind).map(|speed| (l, speed)));
         let lines: f64 = layers.map(|(l, speed)| l.length() / speed).sum();
@@ -125,57 +125,5 @@ impl Material {
             }
         }
         Ok(())
-    }
-}
-
-impl SheetSet {
-    /// Length of the travel moves of all sheets, in mm.
-    pub fn travel_length(&self) -> f64 {
-        self.drawings.iter().map(Drawing::travel_length).sum()
-    }
-
-    /// Estimated seconds on the machine for all sheets, where a material tells its speeds.
-    pub fn seconds(&self, params: &SheetParams) -> Option<f64> {
-        let speeds = params.stock.made_of.as_ref()?.speed;
-        Some(self.drawings.iter().map(|d| speeds.seconds(d)).sum())
-    }
-}
-
-impl SheetParams {
-    /// The same with everything that the material decides: its kerf where none is given, its
-    /// thickness where the joint needs one and none is given, its colours and speeds.
-    pub fn with_material(&self, material: Material) -> Self {
-        let mut params = self.clone();
-        if params.stock.kerf.mm() == 0.0 {
-            params.stock.kerf = material.kerf;
-        }
-        let is_thick = !matches!(
-            params.joint.kind,
-            Joint::None | Joint::Flaps | Joint::Rivets | Joint::Stitch
-        );
-        if is_thick && params.joint.thickness.is_none() {
-            params.joint.thickness = Some(material.thickness);
-        }
-        params.stock.made_of = Some(material);
-        params
-    }
-
-    /// The colours and widths of lines.
-    pub fn style(&self) -> Style {
-        let of = |m: &Material| {
-            let MaterialColours { cut_outer, cut_inner, score, engrave } = &m.colours;
-            let [cut_outer, cut_inner, score, engrave] =
-                [cut_outer, cut_inner, score, engrave].map(|c| c.map(|Hex(rgb)| rgb));
-            Colours { cut_outer, cut_inner, score, engrave }
-        };
-        Style {
-            preset: self.files.preset,
-            colours: self.stock.made_of.as_ref().map(of).unwrap_or_default(),
-        }
-    }
-
-    /// The speed of an operation in mm/s, where a material tells it.
-    pub fn speed(&self, layer: LayerKind) -> Option<f64> {
-        self.stock.made_of.as_ref().and_then(|m| m.speed.of(layer))
     }
 }

@@ -10,6 +10,7 @@
 //! file.
 
 mod assembly;
+mod boundary;
 mod bounding_box;
 mod common_line;
 mod contact;
@@ -19,7 +20,9 @@ mod drawing;
 mod error;
 mod features;
 mod files;
+mod info;
 mod joint;
+mod joint_kind;
 mod kerf;
 mod kerf_coupon;
 mod lay_out;
@@ -32,30 +35,36 @@ mod params;
 mod part;
 mod place;
 mod score;
+mod score_gap;
 mod slit;
+mod stock;
+mod stretch;
 mod verify;
 
 pub use assembly::{Assembly, AssemblyStep, assembly_of};
 pub use bounding_box::{OrientedBox, smallest_box};
-pub use drawing::{Drawing, Layer, LayerKind, Mark, MarkKind, Stroke};
+pub use drawing::{Drawing, Layer, LayerKind, Mark, MarkKind, PlateSide, Stroke};
 pub use error::{SheetError, TooLarge};
 pub use files::{
-    Colours, FileParams, Formats, FormatsError, Paper, PartFiles, Pen, Preset, Rgb, SheetFormat,
-    Style,
+    Colours, FileParams, Formats, FormatsError, Paper, PartFiles, Pen, Preset, Reference, Rgb,
+    SheetFormat, Style,
 };
-pub use joint::{FlapSide, Joint, JointFallback, JointParams, JointReport, Substitute};
+pub use joint::{FlapSide, JointFallback, JointParams, JointReport, Substitute};
+pub use joint_kind::Joint;
 pub use kerf::CutShape;
-pub use kerf_coupon::kerf_coupon;
+pub use kerf_coupon::{cuts_of_bar, has_comb, kerf_coupon};
 pub use lay_out::{SheetSet, fits, lay_out, lay_out_watched};
-pub use layout::{Layout, Placed, Sheet, SheetId, SheetReport};
-pub use letter::{Angles, CAPITAL, Labels, LetterParams, Lettering, Stretch, glyph, lettering};
+pub use layout::{Layout, NearScores, Placed, Sheet, SheetFinding, SheetId, SheetReport};
+pub use letter::{Angles, CAPITAL, Labels, LetterParams, Lettering, glyph, lettering};
 pub use material::{Hex, Material, MaterialColours, Speeds};
 pub use nest::{
     CommonLine, Corners, DefectList, GroupList, Guillotine, NestParams, Rotation, RotationList,
     StockList,
 };
-pub use params::{PieceKind, SheetParams, SheetSize, StockParams};
-pub use score::{ScoreParams, ScoreStyle};
+pub use params::{PieceKind, SheetParams};
+pub use score::{FoldWay, ScoreParams, ScoreStyle};
+pub use stock::{SheetSize, StockParams};
+pub use stretch::Stretch;
 pub use verify::{clearance, verify};
 
 #[cfg(test)]

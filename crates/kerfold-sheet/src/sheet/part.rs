@@ -48,6 +48,12 @@ impl Drawing {
             height,
             layers: layers.collect(),
             whole: Vec::new(),
+            sides: self
+                .sides
+                .iter()
+                .filter(|(_, m)| m.piece == Some(id))
+                .map(|(side, m)| (*side, moved(m)))
+                .collect(),
         })
     }
 

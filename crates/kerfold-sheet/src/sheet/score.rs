@@ -49,6 +49,22 @@ pub struct ScoreParams {
     #[arg(long, value_name = "LENGTH")]
     #[serde(default)]
     pub hinge: Option<Length>,
+    /// How a material folds that does not by itself, as plywood, acrylic and glass: without it every
+    /// face is a piece of its own
+    #[arg(long, value_name = "WAY", value_enum)]
+    #[serde(default)]
+    pub fold: Option<FoldWay>,
+}
+
+/// How a rigid material folds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FoldWay {
+    /// Along scored lines: grooves to be milled or steamed.
+    Score,
+    /// Along living hinges: faces between two folds that are narrower than --hinge, ten times the
+    /// thickness unless given, are slit.
+    Hinge,
 }
 
 /// How folds are scored.
@@ -183,34 +199,16 @@ struct Strip {
 }
 
 fn hinges(piece: &Piece, folds: &[&Fold], width: f64) -> Hinges {
-    let mut of_face: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    for (i, fold) in folds.iter().enumerate() {
-        fold.faces.iter().for_each(|&f| of_face.entry(f).or_default().push(i));
-    }
-    let mut hinges = Hinges::default();
-    let mut strips = Vec::new();
-    for face in &piece.faces {
-        let Some(&[i, j]) = of_face.get(&face.face).map(Vec::as_slice) else { continue };
-        let [a, b] = folds[i].segment;
-        let [c, d] = folds[j].segment;
-        let other = if a.distance(c) + b.distance(d) <= a.distance(d) + b.distance(c) {
-            [c, d]
-        } else {
-            [d, c]
-        };
-        let span = a.distance(other[0]).max(b.distance(other[1]));
-        // A strip is longer along its folds than across.
-        if span <= width && span < a.distance(b).max(c.distance(d)) {
-            strips.push(Strip { folds: [i, j], sides: [[a, b], other] });
-            hinges.folds.extend([folds[i].id, folds[j].id]);
-        }
-    }
+    let strips = strips(piece, folds, width);
     let parity = parities(&strips, folds.len());
+    let of_strip = |strip: &Strip| strip.folds.map(|i| folds[i].id);
+    let mut hinges =
+        Hinges { folds: strips.iter().flat_map(of_strip).collect(), ..Hinges::default() };
     // The folds themselves are rows, and between the two of a strip as many as keep the rows near
     // enough.
-    let mut rows: Vec<(usize, usize, Segment, bool)> = Vec::new();
+    let mut rows: Vec<HingeRow> = Vec::new();
     for (i, fold) in folds.iter().enumerate().filter(|(_, f)| hinges.folds.contains(&f.id)) {
-        rows.push((i, 0, fold.segment, parity[i]));
+        rows.push(HingeRow { fold: i, line: fold.segment, is_odd: parity[i] });
     }
     for strip in &strips {
         let [[a, b], [c, d]] = strip.sides;
@@ -218,11 +216,12 @@ fn hinges(piece: &Piece, folds: &[&Fold], width: f64) -> Hinges {
         for k in 1..=between {
             let t = k as f64 / (between + 1) as f64;
             let is_odd = parity[strip.folds[0]] ^ (k % 2 == 1);
-            rows.push((strip.folds[0], k, [a.lerp(c, t), b.lerp(d, t)], is_odd));
+            let line = [a.lerp(c, t), b.lerp(d, t)];
+            rows.push(HingeRow { fold: strip.folds[0], line, is_odd });
         }
     }
     let mut numbers: BTreeMap<usize, usize> = BTreeMap::new();
-    for (fold, _, [a, b], is_odd) in rows {
+    for HingeRow { fold, line: [a, b], is_odd } in rows {
         let number = numbers.entry(fold).or_insert(0);
         *number += 1;
         let slits = slits(a, b, is_odd);
@@ -231,6 +230,37 @@ fn hinges(piece: &Piece, folds: &[&Fold], width: f64) -> Hinges {
         }
     }
     hinges
+}
+
+/// A row of slits before it is cut.
+struct HingeRow {
+    /// The fold that it belongs to, by its index.
+    fold: usize,
+    line: Segment,
+    /// Whether it is moved by half a period.
+    is_odd: bool,
+}
+
+/// The faces with two folds that are as narrow as a hinge may be.
+fn strips(piece: &Piece, folds: &[&Fold], width: f64) -> Vec<Strip> {
+    let mut of_face: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (i, fold) in folds.iter().enumerate() {
+        fold.faces.iter().for_each(|&f| of_face.entry(f).or_default().push(i));
+    }
+    let mut strips = Vec::new();
+    for face in &piece.faces {
+        let Some(&[i, j]) = of_face.get(&face.face).map(Vec::as_slice) else { continue };
+        let [a, b] = folds[i].segment;
+        let [c, d] = folds[j].segment;
+        let is_same_way = a.distance(c) + b.distance(d) <= a.distance(d) + b.distance(c);
+        let other = if is_same_way { [c, d] } else { [d, c] };
+        let span = a.distance(other[0]).max(b.distance(other[1]));
+        // A strip is longer along its folds than across.
+        if span <= width && span < a.distance(b).max(c.distance(d)) {
+            strips.push(Strip { folds: [i, j], sides: [[a, b], other] });
+        }
+    }
+    strips
 }
 
 /// How many rows come between the folds of a strip.
@@ -299,14 +329,34 @@ fn slits(a: DVec2, b: DVec2, is_odd: bool) -> Vec<[DVec2; 2]> {
 /// out. They lie in the middle of edges, spread over the contour; a contour too short for them
 /// stays closed.
 pub(crate) fn with_holding_tabs(contour: &[DVec2], count: usize, width: f64) -> Vec<Stroke> {
-    let whole = || vec![Stroke { points: contour.to_vec(), closed: true }];
     let n = contour.len();
     let lengths: Vec<f64> = (0..n).map(|i| contour[i].distance(contour[(i + 1) % n])).collect();
-    let total: f64 = lengths.iter().sum();
-    if count == 0 || n < 3 || total < 4.0 * width * count as f64 {
-        return whole();
+    let is_long = lengths.iter().sum::<f64>() >= 4.0 * width * count as f64;
+    let places =
+        if n < 3 || !is_long { Vec::new() } else { edges_for_tabs(&lengths, count, width) };
+    if places.is_empty() {
+        return vec![Stroke { points: contour.to_vec(), closed: true }];
     }
-    // For every share of the contour the longest edge whose middle is in it.
+    let gap = |i: usize| {
+        let (a, b) = (contour[i], contour[(i + 1) % n]);
+        let half = (b - a) / lengths[i] * (width / 2.0);
+        let middle = a.midpoint(b);
+        [middle - half, middle + half]
+    };
+    let line = |k: usize| {
+        let (from, to) = (places[k], places[(k + 1) % places.len()]);
+        let steps = (to + n - from - 1) % n + 1;
+        let mut points = vec![gap(from)[1]];
+        points.extend((1..=steps).map(|s| contour[(from + s) % n]));
+        points.push(gap(to)[0]);
+        Stroke { points, closed: false }
+    };
+    (0..places.len()).map(line).collect()
+}
+
+/// For every share of a contour the longest edge whose middle is in it and that is wide enough.
+fn edges_for_tabs(lengths: &[f64], count: usize, width: f64) -> Vec<usize> {
+    let total: f64 = lengths.iter().sum();
     let mut places: Vec<usize> = Vec::new();
     for share in 0..count {
         let [from, to] = [share, share + 1].map(|s| total * s as f64 / count as f64);
@@ -324,24 +374,7 @@ pub(crate) fn with_holding_tabs(contour: &[DVec2], count: usize, width: f64) -> 
         }
         places.extend(best);
     }
-    if places.is_empty() {
-        return whole();
-    }
-    let gap = |i: usize| {
-        let (a, b) = (contour[i], contour[(i + 1) % n]);
-        let half = (b - a) / lengths[i] * (width / 2.0);
-        let middle = a.midpoint(b);
-        [middle - half, middle + half]
-    };
-    let line = |k: usize| {
-        let (from, to) = (places[k], places[(k + 1) % places.len()]);
-        let steps = (to + n - from - 1) % n + 1;
-        let mut points = vec![gap(from)[1]];
-        points.extend((1..=steps).map(|s| contour[(from + s) % n]));
-        points.push(gap(to)[0]);
-        Stroke { points, closed: false }
-    };
-    (0..places.len()).map(line).collect()
+    places
 }
 
 #[cfg(test)]

@@ -1,11 +1,11 @@
-//! What is too narrow to be cut: slits of an outline, and the ends of notches that are narrower than
-//! the kerf.
+//! What is too narrow to be cut: slits of an outline, and the ends of notches that are narrower
+//! than the kerf.
 //!
 //! An opened edge between two faces in one plane has two sides in the same place. On the model they
-//! lie so, too: left uncut it is a fold, and nothing is missing ([`mend`]). Where nothing is known of
-//! the two sides, and where a notch is narrower than the kerf, so that an outline grown by half the
-//! kerf closes before the notch ends, a channel is cut instead, wide enough that a closed path leads
-//! in and out again ([`channels`]). Cut layers hold no open line.
+//! lie so, too: left uncut it is a fold, and nothing is missing ([`mend`]). Where nothing is known
+//! of the two sides, and where a notch is narrower than the kerf, so that an outline grown by half
+//! the kerf closes before the notch ends, a channel is cut instead, wide enough that a closed path
+//! leads in and out again ([`channels`]). Cut layers hold no open line.
 
 use std::collections::BTreeSet;
 

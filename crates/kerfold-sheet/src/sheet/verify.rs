@@ -14,7 +14,8 @@ use super::error::SheetError;
 use super::kerf::CutShape;
 use super::layout::{Layout, Placed, Sheet, SheetId};
 use super::nest::{CommonLine, StockSheet};
-use super::params::{SheetParams, Stock};
+use super::params::SheetParams;
+use super::stock::Stock;
 use crate::geom::polygon::{Location, bounds, locate, segments_cross};
 use crate::net::PieceId;
 

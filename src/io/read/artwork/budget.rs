@@ -42,9 +42,16 @@ const LIMITS: [(usize, &str); 8] = [
 #[derive(Debug, Default)]
 pub(super) struct Budget {
     spent: [Cell<usize>; LIMITS.len()],
+    /// How far a flattened curve may be from the true one where that is not [`super::FLATNESS`].
+    pub flatness: Option<f64>,
 }
 
 impl Budget {
+    /// A whole budget, with curves flattened to within that, in mm.
+    pub fn within(flatness: f64) -> Self {
+        Self { flatness: Some(flatness), ..Self::default() }
+    }
+
     /// Spends so much, if there is so much left.
     pub fn spend(&self, cost: Cost, count: usize) -> Result<(), ArtError> {
         self.expect(cost, count)?;

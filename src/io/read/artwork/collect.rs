@@ -44,7 +44,7 @@ impl<'a> Collector<'a> {
         }
     }
 
-    /// A line; `operation` as far as its layer tells.
+    /// A line; `operation` as far as its layer says.
     pub fn path(
         &mut self,
         (points, closed): (Vec<DVec2>, bool),

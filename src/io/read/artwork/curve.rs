@@ -22,7 +22,7 @@ pub(super) const HIGHEST_DEGREE: usize = 25;
 impl<'a> Flattener<'a> {
     pub fn new(scale: f64, budget: &'a Budget) -> Self {
         let scale = if scale.is_finite() && scale > 0.0 { scale } else { 1.0 };
-        Self { tolerance: super::FLATNESS / scale, budget }
+        Self { tolerance: budget.flatness.unwrap_or(super::FLATNESS) / scale, budget }
     }
 
     /// For a transform: by its larger stretch.

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::ArtError;
 use super::budget::{Budget, Cost};
-use super::dxf::Pair;
+use super::dxf_value::Pair;
 
 /// How a binary file begins.
 const SENTINEL: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";

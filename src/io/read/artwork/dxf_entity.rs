@@ -6,7 +6,7 @@ use glam::{DAffine2, DVec2};
 
 use super::budget::{Budget, Cost};
 use super::curve::{Flattener, sweep_between};
-use super::dxf::Entity;
+use super::dxf_value::Entity;
 use super::{ArtError, FLATNESS};
 
 /// The line of an entity in its own coordinates.

@@ -11,7 +11,9 @@ mod decode;
 mod dxf;
 mod dxf_binary;
 mod dxf_entity;
+mod dxf_value;
 mod pdf;
+mod pdf_file;
 mod pdf_object;
 mod pdf_page;
 mod pdf_unpack;
@@ -58,7 +60,7 @@ pub enum ArtFormat {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ArtError {
-    /// Neither the name nor the content tells the format.
+    /// Neither the name nor the content shows the format.
     #[error("this is neither SVG, DXF nor PDF; export the drawing in one of these")]
     UnknownFormat,
     /// No content.
@@ -168,11 +170,26 @@ impl ArtFormat {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn read_artwork(path: &Path, bytes: &[u8]) -> Result<(ArtFormat, Vec<Artwork>), ArtError> {
+    read(path, bytes, Budget::default())
+}
+
+/// The same with curves flattened to within another distance, in mm, than [`FLATNESS`].
+///
+/// # Errors
+/// As [`read_artwork`].
+pub fn read_artwork_within(
+    path: &Path,
+    bytes: &[u8],
+    flatness: f64,
+) -> Result<(ArtFormat, Vec<Artwork>), ArtError> {
+    read(path, bytes, Budget::within(flatness))
+}
+
+fn read(path: &Path, bytes: &[u8], budget: Budget) -> Result<(ArtFormat, Vec<Artwork>), ArtError> {
     if bytes.len() as u64 > LARGEST_FILE {
         let limit = LARGEST_FILE as usize;
         return Err(ArtError::TooMuch { what: "bytes", limit });
     }
-    let budget = Budget::default();
     let unpacked = decode::gunzipped(bytes, &budget)?;
     let bytes = unpacked.as_deref().unwrap_or(bytes);
     if bytes.iter().all(u8::is_ascii_whitespace) {

@@ -4,7 +4,7 @@ use glam::{DAffine2, DVec2};
 
 use super::budget::{Budget, Cost};
 use super::curve::Flattener;
-use super::pdf::{Objects, PageNode};
+use super::pdf_file::{Objects, PageNode};
 use super::pdf_object::{Dict, Lexer, Object};
 use super::pdf_unpack::unpack;
 use super::svg_path::Subpaths;

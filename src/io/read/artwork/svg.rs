@@ -154,7 +154,7 @@ impl<'a> Reader<'a> {
         if matches!(node.tag_name().name(), "g" | "svg" | "a") {
             let name = node.attribute((INKSCAPE, "label")).or_else(|| node.attribute("id"));
             if let Some(name) = name {
-                // A group inside a layer that is known does not change the layer unless it tells
+                // A group inside a layer that is known does not change the layer unless it says
                 // one itself.
                 let told = Operation::of_name(name);
                 if told.is_some() || here.operation.is_none() {

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::super::text::shape_limits;
 use super::words::{DEFINITIONS, count, figure, optional, text};
 use super::{
     Bar, Block, Chart, Content, PanelCard, ReportPage, ReportRows, Section, Table, Word, Words,
@@ -70,6 +71,10 @@ fn limits_in_words(r: &Report) -> Words {
             said.push(" and ".into());
         }
         said.extend([Word::Figure(limit), unit.into()]);
+    }
+    let shapes = shape_limits(l);
+    if !shapes.is_empty() {
+        said.push(shapes.as_str().into());
     }
     said
 }

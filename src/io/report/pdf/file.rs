@@ -17,7 +17,7 @@ use krilla::text::Font as FontFile;
 use super::font::Font;
 use super::paper::{Child, Mark, PAGE, Paper, Pen, Rgb, Role, Shape};
 
-/// The bytes of the file. The same pages give the same bytes: nothing in it tells the time.
+/// The bytes of the file. The same pages give the same bytes: nothing in it shows the time.
 pub(super) fn bytes(paper: &Paper, title: &str, command: &str) -> Vec<u8> {
     let fonts = Font::ALL
         .map(|font| FontFile::new(font.file().into(), 0).expect("the font of the house is a font"));

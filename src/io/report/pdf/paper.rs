@@ -220,7 +220,7 @@ impl Paper {
         self.draw(self.pages - 1, shape, false);
     }
 
-    /// A picture in a frame, as wide as told, with what it shows in words; its height.
+    /// A picture in a frame, as wide as asked, with what it shows in words; its height.
     pub(super) fn image(&mut self, at: [f64; 2], width: f64, image: &Image, shows: &str) -> f64 {
         let size = [width, width * aspect(image)];
         self.part(Role::Figure(shows.to_owned()), |paper| {

@@ -2,9 +2,9 @@
 
 use std::fmt::{Display, Write as _};
 
-use super::layer_name;
+use super::DxfLayer;
 use crate::io::number::decimal;
-use crate::sheet::LayerKind;
+use crate::sheet::Rgb;
 
 // Handles of everything that is in every file; entities are numbered from `FIRST_FREE` on.
 const TABLES: [(&str, u32); 9] = [
@@ -31,11 +31,13 @@ const FIRST_FREE: u32 = 0x100;
 /// Numbers for entities.
 pub(super) struct Handles(u32);
 
-impl Handles {
-    pub fn new() -> Self {
+impl Default for Handles {
+    fn default() -> Self {
         Self(FIRST_FREE)
     }
+}
 
+impl Handles {
     pub fn next(&mut self) -> u32 {
         self.0 += 1;
         self.0 - 1
@@ -74,12 +76,17 @@ impl Pairs {
 }
 
 /// The whole file.
-pub(super) fn file(size: [f64; 2], command: &str, entities: &Pairs, handles: &Handles) -> String {
+pub(super) fn file(
+    size: [f64; 2],
+    layers: &[DxfLayer],
+    command: &str,
+    (entities, handles): (&Pairs, &Handles),
+) -> String {
     let mut out = Pairs::default();
     out.text(999, &plain(command));
     out.section("HEADER", |out| header(out, size, handles.0));
     out.section("CLASSES", |_| {});
-    out.section("TABLES", |out| tables(out, size));
+    out.section("TABLES", |out| tables(out, size, layers));
     out.section("BLOCKS", |out| {
         block(out, "*Model_Space", MODEL_SPACE, [0x20, 0x21]);
         block(out, "*Paper_Space", PAPER_SPACE, [0x1C, 0x1D]);
@@ -127,13 +134,13 @@ fn header(out: &mut Pairs, size: [f64; 2], seed: u32) {
     }
 }
 
-fn tables(out: &mut Pairs, size: [f64; 2]) {
+fn tables(out: &mut Pairs, size: [f64; 2], rows: &[DxfLayer]) {
     for (name, handle) in TABLES {
         let mut entries = Pairs::default();
         let count = match name {
             "VPORT" => view_port(&mut entries, handle, size),
             "LTYPE" => line_types(&mut entries, handle),
-            "LAYER" => layers(&mut entries, handle),
+            "LAYER" => layers(&mut entries, handle, rows),
             "STYLE" => text_style(&mut entries, handle),
             "APPID" => application(&mut entries, handle),
             "DIMSTYLE" => dimension_style(&mut entries, handle),
@@ -224,32 +231,50 @@ fn line_types(out: &mut Pairs, table: u32) -> usize {
     rows.len()
 }
 
-fn layers(out: &mut Pairs, table: u32) -> usize {
-    let mut layer = |name: &str, handle: u32, colour: u8, line: &str, is_plotted: bool| {
-        entry(out, ("LAYER", "AcDbLayerTableRecord"), (handle, table), name);
+/// The colours of the index that look like those of sheets.
+const INDEX: [(u8, Rgb); 9] = [
+    (1, [255, 0, 0]),
+    (2, [255, 255, 0]),
+    (3, [0, 255, 0]),
+    (4, [0, 255, 255]),
+    (5, [0, 0, 255]),
+    (6, [255, 0, 255]),
+    // Black on white, white on black.
+    (7, [0, 0, 0]),
+    (8, [128, 128, 128]),
+    (30, [255, 127, 0]),
+];
+
+/// The colour of the index that is nearest to a colour.
+pub(super) fn index_of(colour: Rgb) -> u8 {
+    let distance = |other: &Rgb| -> u32 {
+        colour.iter().zip(other).map(|(&a, &b)| u32::from(a.abs_diff(b)).pow(2)).sum()
+    };
+    INDEX.iter().min_by_key(|(_, rgb)| distance(rgb)).map_or(7, |&(index, _)| index)
+}
+
+/// A line weight in hundredths of a millimetre: 20, or the thinnest there is.
+pub(super) fn weight(width: f64) -> u8 {
+    if width < 0.1 { 0 } else { 20 }
+}
+
+fn layers(out: &mut Pairs, table: u32, rows: &[DxfLayer]) -> usize {
+    let plain = DxfLayer { name: "0", colour: 7, weight: 20, is_dashed: false, is_plotted: true };
+    let all = std::iter::once((0x10, &plain)).chain((FIRST_LAYER..).zip(rows));
+    for (handle, layer) in all {
+        let class = ("LAYER", "AcDbLayerTableRecord");
+        entry(out, class, (handle, table), layer.name);
         out.number(70, 0);
-        out.number(62, colour);
-        out.text(6, line);
-        if !is_plotted {
+        out.number(62, layer.colour);
+        out.text(6, if layer.is_dashed { "DASHED" } else { "Continuous" });
+        if !layer.is_plotted {
             out.number(290, 0);
         }
-        out.number(370, -3);
+        out.number(370, layer.weight);
         // Plot style: the dictionary's one place holder.
         out.handle(390, 0x0F);
-    };
-    layer("0", 0x10, 7, "Continuous", true);
-    for (i, kind) in LayerKind::ALL.into_iter().enumerate() {
-        // Colours of the index: 7 black or white, 5 blue, 6 magenta, 1 red, 8 grey.
-        let (colour, line) = match kind {
-            LayerKind::Engrave => (7, "Continuous"),
-            LayerKind::Score => (5, "DASHED"),
-            LayerKind::CutInner => (6, "Continuous"),
-            LayerKind::CutOuter => (1, "Continuous"),
-            LayerKind::Info => (8, "Continuous"),
-        };
-        layer(layer_name(kind), FIRST_LAYER + i as u32, colour, line, kind != LayerKind::Info);
     }
-    1 + LayerKind::ALL.len()
+    1 + rows.len()
 }
 
 fn text_style(out: &mut Pairs, table: u32) -> usize {

@@ -1,7 +1,7 @@
 //! Sheets as PDF 1.5, written out by hand: a page has a handful of objects, and coordinates must
 //! keep four decimals.
 //!
-//! One page as large as the sheet, user space in millimetres by one matrix, hairlines as in the
+//! One page as large as the sheet, user space in millimetres by one matrix, strokes as wide as in the
 //! SVG. Every operation is a layer (an optional content group) of its name; `info` is switched off
 //! for printing. See [`tiles`] for paper.
 

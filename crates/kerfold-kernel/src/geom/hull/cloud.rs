@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::determinant::sign_of_determinant;
 use super::half_space::HalfSpace;
+use super::scale::inverse_power_of_two;
 use crate::geom::Side;
 use crate::geom::predicate::orient3d;
 
@@ -211,10 +212,4 @@ impl Signs for PlaneSigns<'_> {
             orient3d(a, b, c, DVec3::ZERO) == 0.0
         })
     }
-}
-
-/// The power of two that brings `x` into [1, 2); 1 for zero.
-pub(super) fn inverse_power_of_two(x: f64) -> f64 {
-    let exponent = x.to_bits() >> 52 & 0x7ff;
-    if x == 0.0 { 1.0 } else { f64::from_bits((2046 - exponent.clamp(1, 2045)) << 52) }
 }

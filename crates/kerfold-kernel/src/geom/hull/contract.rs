@@ -8,8 +8,8 @@ use super::half_space::HalfSpace;
 use super::meeting::{exact_meeting, widest_triple};
 use super::polytope::{Polygons, Polytope};
 
-/// Contracts all edges shorter than the rounding bound of the solid, or than `resolution`. Faces that lose their area go,
-/// and vertices that lie on an edge with them.
+/// Contracts all edges shorter than the rounding bound of the solid, or than `resolution`. Faces
+/// that lose their area go, and vertices that lie on an edge with them.
 ///
 /// Also returns the half-spaces whose face is still there but narrower than the bound: slivers,
 /// which cannot be contracted.

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::cloud::inverse_power_of_two;
 use super::determinant::excess;
+use super::scale::inverse_power_of_two;
 
 /// Entries of a normal below this share of its largest are zero: products of three would leave the
 /// range of doubles, and no coordinate shows the difference.

@@ -302,9 +302,9 @@ struct Set<'a> {
 }
 
 impl Set<'_> {
-    /// The intersection by exact signs alone, vertices where more than three planes meet merged. When
-    /// only the simple form is wanted, nothing needs to be merged unless exact zeros came up on the
-    /// way.
+    /// The intersection by exact signs alone, vertices where more than three planes meet merged.
+    /// When only the simple form is wanted, nothing needs to be merged unless exact zeros came up
+    /// on the way.
     fn exact_intersection(&self, simple: bool) -> Result<Polytope, HalfSpaceError> {
         let Self { half_spaces, centre, is_thorough, goes_on } = *self;
         let count = half_spaces.len();
@@ -314,8 +314,8 @@ impl Set<'_> {
             let h = &half_spaces[order.points[place] as usize];
             h.normal * (1.0 / h.slack(centre))
         });
-        // A dual point carries the rounding of the slack, one ulp, and of the division and the product,
-        // half an ulp each.
+        // A dual point carries the rounding of the slack, one ulp, and of the division and the
+        // product, half an ulp each.
         let (cloud, scale) =
             Cloud::stretched(near, 4.0, PlaneSigns::new(half_spaces, &order.points));
         let mut room = Room::new(count);
@@ -350,9 +350,9 @@ impl Set<'_> {
         Ok(Polytope { vertices, half_spaces, faces, interior: centre })
     }
 
-    /// Contracts what is shorter than rounding. Planes that then span no face any more are left out and
-    /// the rest is intersected anew, so that a sliver never stays, unless without its plane the solid
-    /// would reach beyond that by more than rounding.
+    /// Contracts what is shorter than rounding. Planes that then span no face any more are left out
+    /// and the rest is intersected anew, so that a sliver never stays, unless without its plane the
+    /// solid would reach beyond that by more than rounding.
     fn contract_all(&self, first: Polytope, resolution: f64) -> Result<Polytope, HalfSpaceError> {
         let mut polytope = first;
         let mut needed: BTreeSet<u32> = BTreeSet::new();

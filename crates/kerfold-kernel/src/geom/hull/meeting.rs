@@ -3,9 +3,9 @@
 
 use glam::DVec3;
 
-use super::cloud::inverse_power_of_two;
 use super::determinant::determinant_of_three;
 use super::half_space::HalfSpace;
+use super::scale::inverse_power_of_two;
 
 /// By number the first point, the one farthest from it, and the one farthest from the line of the
 /// two; counter-clockwise order is not kept.
@@ -25,7 +25,7 @@ pub(super) fn widest_triple(points: &[DVec3]) -> [usize; 3] {
 pub(super) const SETTLED: f64 = 2.0 * f64::EPSILON;
 
 /// Where q·y = 1 for three dual points, with the residuals solved for again: y lies on the planes
-/// to rounding unless they meet too flat for that; [`uncertainty`] tells.
+/// to rounding unless they meet too flat for that; [`uncertainty`] says how much.
 #[inline(never)]
 pub(super) fn meeting_point([a, b, c]: [DVec3; 3]) -> DVec3 {
     let (ab, ac) = (b - a, c - a);

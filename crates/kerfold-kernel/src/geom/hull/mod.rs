@@ -29,6 +29,7 @@ mod parallel;
 mod placing;
 mod points;
 mod polytope;
+mod scale;
 mod split;
 mod start;
 mod surface;

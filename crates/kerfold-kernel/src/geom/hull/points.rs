@@ -96,6 +96,18 @@ codes!(error HullError {
 ///
 /// # Errors
 /// [`HullError`] when a coordinate is not finite or the points span no volume.
+///
+/// # Example
+/// ```
+/// use glam::DVec3;
+/// use kerfold_kernel::geom::hull::{Numbers, convex_hull};
+///
+/// let corners = (0..8_u8).map(|i| DVec3::from_array([0, 1, 2].map(|k| f64::from(i >> k & 1))));
+/// let points: Vec<DVec3> = corners.chain([DVec3::splat(0.5)]).collect();
+/// let faces = convex_hull(&points, Numbers::Given)?;
+/// assert!(faces.len() == 6 && faces.iter().all(|face| face.len() == 4));
+/// # Ok::<(), kerfold_kernel::geom::hull::HullError>(())
+/// ```
 pub fn convex_hull(points: &[DVec3], numbers: Numbers) -> Result<Polygons, HullError> {
     convex_hull_while(points, numbers, &|| true)
 }

@@ -8,7 +8,7 @@ use super::polytope::{Polygons, Polytope};
 /// a chain of k − 3 edges, the other faces keep one edge to it.
 pub(super) fn split(polytope: Polytope) -> Polytope {
     let Polytope { mut vertices, half_spaces, faces, interior } = polytope;
-    // No vertex has fewer than three faces, so the sum tells.
+    // No vertex has fewer than three faces, so the sum shows it.
     if faces.corners().len() == 3 * vertices.len() {
         return Polytope { vertices, half_spaces, faces, interior };
     }

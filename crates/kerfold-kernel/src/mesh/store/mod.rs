@@ -63,7 +63,7 @@ struct Face {
 const NONE: u32 = u32::MAX;
 
 /// Where the walk around a vertex or a face begins: at a half-edge, or, for a point sphere, at its
-/// only partner. The top bit tells which; `NONE` marks a free slot.
+/// only partner. The top bit says which; `NONE` marks a free slot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Link(u32);
 
@@ -305,7 +305,7 @@ impl Mesh {
 
     // ---- attributes -----------------------------------------------------------------------------
 
-    /// Moves a vertex; `is_given` tells whether the new position is an input number or a computed
+    /// Moves a vertex; `is_given` says whether the new position is an input number or a computed
     /// one.
     #[inline]
     pub fn set_position(&mut self, v: VertexId, position: DVec3, is_given: bool) {

@@ -11,7 +11,7 @@
 
 use glam::DVec2;
 
-use super::boundary::{Boundaries, Contour};
+use super::super::boundary::{Boundaries, Contour};
 use super::params::{Fingers, WEB};
 use super::webs::in_the_way;
 use super::{JointFallback, JointReport};

@@ -1,16 +1,16 @@
 //! Flaps: a trapezoid on one side of every seam, that overlaps nothing.
 //!
 //! A flap must keep a gap to everything else on its piece, and folded over it must lie behind its
-//! partner ([`Behind`]), so that it sticks out nowhere. Its ends become as steep as that wants. When
-//! it still cannot, it is narrowed; before it gets narrower than half it moves to the partner side;
-//! where neither has room for a third of it, the seam stays bare.
+//! partner ([`Behind`]), so that it sticks out nowhere. Its ends become as steep as that wants.
+//! When it still cannot, it is narrowed; before it gets narrower than half it moves to the partner
+//! side; where neither has room for a third of it, the seam stays bare.
 
 use std::f64::consts::TAU;
 
 use glam::DVec2;
 
+use super::super::boundary::{Boundaries, Place, segment_distance};
 use super::behind::{Behind, Partner};
-use super::boundary::{Boundaries, Place, segment_distance};
 use super::params::{Flap, FlapSide};
 use super::{FlapFold, JointReport};
 use crate::geom::polygon::bounds;

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use glam::DVec2;
 
+use super::super::boundary::{Boundaries, Place};
 use super::super::distance::{distance_to_contour, distance_to_segment};
-use super::super::letter::Stretch;
-use super::boundary::{Boundaries, Place};
+use super::super::stretch::Stretch;
 use super::flaps::NewElements;
 use super::params::Holes;
 use super::slots::Slot;

@@ -5,7 +5,6 @@
 //! report says so. The net's own outlines, which `pieces.json` holds, stay as they are.
 
 mod behind;
-mod boundary;
 mod fingers;
 mod flaps;
 mod holes;
@@ -16,15 +15,14 @@ mod webs;
 
 use glam::DVec2;
 
-pub(crate) use boundary::Boundaries;
-pub use params::{FlapSide, Joint, JointParams, Substitute};
+pub use params::{FlapSide, JointParams, Substitute};
 pub(crate) use params::{JointPlan, plan};
-use slots::FARTHEST_LEAN;
 pub(crate) use trim::on_material;
 
+use super::boundary::Boundaries;
 use super::error::SheetError;
-use super::letter::stretches;
-use super::params::SheetParams;
+use super::stock::StockParams;
+use super::stretch::stretches;
 use crate::net::{EdgeLabel, Net, PieceId, Segment};
 
 /// What became of the joints, in numbers.
@@ -97,8 +95,12 @@ pub(crate) struct Jointed {
 ///
 /// # Errors
 /// [`SheetError::JointOption`], [`SheetError::OutOfRange`] for parameters.
-pub(crate) fn join(net: &Net, params: &SheetParams) -> Result<Option<Jointed>, SheetError> {
-    let plan = plan(params)?;
+pub(crate) fn join(
+    net: &Net,
+    params: &JointParams,
+    stock: &StockParams,
+) -> Result<Option<Jointed>, SheetError> {
+    let plan = plan(params, stock)?;
     if matches!(plan, JointPlan::None) {
         return Ok(None);
     }
@@ -108,7 +110,7 @@ pub(crate) fn join(net: &Net, params: &SheetParams) -> Result<Option<Jointed>, S
     let mut drilled = Vec::new();
     let mut slots = Vec::new();
     let all: Vec<usize> = (0..net.seams.len()).collect();
-    let kerf = params.stock.kerf.mm();
+    let kerf = stock.kerf.mm();
     match plan {
         JointPlan::None => {}
         JointPlan::Flaps(flap) => {
@@ -189,7 +191,7 @@ impl Hole {
 #[cfg(test)]
 mod tests {
     use super::super::testing::{random_convex, twins, two_pieces};
-    use super::super::{LetterParams, SheetParams, StockParams, lay_out};
+    use super::super::{Joint, LetterParams, SheetParams, lay_out};
     use super::*;
     use crate::geom::polygon::{borders_meet, segments_meet};
     use crate::units::Length;
@@ -205,6 +207,10 @@ mod tests {
             },
             ..Default::default()
         }
+    }
+
+    fn join(net: &Net, params: &SheetParams) -> Result<Option<Jointed>, SheetError> {
+        super::join(net, &params.joint, &params.stock)
     }
 
     fn assert_simple(contour: &[DVec2]) {

@@ -4,8 +4,8 @@ use clap::ValueEnum;
 use serde::Deserialize;
 
 use super::super::error::SheetError;
-use super::super::params::SheetParams;
-use super::FARTHEST_LEAN;
+use super::super::joint_kind::Joint;
+use super::super::stock::StockParams;
 use crate::units::{Angle, Length};
 
 /// What holds the two sides of seams together.
@@ -55,25 +55,6 @@ pub struct JointParams {
     #[arg(long, value_name = "LENGTH")]
     #[serde(default)]
     pub hole_inset: Option<Length>,
-}
-
-/// What joins the two sides of a seam.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Joint {
-    /// The bare edges, for tape or glue.
-    #[default]
-    None,
-    /// A trapezoid to glue on one side of every seam.
-    Flaps,
-    /// Flaps with holes, and holes in the partner that lie under them.
-    Rivets,
-    /// Holes at equal places on both sides.
-    Stitch,
-    /// Interlocking fingers for plates of the given thickness.
-    Fingers,
-    /// Tabs on one side, and slots for them in the partner, for plates of the given thickness.
-    Tabs,
 }
 
 /// What seams get that are too shallow or too narrow for fingers or tabs.
@@ -156,6 +137,10 @@ impl JointPlan {
     }
 }
 
+/// How far a lip may stand out besides its web, in thicknesses: the lean of a slot at the flattest
+/// angle, 1.19.
+pub(super) const FARTHEST_LEAN: f64 = 1.2;
+
 /// Least material between a cut of a joint and any other cut, in mm: the millimetre that is wanted
 /// of every web, and a little more, since files hold rounded numbers.
 pub(super) const WEB: f64 = 1.01;
@@ -165,9 +150,8 @@ pub(super) const WEB: f64 = 1.01;
 /// # Errors
 /// [`SheetError::JointOption`] for an option that the joint does not use, or one that it lacks;
 /// [`SheetError::OutOfRange`] for its numbers.
-pub(crate) fn plan(params: &SheetParams) -> Result<JointPlan, SheetError> {
+pub(crate) fn plan(asked: &JointParams, stock: &StockParams) -> Result<JointPlan, SheetError> {
     use Joint::{Fingers as F, Flaps, None as N, Rivets, Stitch, Tabs as T};
-    let asked = &params.joint;
     let joint = asked.kind;
     let is_mitred = asked.substitute == Some(Substitute::Mitre);
     let given = [
@@ -196,14 +180,14 @@ pub(crate) fn plan(params: &SheetParams) -> Result<JointPlan, SheetError> {
     }
     Ok(match joint {
         N => JointPlan::None,
-        Flaps => JointPlan::Flaps(flap(params, 8.0)?),
-        Rivets => JointPlan::Rivets(flap(params, 12.0)?, holes(params, [25.0, 3.2])?),
-        Stitch => JointPlan::Stitch(holes(params, [6.0, 1.5])?),
+        Flaps => JointPlan::Flaps(flap(asked, 8.0)?),
+        Rivets => JointPlan::Rivets(flap(asked, 12.0)?, holes(asked, stock, [25.0, 3.2])?),
+        Stitch => JointPlan::Stitch(holes(asked, stock, [6.0, 1.5])?),
         F | T => {
             let missing = SheetError::JointOption { option: "thickness", joint, is_missing: true };
             let thickness = length("thickness", Some(asked.thickness.ok_or(missing)?), 0.0, 0.1)?;
             let width = length("finger-width", asked.finger_width, 3.0 * thickness, thickness)?;
-            let holes = if is_mitred { None } else { Some(holes(params, [6.0, 1.5])?) };
+            let holes = if is_mitred { None } else { Some(holes(asked, stock, [6.0, 1.5])?) };
             if joint == F {
                 JointPlan::Fingers(Fingers { thickness, width }, holes)
             } else {
@@ -231,33 +215,37 @@ fn length(
     }
 }
 
-fn flap(params: &SheetParams, width: f64) -> Result<Flap, SheetError> {
-    let width = length("flap-width", params.joint.flap_width, width, 1.0)?;
-    let angle = params.joint.flap_angle.map_or(60.0, Angle::degrees);
+fn flap(asked: &JointParams, width: f64) -> Result<Flap, SheetError> {
+    let width = length("flap-width", asked.flap_width, width, 1.0)?;
+    let angle = asked.flap_angle.map_or(60.0, Angle::degrees);
     if !(20.0..=90.0).contains(&angle) {
         return Err(SheetError::FlapAngle { degrees: angle });
     }
-    Ok(Flap { width, angle: angle.to_radians(), side: params.joint.flap_side.unwrap_or_default() })
+    Ok(Flap { width, angle: angle.to_radians(), side: asked.flap_side.unwrap_or_default() })
 }
 
 /// Up to this thickness, in mm, card is pierced rather than cut, and holes stay small.
 const THIN: f64 = 1.0;
 
-fn holes(params: &SheetParams, [spacing, diameter]: [f64; 2]) -> Result<Holes, SheetError> {
-    let kerf = params.stock.kerf.mm();
-    let made_of = params.stock.made_of.as_ref();
+fn holes(
+    asked: &JointParams,
+    stock: &StockParams,
+    [spacing, diameter]: [f64; 2],
+) -> Result<Holes, SheetError> {
+    let kerf = stock.kerf.mm();
+    let made_of = stock.made_of.as_ref();
     // What the material wants, where it is known.
     let web = made_of.map_or(WEB, |m| m.web.mm().max(WEB)) + kerf;
     // Holes narrower than one and a half times the plate burn out. A little more, since the corners
     // of a drawn circle lie on it.
-    let thickness = params.joint.thickness.or(made_of.map(|m| m.thickness)).map_or(0.0, Length::mm);
+    let thickness = asked.thickness.or(made_of.map(|m| m.thickness)).map_or(0.0, Length::mm);
     let least = if thickness > THIN { 1.55 * thickness + kerf } else { 0.0 };
     let (diameter, spacing) = (diameter.max(least), spacing.max(2.0 * least));
-    let diameter = length("hole-diameter", params.joint.hole_diameter, diameter, kerf + 0.1)?;
-    let spacing = length("hole-spacing", params.joint.hole_spacing, spacing, diameter + web)?;
+    let diameter = length("hole-diameter", asked.hole_diameter, diameter, kerf + 0.1)?;
+    let spacing = length("hole-spacing", asked.hole_spacing, spacing, diameter + web)?;
     let inset = length(
         "hole-inset",
-        params.joint.hole_inset,
+        asked.hole_inset,
         (2.0 * diameter).max(diameter / 2.0 + web),
         diameter / 2.0 + web,
     )?;

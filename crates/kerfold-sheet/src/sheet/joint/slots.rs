@@ -15,8 +15,8 @@
 
 use glam::DVec2;
 
+use super::super::boundary::{Boundaries, Contour, Place, segment_distance};
 use super::super::distance::edges;
-use super::boundary::{Boundaries, Contour, Place, segment_distance};
 use super::fingers::{corner, depths};
 use super::params::{FlapSide, Tabs, WEB};
 use super::webs::in_the_way;
@@ -27,10 +27,6 @@ use crate::net::{Net, Segment};
 /// Trials of a seam, in order: the side by the rule (0) or its partner (1), and the free part at
 /// both ends in multiples of the least one.
 const TRIALS: [(usize, f64); 4] = [(0, 1.0), (0, 2.0), (1, 1.0), (1, 2.0)];
-
-/// How far a lip may stand out besides its web, in thicknesses: the lean of a slot at the flattest
-/// angle, 1.19.
-pub(super) const FARTHEST_LEAN: f64 = 1.2;
 
 /// Length of a slot relative to its width, unless tabs are asked for that are narrower.
 const SLOT_LENGTH: f64 = 2.05;
@@ -195,17 +191,17 @@ fn next_row(
         FlapSide::Higher => 1 - lower,
         FlapSide::Alternate => lower ^ boundaries.places[s][lower].map_or(0, |p| p.edge % 2),
     };
-    let mut told = why;
+    let mut reported = why;
     while let Some(&(other, ends)) = TRIALS.get(*trial) {
         *trial += 1;
         match Row::of(seam.fold_angle, seam.length, tabs, (first ^ other, ends)) {
             Ok(row) => return Ok(row),
             // A seam too short for wide ends was tried with narrow ones before.
-            Err(reason) if *trial == 1 => told = reason,
+            Err(reason) if *trial == 1 => reported = reason,
             Err(_) => {}
         }
     }
-    Err(told)
+    Err(reported)
 }
 
 fn edge(boundaries: &Boundaries, place: Place) -> Segment {
@@ -242,65 +238,112 @@ fn slots_in_the_way(
     piece: usize,
     rows: &[Result<Row, JointFallback>],
 ) -> Vec<usize> {
-    let paths: Vec<Vec<DVec2>> = boundaries.of_piece(piece).map(Contour::path).collect();
-    let id = net.pieces[piece].id;
-    let folds: Vec<Segment> =
-        net.folds.iter().filter(|f| f.piece == id).map(|f| f.segment).collect();
-    // Edges with plates on them, with their seams and how deep these reach.
-    let mut jointed: Vec<(usize, Segment, f64)> = Vec::new();
-    for contour in boundaries.of_piece(piece) {
-        for i in 0..contour.len() {
-            if let Some((s, Ok(row))) = contour.sides[i].map(|(s, _)| (s, &rows[s])) {
-                jointed.push((s, contour.edge(i), row.deep));
-            }
-        }
-    }
-    let mut slots: Vec<(usize, Vec<DVec2>)> = Vec::new();
+    let edges = jointed_edges(boundaries, piece, rows);
+    let room = Room::of(net, boundaries, piece, &edges);
+    let mut slots: Vec<SlotOf> = Vec::new();
     let mut found = Vec::new();
-    for contour in boundaries.of_piece(piece) {
-        for i in 0..contour.len() {
-            let Some((s, k)) = contour.sides[i] else { continue };
-            let Ok(row) = &rows[s] else { continue };
-            let own = contour.edge(i);
-            let others = |at: &[DVec2], web: f64| {
-                let is_own = |e: &(usize, Segment, f64)| e.1 == own;
-                jointed.iter().filter(|e| !is_own(e)).all(|e| distance(at, e.1) >= e.2 + web)
+    for edge in &edges {
+        if edge.row.side == edge.side {
+            let tabs = edge.row.tabs(edge.segment);
+            if !tabs.chunks(4).all(|tab| room.keeps_off_plates(tab, edge)) {
+                found.push(edge.seam);
+            }
+            continue;
+        }
+        for contour in edge.row.slots(edge.segment) {
+            let least = edge.row.web * (1.0 - 1e-9);
+            let is_beside = |slot: &&SlotOf| {
+                slot.seam != edge.seam
+                    && sides(&slot.contour).any(|side| distance(&contour, side) < least)
             };
-            if row.side == k {
-                if !row.tabs(own).chunks(4).all(|tab| others(tab, 0.0)) {
-                    found.push(s);
-                }
-                continue;
+            let beside: Vec<usize> = slots.iter().filter(is_beside).map(|s| s.seam).collect();
+            if !room.is_free(&contour, edge, least) || !beside.is_empty() {
+                found.push(edge.seam);
+                found.extend(beside);
             }
-            for slot in row.slots(own) {
-                let least = row.web * (1.0 - 1e-9);
-                let inside = paths.iter().enumerate().all(|(c, path)| {
-                    slot.iter().all(|&p| (locate(path, p) == Location::Inside) == (c == 0))
-                });
-                let is_free = inside
-                    && paths
-                        .iter()
-                        .all(|path| edges(path).all(|(a, b)| distance(&slot, [a, b]) >= least))
-                    && folds.iter().all(|&f| distance(&slot, f) >= row.web / 2.0)
-                    && others(&slot, 0.0);
-                let beside = slots.iter().filter(|(t, other)| {
-                    (*t != s) && edges(other).any(|(a, b)| distance(&slot, [a, b]) < least)
-                });
-                let beside: Vec<usize> = beside.map(|(t, _)| *t).collect();
-                if !is_free || !beside.is_empty() {
-                    found.push(s);
-                    found.extend(beside);
-                }
-                slots.push((s, slot));
-            }
+            slots.push(SlotOf { seam: edge.seam, contour });
         }
     }
     found
 }
 
+/// A slot with its seam.
+struct SlotOf {
+    seam: usize,
+    contour: Vec<DVec2>,
+}
+
+/// An edge of a piece that has tabs or slots.
+struct JointedEdge<'a> {
+    seam: usize,
+    /// Which side of the seam it is.
+    side: usize,
+    segment: Segment,
+    row: &'a Row,
+}
+
+fn jointed_edges<'a>(
+    boundaries: &Boundaries,
+    piece: usize,
+    rows: &'a [Result<Row, JointFallback>],
+) -> Vec<JointedEdge<'a>> {
+    let mut all = Vec::new();
+    for contour in boundaries.of_piece(piece) {
+        for i in 0..contour.len() {
+            if let Some((seam, side)) = contour.sides[i]
+                && let Ok(row) = &rows[seam]
+            {
+                all.push(JointedEdge { seam, side, segment: contour.edge(i), row });
+            }
+        }
+    }
+    all
+}
+
+/// What the tabs and slots of a piece keep clear of.
+struct Room<'a> {
+    /// The outline as it is cut, then the holes.
+    paths: Vec<Vec<DVec2>>,
+    folds: Vec<Segment>,
+    /// Edges with plates on them.
+    edges: &'a [JointedEdge<'a>],
+}
+
+impl<'a> Room<'a> {
+    fn of(net: &Net, boundaries: &Boundaries, piece: usize, edges: &'a [JointedEdge<'a>]) -> Self {
+        let id = net.pieces[piece].id;
+        Self {
+            paths: boundaries.of_piece(piece).map(Contour::path).collect(),
+            folds: net.folds.iter().filter(|f| f.piece == id).map(|f| f.segment).collect(),
+            edges,
+        }
+    }
+
+    /// Whether a polygon on one edge is as far from the others as their plates reach.
+    fn keeps_off_plates(&self, polygon: &[DVec2], own: &JointedEdge<'_>) -> bool {
+        let mut others = self.edges.iter().filter(|other| other.segment != own.segment);
+        others.all(|other| distance(polygon, other.segment) >= other.row.deep)
+    }
+
+    /// Whether a slot lies in the piece and keeps its distances.
+    fn is_free(&self, slot: &[DVec2], own: &JointedEdge<'_>, least: f64) -> bool {
+        let is_inside = self.paths.iter().enumerate().all(|(c, path)| {
+            slot.iter().all(|&p| (locate(path, p) == Location::Inside) == (c == 0))
+        });
+        is_inside
+            && self.paths.iter().all(|path| sides(path).all(|side| distance(slot, side) >= least))
+            && self.folds.iter().all(|&fold| distance(slot, fold) >= own.row.web / 2.0)
+            && self.keeps_off_plates(slot, own)
+    }
+}
+
+fn sides(polygon: &[DVec2]) -> impl Iterator<Item = Segment> {
+    edges(polygon).map(|(a, b)| [a, b])
+}
+
 /// The least distance between the sides of a polygon and a segment.
 fn distance(polygon: &[DVec2], segment: Segment) -> f64 {
-    edges(polygon).map(|(a, b)| segment_distance([a, b], segment)).fold(f64::INFINITY, f64::min)
+    sides(polygon).map(|side| segment_distance(side, segment)).fold(f64::INFINITY, f64::min)
 }
 
 #[cfg(test)]

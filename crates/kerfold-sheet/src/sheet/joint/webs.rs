@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 
+use super::super::boundary::{Boundaries, Contour, segment_distance};
 use super::super::distance::nearest_on_segment;
-use super::boundary::{Boundaries, Contour, segment_distance};
 use super::params::WEB;
 use crate::geom::polygon::{Location, locate, segments_meet, signed_area};
 use crate::net::Segment;
@@ -27,8 +27,8 @@ struct CutLine<'a> {
     is_reflex: bool,
 }
 
-/// The jointed seams of a piece, those that `is_jointed` names, whose cut comes nearer than `web` to
-/// the cut of an edge that is no neighbour, meets any, or leaves a thin neck to a neighbour's.
+/// The jointed seams of a piece, those that `is_jointed` names, whose cut comes nearer than `web`
+/// to the cut of an edge that is no neighbour, meets any, or leaves a thin neck to a neighbour's.
 pub(super) fn in_the_way(
     boundaries: &Boundaries,
     piece: usize,

@@ -13,7 +13,7 @@ const ADVANCE: f64 = 6.0;
 
 /// Strokes are separated by spaces; each is a row of points, a digit for x (0 to 4) and one for y
 /// (0 to 6) each.
-const TABLE: [(char, &str); 46] = [
+const TABLE: [(char, &str); 53] = [
     (' ', ""),
     ('A', "0004264440 0242"),
     ('B', "00063645443303 3342413000"),
@@ -60,6 +60,13 @@ const TABLE: [(char, &str); 46] = [
     ('_', "0040"),
     ('°', "1526352415"),
     ('%', "0046 0616150506 4030314140"),
+    (',', "2110"),
+    ('(', "36251130"),
+    (')', "16253110"),
+    ('=', "0242 0444"),
+    ('×', "1135 1531"),
+    ('Ø', "100105163645413010 0046"),
+    ('<', "450341"),
 ];
 
 /// A line of text as strokes.
@@ -74,7 +81,7 @@ pub struct Lettering {
 }
 
 /// The strokes of a character, [`CAPITAL`] units high, with its base line on y = 0; `None` for a
-/// character other than A–Z, 0–9, space and `- . / # + : _ ° %`.
+/// character other than A–Z, 0–9, space and `- . / # + : _ ° % , ( ) = × Ø <`.
 pub fn glyph(character: char) -> Option<Vec<Vec<DVec2>>> {
     let (_, strokes) = TABLE.iter().find(|(c, _)| *c == character)?;
     Some(strokes.split_whitespace().map(points).collect())
@@ -84,7 +91,16 @@ pub fn glyph(character: char) -> Option<Vec<Vec<DVec2>>> {
 /// figures 6 and 9 are underlined, so that they can be told apart on a loose piece.
 ///
 /// # Errors
-/// [`SheetError::NoGlyph`] for a character other than A–Z, 0–9, space and `- . / # + : _ ° %`.
+/// [`SheetError::NoGlyph`] for a character other than A–Z, 0–9, space and
+/// `- . / # + : _ ° % , ( ) = × Ø <`.
+///
+/// # Example
+/// ```
+/// let name = kerfold_sheet::sheet::lettering("P01", 5.0)?;
+/// assert!((name.high.y - name.low.y - 5.0).abs() < 1e-9);
+/// assert!(kerfold_sheet::sheet::lettering("ß", 5.0).is_err());
+/// # Ok::<(), kerfold_sheet::sheet::SheetError>(())
+/// ```
 pub fn lettering(text: &str, height: f64) -> Result<Lettering, SheetError> {
     let unit = height / CAPITAL;
     let mut strokes = Vec::new();
@@ -120,7 +136,7 @@ mod tests {
     #[test]
     fn every_glyph_is_drawn_inside_its_box_and_no_two_are_alike() {
         let mut seen = Vec::new();
-        for character in ('A'..='Z').chain('0'..='9').chain("-./#+:_°%".chars()) {
+        for character in ('A'..='Z').chain('0'..='9').chain("-./#+:_°%,()=×Ø<".chars()) {
             let text = character.to_string();
             let letter = lettering(&text, 6.0).expect("in the table");
             assert!(letter.low.x >= 0.0 && letter.high.x <= 4.0 && letter.high.y <= 6.0, "{text}");

@@ -10,18 +10,30 @@ use std::collections::BTreeMap;
 use glam::DVec2;
 
 use super::glyph::lettering;
+use super::obstacle::{Obstacle, Obstacles, is_clear};
 use crate::geom::polygon::{Location, borders_meet, bounds, centroid, locate, signed_area};
 use crate::net::{FlatFace, Piece, Segment};
 use crate::sheet::distance::{distance_to_contour, edges};
 use crate::sheet::error::SheetError;
 
-/// Height of a piece's name, in mm.
-const NAME_HEIGHT: f64 = 6.0;
-
-/// Height of a seam's number, in mm; never more than [`NUMBER_SHARE`] of its edge.
+/// Height of a seam's number on a sheet of [`USUAL_SHEET`], in mm; never more than
+/// [`NUMBER_SHARE`] of its edge or stretch.
 const NUMBER_HEIGHT: f64 = 4.0;
 
-/// Largest height of a number relative to its edge.
+/// The longer side of the sheet on which numbers have [`NUMBER_HEIGHT`], in mm.
+const USUAL_SHEET: f64 = 600.0;
+
+/// How letters grow with the sheet: 2.5 mm on A4, which is read in the hand, 20 mm on 6 m of glass,
+/// which is read from some metres away.
+const GROWTH: f64 = 0.7;
+
+/// Least height of a number where there is room, in mm.
+const LEAST_NUMBER: f64 = 2.5;
+
+/// Height of a piece's name relative to that of numbers.
+const NAME_SHARE: f64 = 1.5;
+
+/// Largest height of a number relative to its edge or stretch.
 const NUMBER_SHARE: f64 = 0.35;
 
 /// Least height that can be read off card, in mm.
@@ -45,35 +57,42 @@ pub(super) struct Label {
     pub height: f64,
 }
 
+/// The height of numbers that suits a sheet, in mm.
+pub(in crate::sheet) fn sheet_letter(sheet: DVec2) -> f64 {
+    let growth = (sheet.max_element() / USUAL_SHEET).powf(GROWTH);
+    (NUMBER_HEIGHT * growth).max(LEAST_NUMBER)
+}
+
+/// What a label in a face must keep clear of, and how large it may be.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Room<'a> {
+    /// Frames of other labels.
+    pub taken: &'a [[DVec2; 4]],
+    /// Contours of joints.
+    pub obstacles: Obstacles<'a>,
+    /// Largest height, in mm: what suits the sheet and the length that it stands for.
+    pub letter: f64,
+}
+
+/// The height of a number that suits the sheet, and the edge or stretch that it stands for.
+pub(super) fn suited(letter: f64, length: f64) -> f64 {
+    letter.min(NUMBER_SHARE * length)
+}
+
 /// What is already lettered on the faces of a piece, by their index.
 pub(super) type Taken = BTreeMap<usize, Vec<[DVec2; 4]>>;
 
-/// Contours of joints that lettering must keep clear of: the cut of a piece where it differs from
-/// its faces, and slits.
-pub(super) type Obstacles<'a> = &'a [Vec<DVec2>];
-
-/// What of the obstacles of a piece may come near a label in a face: the rest lies beyond the box of
-/// the face, and a label lies inside.
-pub(super) fn obstacles_near(polygon: &[DVec2], obstacles: Obstacles<'_>) -> Vec<Vec<DVec2>> {
-    let Some((low, high)) = bounds(polygon) else { return Vec::new() };
-    // Slits are few, and stay.
-    let is_near = |obstacle: &&Vec<DVec2>| {
-        obstacle.len() <= 2
-            || bounds(*obstacle).is_some_and(|(l, h)| l.cmple(high).all() && low.cmple(h).all())
-    };
-    obstacles.iter().filter(is_near).cloned().collect()
-}
-
 /// The name of a piece, as large as fits beside what is taken, reading along `upright` where
-/// possible and else along a face's longest edge; with the index of the face that holds it. Obstacles
-/// are those near each of the faces.
+/// possible and else along a face's longest edge; with the index of the face that holds it.
+/// Obstacles are those near each of the faces.
 pub(super) fn name_label(
     piece: &Piece,
     upright: DVec2,
     taken: &Taken,
-    obstacles: &[Vec<Vec<DVec2>>],
+    (obstacles, letter): (&[Vec<Obstacle>], f64),
 ) -> Result<Option<(usize, Label)>, SheetError> {
     let text = piece.id.to_string();
+    let largest = NAME_SHARE * letter;
     let mut order: Vec<(f64, usize)> =
         piece.faces.iter().enumerate().map(|(i, f)| (signed_area(&f.polygon), i)).collect();
     order.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
@@ -89,28 +108,29 @@ pub(super) fn name_label(
             let beaten = best.as_ref().map_or(0.0, |(_, b)| b.height);
             let free = |l: &Label| {
                 is_free(polygon, l, taken.get(&i).map_or(&[], Vec::as_slice))
-                    && is_clear(l, obstacles)
+                    && is_clear(&l.frame, obstacles)
             };
-            if let Some(label) = largest_name(&text, &centres, direction, beaten, free)? {
+            if let Some(label) = largest_name(&text, &centres, direction, [beaten, largest], free)?
+            {
                 best = Some((i, label));
             }
         }
-        if best.as_ref().is_some_and(|(_, b)| b.height >= NAME_HEIGHT) {
+        if best.as_ref().is_some_and(|(_, b)| b.height >= largest) {
             break;
         }
     }
     Ok(best)
 }
 
-/// The largest text higher than `beaten` that is free at one of the places.
+/// The largest text higher than `beaten`, and not above `largest`, that is free at one of the places.
 fn largest_name(
     text: &str,
     centres: &[DVec2],
     direction: DVec2,
-    beaten: f64,
+    [beaten, largest]: [f64; 2],
     is_free: impl Fn(&Label) -> bool,
 ) -> Result<Option<Label>, SheetError> {
-    for height in heights(NAME_HEIGHT).take_while(|&h| h > beaten) {
+    for height in heights(largest).take_while(|&h| h > beaten) {
         for &centre in centres {
             let label = set(text, centre, direction, height)?;
             if is_free(&label) {
@@ -123,18 +143,16 @@ fn largest_name(
 
 /// The number of a seam inside `face`, parallel to its edge, to be read from the middle of the
 /// face: its head is at the edge. `edge` are the mesh's vertices at the two ends of `segment`.
-/// Keeps clear of the frames in `taken`.
+/// Keeps clear of what the room holds.
 pub(super) fn number_label(
     text: &str,
     face: &FlatFace,
     edge: [usize; 2],
     segment: Segment,
-    taken: &[[DVec2; 4]],
-    obstacles: Obstacles<'_>,
+    room: Room<'_>,
 ) -> Result<Option<Label>, SheetError> {
     let Some([a, b]) = face.side(edge, segment) else { return Ok(None) };
-    let (length, along) = (a.distance(b), (b - a).normalize_or_zero());
-    beside(text, face, [a, b], -along, NUMBER_HEIGHT.min(NUMBER_SHARE * length), taken, obstacles)
+    beside(text, face, [a, b], -(b - a).normalize_or_zero(), room)
 }
 
 /// As [`number_label`] across the edge, for narrow faces: it reads away from the edge.
@@ -143,11 +161,10 @@ pub(super) fn number_across(
     face: &FlatFace,
     edge: [usize; 2],
     segment: Segment,
-    taken: &[[DVec2; 4]],
-    obstacles: Obstacles<'_>,
+    room: Room<'_>,
 ) -> Result<Option<Label>, SheetError> {
     let Some([a, b]) = face.side(edge, segment) else { return Ok(None) };
-    beside(text, face, [a, b], (b - a).normalize_or_zero().perp(), NUMBER_HEIGHT, taken, obstacles)
+    beside(text, face, [a, b], (b - a).normalize_or_zero().perp(), room)
 }
 
 /// A text that reads along `reading` as near as possible to an edge that has the face on its left.
@@ -156,12 +173,11 @@ fn beside(
     face: &FlatFace,
     [a, b]: Segment,
     reading: DVec2,
-    largest: f64,
-    taken: &[[DVec2; 4]],
-    obstacles: Obstacles<'_>,
+    room: Room<'_>,
 ) -> Result<Option<Label>, SheetError> {
+    let Room { taken, obstacles, letter } = room;
     let inwards = (b - a).normalize_or_zero().perp();
-    for height in heights(largest) {
+    for height in heights(letter) {
         for t in [0.5, 0.38, 0.62, 0.26, 0.74] {
             let at = set(text, a.lerp(b, t), reading, height)?;
             // The face lies on the left of its edges; the frame goes there until it is clear of the
@@ -172,7 +188,7 @@ fn beside(
             // Notches and holes of a joint lie along the edge: further in it may be free.
             let tries = if obstacles.is_empty() { 1 } else { 8 };
             for _ in 0..tries {
-                if is_free(&face.polygon, &label, taken) && is_clear(&label, obstacles) {
+                if is_free(&face.polygon, &label, taken) && is_clear(&label.frame, obstacles) {
                     return Ok(Some(label));
                 }
                 label = label.moved(inwards * (0.5 * height));
@@ -222,19 +238,20 @@ fn inner_point(polygon: &[DVec2], obstacles: Obstacles<'_>) -> DVec2 {
     let Some((low, high)) = bounds(polygon) else { return DVec2::ZERO };
     let n = polygon.len();
     let depth = |p: DVec2| {
-        if locate(polygon, p) != Location::Inside || !obstacles.iter().all(|o| is_on_material(o, p))
-        {
+        if locate(polygon, p) != Location::Inside || !obstacles.iter().all(|o| o.has_material(p)) {
             return -1.0;
         }
-        let all = obstacles.iter().map(|o| distance_to_contour(p, o));
-        all.fold(distance_to_contour(p, polygon), f64::min)
+        let own = distance_to_contour(p, polygon);
+        obstacles.iter().fold(own, |least, obstacle| obstacle.distance_below(p, least))
     };
     let cell = (high - low) / GRID as f64;
     let on_grid = |i: usize| low + cell * (DVec2::new((i % GRID) as f64, (i / GRID) as f64) + 0.5);
     let ears = (0..n).map(|i| (polygon[i] + polygon[(i + 1) % n] + polygon[(i + 2) % n]) / 3.0);
     let candidates = (0..GRID * GRID).map(on_grid).chain(ears).chain([centroid(polygon)]);
-    let deeper =
-        |best: (f64, DVec2), p: DVec2| if depth(p) > best.0 { (depth(p), p) } else { best };
+    let deeper = |best: (f64, DVec2), p: DVec2| {
+        let here = depth(p);
+        if here > best.0 { (here, p) } else { best }
+    };
     let mut best = candidates.fold((-1.0, low), deeper);
     let mut step = cell;
     for _ in 0..16 {
@@ -250,22 +267,6 @@ fn inner_point(polygon: &[DVec2], obstacles: Obstacles<'_>) -> DVec2 {
 /// Whether a label lies inside a face and on nothing else.
 fn is_free(polygon: &[DVec2], label: &Label, taken: &[[DVec2; 4]]) -> bool {
     taken.iter().all(|frame| !overlap(frame, &label.frame)) && frame_inside(polygon, &label.frame)
-}
-
-/// Whether a label neither crosses an obstacle nor has one inside, nor lies in a notch or hole that
-/// is cut away.
-pub(super) fn is_clear(label: &Label, obstacles: Obstacles<'_>) -> bool {
-    obstacles.iter().all(|o| is_on_material(o, label.frame[0]))
-        && obstacles.iter().all(|o| {
-            !borders_meet(o, &label.frame)
-                && o.first().is_none_or(|&p| locate(&label.frame, p) == Location::Outside)
-        })
-}
-
-/// Whether a point lies on the material side of an obstacle: outlines run counter-clockwise, holes
-/// clockwise, slits have no inside.
-fn is_on_material(obstacle: &[DVec2], p: DVec2) -> bool {
-    (locate(obstacle, p) == Location::Inside) == (obstacle.len() > 2 && signed_area(obstacle) > 0.0)
 }
 
 /// Whether a convex frame lies in the interior of a polygon, exactly.
@@ -285,6 +286,27 @@ mod tests {
     use crate::geom::polygon::segments_meet;
     use crate::net::PieceId;
     use crate::sheet::testing::{ell, piece, points, ring, square};
+
+    fn room<'a>(taken: &'a [[DVec2; 4]], obstacles: Obstacles<'a>) -> Room<'a> {
+        Room { taken, obstacles, letter: NUMBER_HEIGHT }
+    }
+
+    #[test]
+    fn numbers_suit_what_they_stand_for() {
+        assert_eq!((suited(4.0, 100.0), suited(4.0, 10.0)), (4.0, 3.5));
+    }
+
+    #[test]
+    fn letters_suit_the_sheet() {
+        let on = |x: f64, y: f64| sheet_letter(DVec2::new(x, y));
+        assert_eq!((on(210.0, 297.0), on(600.0, 400.0)), (2.5, 4.0));
+        assert!((on(6000.0, 3210.0) - 20.0).abs() < 0.1, "{}", on(6000.0, 3210.0));
+        assert!(on(1220.0, 2440.0) > 10.0 && on(50.0, 50.0) == 2.5);
+    }
+
+    fn obstacles<const N: usize>(contours: [Vec<DVec2>; N]) -> Vec<Obstacle> {
+        contours.iter().filter_map(|contour| Obstacle::of(contour)).collect()
+    }
 
     fn assert_clear(piece: &Piece, label: &Label) {
         for stroke in &label.strokes {
@@ -308,14 +330,18 @@ mod tests {
             piece(PieceId(2), sliver),
             ring,
         ] {
-            let (_, label) = name_label(&piece, DVec2::X, &Taken::new(), &[])
+            let (_, label) = name_label(&piece, DVec2::X, &Taken::new(), (&[], NUMBER_HEIGHT))
                 .expect("known letters")
                 .expect("room for a name");
             assert!(label.height >= LEAST_HEIGHT);
             assert_clear(&piece, &label);
         }
         let tiny = piece(PieceId(0), square(4.0));
-        assert!(name_label(&tiny, DVec2::X, &Taken::new(), &[]).expect("known letters").is_none());
+        assert!(
+            name_label(&tiny, DVec2::X, &Taken::new(), (&[], NUMBER_HEIGHT))
+                .expect("known letters")
+                .is_none()
+        );
     }
 
     #[test]
@@ -325,19 +351,25 @@ mod tests {
         let mut frame = piece(PieceId(0), square(120.0));
         frame.holes = vec![hole.clone()];
         let contours = [square(120.0), hole];
-        let (_, label) = name_label(&frame, DVec2::X, &Taken::new(), &[contours.to_vec()])
+        let near = [obstacles(contours)];
+        let (_, label) = name_label(&frame, DVec2::X, &Taken::new(), (&near, NUMBER_HEIGHT))
             .expect("letters")
             .expect("room");
         assert_clear(&frame, &label);
-        assert_eq!(label.height, NAME_HEIGHT);
+        assert_eq!(label.height, NAME_SHARE * NUMBER_HEIGHT);
     }
 
     #[test]
     fn a_large_square_gets_the_full_height_upright() {
-        let (_, label) = name_label(&piece(PieceId(0), square(50.0)), DVec2::Y, &Taken::new(), &[])
-            .expect("letters")
-            .expect("room");
-        assert_eq!(label.height, NAME_HEIGHT);
+        let (_, label) = name_label(
+            &piece(PieceId(0), square(50.0)),
+            DVec2::Y,
+            &Taken::new(),
+            (&[], NUMBER_HEIGHT),
+        )
+        .expect("letters")
+        .expect("room");
+        assert_eq!(label.height, NAME_SHARE * NUMBER_HEIGHT);
         let reading = (label.frame[1] - label.frame[0]).normalize();
         assert!(reading.distance(DVec2::Y) < 1e-12);
     }
@@ -350,8 +382,9 @@ mod tests {
             ([0, 1], [piece.outline[0], piece.outline[1]]),
             ([1, 0], [piece.outline[1], piece.outline[0]]),
         ] {
-            let label =
-                number_label("12", face, edge, segment, &[], &[]).expect("letters").expect("room");
+            let label = number_label("12", face, edge, segment, room(&[], &[]))
+                .expect("letters")
+                .expect("room");
             assert_clear(&piece, &label);
             // The lower edge: reading from the middle, right is left.
             assert!((label.frame[1] - label.frame[0]).normalize().distance(-DVec2::X) < 1e-12);
@@ -359,7 +392,9 @@ mod tests {
             assert!(label.frame[1].y < 10.0);
         }
         let segment = [piece.outline[0], piece.outline[1]];
-        assert!(number_label("12", face, [0, 2], segment, &[], &[]).expect("letters").is_none());
+        assert!(
+            number_label("12", face, [0, 2], segment, room(&[], &[])).expect("letters").is_none()
+        );
     }
 
     #[test]
@@ -371,8 +406,8 @@ mod tests {
         let cut =
             [vec![DVec2::ZERO], points(notch), points([(60.0, 0.0), (60.0, 60.0), (0.0, 60.0)])]
                 .concat();
-        let label =
-            number_label("12", &piece.faces[0], [0, 1], segment, &[], std::slice::from_ref(&cut));
+        let cuts = obstacles([cut.clone()]);
+        let label = number_label("12", &piece.faces[0], [0, 1], segment, room(&[], &cuts));
         let label = label.expect("letters").expect("room beside or behind the notch");
         let in_notch = label.frame.iter().all(|p| locate(&points(notch), *p) == Location::Inside);
         assert!(
@@ -382,30 +417,31 @@ mod tests {
         );
         let hole = points([(10.0, 10.0), (10.0, 50.0), (50.0, 50.0), (50.0, 10.0)]);
         assert!(!is_clear(
-            &set("1", DVec2::splat(30.0), DVec2::X, 3.0).expect("a letter"),
-            &[square(60.0), hole]
+            &set("1", DVec2::splat(30.0), DVec2::X, 3.0).expect("a letter").frame,
+            &obstacles([square(60.0), hole])
         ));
         let slit = points([(0.0, 50.0), (60.0, 50.0)]);
-        assert!(is_clear(&set("1", DVec2::splat(30.0), DVec2::X, 3.0).expect("a letter"), &[slit]));
+        let label = set("1", DVec2::splat(30.0), DVec2::X, 3.0).expect("a letter");
+        assert!(is_clear(&label.frame, &obstacles([slit])));
     }
 
     #[test]
     fn a_taken_place_is_avoided_and_a_short_edge_gets_no_number() {
         let piece = piece(PieceId(0), square(60.0));
         let segment = [piece.outline[0], piece.outline[1]];
-        let first = number_label("12", &piece.faces[0], [0, 1], segment, &[], &[])
+        let first = number_label("12", &piece.faces[0], [0, 1], segment, room(&[], &[]))
             .expect("letters")
             .expect("room");
-        let second = number_label("13", &piece.faces[0], [0, 1], segment, &[first.frame], &[])
-            .expect("letters")
-            .expect("room");
+        let second =
+            number_label("13", &piece.faces[0], [0, 1], segment, room(&[first.frame], &[]))
+                .expect("letters")
+                .expect("room");
         assert!(!overlap(&first.frame, &second.frame));
         let small = self::piece(PieceId(0), square(3.0));
         let segment = [small.outline[0], small.outline[1]];
+        let low = Room { letter: suited(NUMBER_HEIGHT, 3.0), ..room(&[], &[]) };
         assert!(
-            number_label("12", &small.faces[0], [0, 1], segment, &[], &[])
-                .expect("letters")
-                .is_none()
+            number_label("12", &small.faces[0], [0, 1], segment, low).expect("letters").is_none()
         );
     }
 }

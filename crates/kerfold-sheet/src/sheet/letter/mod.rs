@@ -2,12 +2,11 @@
 
 mod glyph;
 mod label;
+mod obstacle;
 mod params;
 mod piece;
-mod stretch;
 
 pub use glyph::{CAPITAL, Lettering, glyph, lettering};
+pub(super) use label::sheet_letter;
 pub use params::{Angles, Labels, LetterParams};
 pub(super) use piece::PieceLettering;
-pub use stretch::Stretch;
-pub(super) use stretch::stretches;

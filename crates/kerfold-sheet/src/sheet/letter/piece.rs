@@ -5,17 +5,16 @@ use std::collections::BTreeMap;
 
 use glam::DVec2;
 
-use super::label::{
-    Label, Taken, is_clear, name_label, number_across, number_label, obstacles_near,
-};
+use super::label::{Label, Room, Taken, name_label, number_across, number_label, suited};
+use super::obstacle::{Obstacle, is_clear, obstacles_near};
 use super::params::{Angles, Labels, LetterParams};
-use super::stretch::Stretch;
 use crate::geom::polygon::{Location, locate};
 use crate::net::{FlatFace, FoldKind, Net, Piece, Seam};
 use crate::sheet::drawing::{Drawing, MarkKind, Stroke};
 use crate::sheet::error::SheetError;
 use crate::sheet::features::Features;
 use crate::sheet::layout::{Placed, SheetReport};
+use crate::sheet::stretch::Stretch;
 
 /// What is lettered first and so gets the best place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,9 +40,14 @@ pub(crate) struct PieceLettering<'a> {
     here: &'a Features<'a>,
     placed: &'a Placed,
     /// For each face what its labels must keep clear of.
-    obstacles: Vec<Vec<Vec<DVec2>>>,
+    obstacles: Vec<Vec<Obstacle>>,
     params: LetterParams,
+    /// Height of numbers that suits the sheet, in mm.
+    letter: f64,
 }
+
+/// How much larger a number must be to stand farther from the middle of its stretch.
+const WORTH: f64 = 1.3;
 
 /// Length of the mark at the end of a stretch, and how far from the edge it begins, in mm.
 const MARK: [f64; 2] = [2.0, 0.4];
@@ -54,11 +58,12 @@ impl<'a> PieceLettering<'a> {
         net: &'a Net,
         (piece, here, placed): (&'a Piece, &'a Features<'a>, &'a Placed),
         obstacles: &[Vec<DVec2>],
-        params: LetterParams,
+        (params, letter): (LetterParams, f64),
     ) -> Self {
-        let near = |face: &FlatFace| obstacles_near(&face.polygon, obstacles);
+        let obstacles: Vec<Obstacle> = obstacles.iter().filter_map(|o| Obstacle::of(o)).collect();
+        let near = |face: &FlatFace| obstacles_near(&face.polygon, &obstacles);
         let obstacles = piece.faces.iter().map(near).collect();
-        Self { net, piece, here, placed, obstacles, params }
+        Self { net, piece, here, placed, obstacles, params, letter }
     }
 
     /// Draws what there is room for, and counts the rest in the report.
@@ -106,9 +111,8 @@ impl<'a> PieceLettering<'a> {
 
     fn name(&self, lettered: &mut Lettered) -> Result<(), SheetError> {
         let upright = DVec2::from_angle(-self.placed.rotation.to_radians());
-        if let Some((face, label)) =
-            name_label(self.piece, upright, &lettered.taken, &self.obstacles)?
-        {
+        let room = (self.obstacles.as_slice(), self.letter);
+        if let Some((face, label)) = name_label(self.piece, upright, &lettered.taken, room)? {
             lettered.put(MarkKind::PieceName, format!("{}-name", self.piece.id), face, label);
             lettered.named = true;
         }
@@ -123,7 +127,8 @@ impl<'a> PieceLettering<'a> {
         let faces = self.faces();
         for &(seam, i) in &self.here.seams {
             let text = seam.id.0.to_string();
-            match self.beside(&text, &faces, (seam, i), false, &lettered.taken)? {
+            let letter = suited(self.letter, seam.length);
+            match self.beside(&text, &faces, (seam, i), (false, letter), &lettered.taken)? {
                 Some((at, label)) => lettered.put(
                     MarkKind::SeamNumber,
                     format!("{}-number-{}", seam.id, i + 1),
@@ -145,16 +150,19 @@ impl<'a> PieceLettering<'a> {
             let n = stretch.seams.len();
             let mut order: Vec<usize> = (0..n).collect();
             order.sort_by_key(|&k| ((2 * k + 1).abs_diff(n), k));
-            let mut found = None;
-            for across in [false, true] {
-                for &k in &order {
-                    let (s, forward) = stretch.seams[k];
-                    let side = (&self.net.seams[s], forward ^ i);
-                    found = match found {
-                        None => self.beside(&text, &faces, side, across, &lettered.taken)?,
-                        some => some,
-                    };
+            let letter = suited(self.letter, stretch.length(self.net));
+            let mut found: Option<(usize, Label)> = None;
+            let ways = [false, true].into_iter().flat_map(|w| order.iter().map(move |&k| (w, k)));
+            for (across, k) in ways {
+                let height = found.as_ref().map_or(0.0, |(_, label)| label.height);
+                if height >= letter {
+                    break;
                 }
+                let (s, forward) = stretch.seams[k];
+                let side = (&self.net.seams[s], forward ^ i);
+                let label = self.beside(&text, &faces, side, (across, letter), &lettered.taken)?;
+                // Nearer to the middle is better, unless it is much smaller there.
+                found = label.filter(|(_, l)| l.height > WORTH * height).or(found);
             }
             let (first, forward) = stretch.seams[0];
             let name =
@@ -186,7 +194,7 @@ impl<'a> PieceLettering<'a> {
         let inside = line.iter().all(|&p| locate(&face.polygon, p) == Location::Inside);
         let frame = [line[0], line[1], line[1], line[0]];
         let label = Label { strokes: vec![line], frame, height: MARK[0] };
-        (inside && is_clear(&label, &self.obstacles[index])).then_some(label)
+        (inside && is_clear(&label.frame, &self.obstacles[index])).then_some(label)
     }
 
     fn angles(&self, lettered: &mut Lettered) -> Result<(), SheetError> {
@@ -195,19 +203,14 @@ impl<'a> PieceLettering<'a> {
             let text = format!("{:.0}°", fold.fold_angle);
             let mut found = None;
             for at in fold.faces.iter().filter_map(|f| faces.get(f).copied()) {
-                let taken = lettered.taken.get(&at).map_or(&[][..], Vec::as_slice);
-                found = match found {
-                    None => number_label(
-                        &text,
-                        &self.piece.faces[at],
-                        fold.edge,
-                        fold.segment,
-                        taken,
-                        &self.obstacles[at],
-                    )?
-                    .map(|label| (at, label)),
-                    some => some,
-                };
+                if found.is_none() {
+                    let [a, b] = fold.segment;
+                    let letter = suited(self.letter, a.distance(b));
+                    let room = Room { letter, ..self.room(at, &lettered.taken) };
+                    let face = &self.piece.faces[at];
+                    let label = number_label(&text, face, fold.edge, fold.segment, room)?;
+                    found = label.map(|label| (at, label));
+                }
             }
             match found {
                 Some((at, label)) => {
@@ -224,16 +227,22 @@ impl<'a> PieceLettering<'a> {
         text: &str,
         faces: &BTreeMap<usize, usize>,
         (seam, i): (&Seam, usize),
-        across: bool,
+        (across, letter): (bool, f64),
         taken: &Taken,
     ) -> Result<Option<(usize, Label)>, SheetError> {
         let side = &seam.sides[i];
         let Some(&at) = faces.get(&side.face) else { return Ok(None) };
-        let taken = taken.get(&at).map_or(&[][..], Vec::as_slice);
         let put = if across { number_across } else { number_label };
-        let label =
-            put(text, &self.piece.faces[at], seam.edge, side.segment, taken, &self.obstacles[at])?;
+        let face = &self.piece.faces[at];
+        let room = Room { letter, ..self.room(at, taken) };
+        let label = put(text, face, seam.edge, side.segment, room)?;
         Ok(label.map(|label| (at, label)))
+    }
+
+    /// What labels in a face keep clear of.
+    fn room<'b>(&'b self, face: usize, taken: &'b Taken) -> Room<'b> {
+        let taken = taken.get(&face).map_or(&[][..], Vec::as_slice);
+        Room { taken, obstacles: &self.obstacles[face], letter: self.letter }
     }
 }
 

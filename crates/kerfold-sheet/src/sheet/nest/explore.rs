@@ -1,6 +1,8 @@
 //! From a first layout to a better one: the last sheet is made shorter and shorter, and after every
 //! step all pieces of all sheets are separated again.
 
+use std::collections::BTreeMap;
+
 use glam::DVec2;
 
 use super::super::layout::Turn;
@@ -58,7 +60,7 @@ impl Explore<'_, '_, '_, '_> {
         Layout { spots: self.field.spots[..self.field.pieces].to_vec(), bins, used }
     }
 
-    /// The layout with the pieces where they are told to lie.
+    /// The layout with the pieces where they are said to lie.
     pub fn given(&mut self, lying: &[Lying]) -> Layout {
         while lying.iter().any(|l| l.bin >= self.bins.open) {
             self.bins.open_next(self.field);
@@ -209,49 +211,56 @@ impl Explore<'_, '_, '_, '_> {
         self.full(best.bins);
         if used > least {
             self.field.rooms[last].high = axis.with(stock.high, axis.of(stock.low) + used);
-            for i in here {
-                let spot = self.field.spots[i];
-                let (low, high) = self.field.range(&self.field.posed[i], last);
-                if (low - high).max_element() > 0.0 {
-                    // What belongs to a group stays with it.
-                    match self.groups[i] {
-                        Some(_) => self.relocate_to(i, &[last]),
-                        None => self.relocate(i, best.bins),
-                    }
-                } else if spot.at.cmpgt(high).any() {
-                    self.field.put(i, Spot { at: spot.at.min(high).max(low), ..spot });
-                }
+            here.into_iter().for_each(|i| self.push_in(i, last));
+            Some((best.bins, used))
+        } else if last > 0 && self.empty_last(here, last) {
+            Some((last, length))
+        } else {
+            None
+        }
+    }
+
+    /// Brings a piece into its bin, which became shorter.
+    fn push_in(&mut self, i: usize, bin: usize) {
+        let spot = self.field.spots[i];
+        let (low, high) = self.field.range(&self.field.posed[i], bin);
+        if (low - high).max_element() > 0.0 {
+            // What belongs to a group stays with it.
+            match self.groups[i] {
+                Some(_) => self.relocate_to(i, &[bin]),
+                None => self.relocate(i, bin + 1),
             }
-            return Some((best.bins, used));
+        } else if spot.at.cmpgt(high).any() {
+            self.field.put(i, Spot { at: spot.at.min(high).max(low), ..spot });
         }
-        if last == 0 {
-            return None;
-        }
-        let mut moved: Vec<usize> = here;
-        moved.sort_by(|&a, &b| {
+    }
+
+    /// Moves the pieces of the last bin to those before it, the largest first and groups together;
+    /// says whether all could be.
+    fn empty_last(&mut self, mut pieces: Vec<usize>, last: usize) -> bool {
+        pieces.sort_by(|&a, &b| {
             self.field.shapes[b].area.total_cmp(&self.field.shapes[a].area).then(a.cmp(&b))
         });
-        for &i in &moved {
+        for &i in &pieces {
             self.field.take(i);
         }
-        let mut group_bin: std::collections::BTreeMap<usize, usize> =
-            std::collections::BTreeMap::new();
-        for i in moved {
+        let mut group_bin: BTreeMap<usize, usize> = BTreeMap::new();
+        for i in pieces {
             if self.bins.of[i].first().is_none_or(|&b| b >= last) {
-                return None;
+                return false;
             }
             match self.groups[i] {
                 None => self.relocate(i, last),
                 Some(group) => {
                     let to = *group_bin.entry(group).or_insert_with(|| self.rng.below(last));
                     if self.bins.of[i].binary_search(&to).is_err() {
-                        return None;
+                        return false;
                     }
                     self.relocate_to(i, &[to]);
                 }
             }
         }
-        Some((last, axis.of(stock.high - stock.low)))
+        true
     }
 
     /// A bound on how short a bin may be for a piece: its least extent at the angles that are
@@ -283,7 +292,7 @@ impl Explore<'_, '_, '_, '_> {
         if let Some(found) = found {
             self.field.put(i, found.spot);
         } else if !self.field.is_in(i) {
-            // Where it fits at few angles only, it is left where it was told to fit.
+            // Where it fits at few angles only, it is left where it was said to fit.
             let bin = bins[0];
             let angle = match &self.turns[i] {
                 Turns::Free { home } => *home,

@@ -6,7 +6,7 @@
 
 use glam::DVec2;
 
-use super::super::params::Stock;
+use super::super::stock::Stock;
 use super::stock::StockSheet;
 use super::{Axis, Effort, NoPlace};
 use crate::progress::Progress;
@@ -208,8 +208,8 @@ fn best_place(open: &[Sheet], b: &Boxed) -> Option<(usize, usize, f64)> {
     best
 }
 
-/// The cuts that take the margin off on the left and below, and the glass that is left; on the other
-/// sides the last cuts do it.
+/// The cuts that take the margin off on the left and below, and the glass that is left; on the
+/// other sides the last cuts do it.
 fn trimmed(stock: &Stock) -> (Vec<[DVec2; 2]>, Glass) {
     let at = DVec2::splat(stock.margin - stock.spacing / 2.0);
     let mut glass = Glass { low: DVec2::ZERO, high: stock.size };

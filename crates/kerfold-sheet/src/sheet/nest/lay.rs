@@ -5,13 +5,15 @@ use glam::DVec2;
 use super::super::bounding_box::{OrientedBox, box_at, fitting_box, rounded};
 use super::super::kerf::CutShape;
 use super::super::layout::Turn;
-use super::super::params::SheetParams;
 use super::super::place::{Item, pack, pack_rows};
 use super::guillotine::{Boxed, guillotine};
 use super::search::Turns;
 use super::shape::Shape;
 use super::stock::StockSheet;
-use super::{Axis, CommonLine, Effort, Guillotine, Lying, NoPlace, Piece, Problem, Rotation, nest};
+use super::{
+    Axis, CommonLine, Effort, Guillotine, Lying, NestParams, NoPlace, Piece, Problem, Rotation,
+    nest,
+};
 use crate::geom::polygon::{bounds, convex_hull, signed_area};
 use crate::net::PieceId;
 use crate::progress::Progress;
@@ -28,6 +30,8 @@ const MOST_BOXES: usize = 500;
 pub(crate) struct Laid {
     pub lying: Vec<Lying>,
     pub cuts: Vec<Vec<[DVec2; 2]>>,
+    /// Pieces that were taken for larger than they are, as their lines cross.
+    pub widened: Vec<PieceId>,
 }
 
 /// A piece with its hull and what is allowed.
@@ -44,10 +48,10 @@ pub(crate) struct Candidate<'a> {
 pub(crate) fn candidates<'a>(
     shapes: &'a [CutShape],
     sheets: &[StockSheet],
-    params: &SheetParams,
+    params: &NestParams,
 ) -> Vec<Candidate<'a>> {
     let rotation =
-        |piece: PieceId| params.nest.rotate.0.get(&piece).copied().unwrap_or(params.nest.rotations);
+        |piece: PieceId| params.rotate.0.get(&piece).copied().unwrap_or(params.rotations);
     let mut all = Vec::with_capacity(shapes.len());
     for shape in shapes {
         let (rotation, hull) = (rotation(shape.piece), convex_hull(&shape.outline));
@@ -79,24 +83,22 @@ fn pose(hull: &[DVec2], rotation: Rotation, sheet: &StockSheet) -> Option<Orient
 pub(crate) fn lay(
     candidates: &[Candidate<'_>],
     sheets: &[StockSheet],
-    params: &SheetParams,
+    params: &NestParams,
     progress: &dyn Progress,
 ) -> Result<Laid, NoPlace> {
-    let effort = f64::from(params.nest.nest_effort) * WORK_OF_EFFORT;
+    let effort = f64::from(params.nest_effort) * WORK_OF_EFFORT;
     let share = ((candidates.len() as f64 + 5.0) / FULL_EFFORT_PIECES).min(1.0);
-    let effort = Effort { seed: params.nest.nest_seed, work: (effort * share) as u64 };
-    if params.nest.guillotine == Guillotine::On {
+    let effort = Effort { seed: params.nest_seed, work: (effort * share) as u64 };
+    if params.guillotine == Guillotine::On {
         return by_guillotine(candidates, sheets, effort, progress);
     }
-    let is_plain = sheets.len() == 1
-        && sheets[0].bin().obstacles.is_empty()
-        && params.nest.together.0.is_empty();
-    if is_plain && params.nest.nest_effort == 0 && params.nest.common_line == CommonLine::Off {
-        return Ok(Laid { lying: boxes(candidates, &sheets[0], pack_rows), cuts: Vec::new() });
+    let is_plain =
+        sheets.len() == 1 && sheets[0].bin().obstacles.is_empty() && params.together.0.is_empty();
+    if is_plain && params.nest_effort == 0 && params.common_line == CommonLine::Off {
+        return Ok(Laid { lying: boxes(candidates, &sheets[0], pack_rows), ..Laid::default() });
     }
-    let group = |piece: PieceId| {
-        params.nest.together.0.iter().position(|g| g.len() > 1 && g.contains(&piece))
-    };
+    let group =
+        |piece: PieceId| params.together.0.iter().position(|g| g.len() > 1 && g.contains(&piece));
     let least = Least::of(candidates, sheets[0].stock.spacing);
     let pieces = candidates.iter().map(|c| Piece {
         shape: Shape::new(&c.shape.outline, &least.holes_with_room(c.shape)),
@@ -113,11 +115,14 @@ pub(crate) fn lay(
         pieces: pieces.collect(),
         stock: sheets.iter().map(StockSheet::bin).collect(),
         spacing: sheets[0].stock.spacing,
-        common_line: params.nest.common_line,
+        common_line: params.common_line,
     };
     let start =
         (is_plain && candidates.len() <= MOST_BOXES).then(|| boxes(candidates, &sheets[0], pack));
-    Ok(Laid { lying: nest(&problem, start, effort, progress)?, cuts: Vec::new() })
+    let lies_wide = |(_, piece): &(&Candidate<'_>, &Piece)| !piece.shape.is_exact;
+    let widened = candidates.iter().zip(&problem.pieces).filter(lies_wide);
+    let widened = widened.map(|(c, _)| c.shape.piece).collect();
+    Ok(Laid { lying: nest(&problem, start, effort, progress)?, widened, ..Laid::default() })
 }
 
 /// What a hole must have at least, or no piece can lie in it.
@@ -217,7 +222,7 @@ fn by_guillotine(
         let angle = rounded(place.angle.rem_euclid(360.0));
         Lying { bin: place.bin, angle, at: put_low(&c.shape.outline, angle, place.low) }
     });
-    Ok(Laid { lying: lying.collect(), cuts })
+    Ok(Laid { lying: lying.collect(), cuts, ..Laid::default() })
 }
 
 /// The part of the last sheet that is left whole: from the furthest cut and the spacing on to the

@@ -28,7 +28,7 @@ pub use self::params::{
     CommonLine, Corners, DefectList, GroupList, Guillotine, NestParams, Rotation, RotationList,
     StockList,
 };
-pub(crate) use self::stock::StockSheet;
+pub(crate) use self::stock::{StockSheet, stock_sheets};
 
 use self::collision_field::{CollisionField, Obstacle};
 use self::explore::Explore;

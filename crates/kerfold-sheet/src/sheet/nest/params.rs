@@ -9,7 +9,7 @@ use clap::ValueEnum;
 use glam::DVec2;
 use serde::{Deserialize, Deserializer};
 
-use super::super::params::SheetSize;
+use super::super::stock::SheetSize;
 use crate::net::PieceId;
 use crate::units::{Length, UnitError, parse_number};
 
@@ -47,12 +47,26 @@ pub struct NestParams {
     #[serde(default)]
     pub defects: DefectList,
     /// Whether sheets are divided by straight cuts from edge to edge only, as glass is
-    #[arg(long, value_enum, default_value = "off", num_args = 0..=1, default_missing_value = "on", require_equals = true)]
+    #[arg(
+        long,
+        value_enum,
+        default_value = "off",
+        num_args = 0..=1,
+        default_missing_value = "on",
+        require_equals = true
+    )]
     #[serde(default)]
     pub guillotine: Guillotine,
     /// Whether parts may lie side to side and share straight lines, which are cut once; only
     /// without kerf. Where they do not touch they keep the spacing
-    #[arg(long, value_enum, default_value = "off", num_args = 0..=1, default_missing_value = "on", require_equals = true)]
+    #[arg(
+        long,
+        value_enum,
+        default_value = "off",
+        num_args = 0..=1,
+        default_missing_value = "on",
+        require_equals = true
+    )]
     #[serde(default)]
     pub common_line: CommonLine,
     /// How long to search for a better layout: about tenths of a second for a hundred pieces or

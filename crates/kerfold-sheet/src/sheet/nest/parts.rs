@@ -11,20 +11,23 @@ use crate::geom::polygon::signed_area;
 use crate::geom::predicate::orient2d;
 use crate::geom::triangulate_region;
 
-/// The convex parts, counter-clockwise, of the area between an outline and its holes. Where the
-/// contours cross each other the outline alone counts; where that crosses itself, its convex hull.
-pub(super) fn convex_parts(outline: &[DVec2], holes: &[Vec<DVec2>]) -> Vec<Vec<DVec2>> {
+/// The convex parts, counter-clockwise, of the area between an outline and its holes. `None` where
+/// contours cross each other or themselves.
+pub(super) fn convex_parts(outline: &[DVec2], holes: &[Vec<DVec2>]) -> Option<Vec<Vec<DVec2>>> {
     if is_convex(outline) && holes.is_empty() {
-        return vec![outline.to_vec()];
+        return Some(vec![outline.to_vec()]);
     }
     let contours: Vec<&[DVec2]> =
         std::iter::once(outline).chain(holes.iter().map(Vec::as_slice)).collect();
-    let region = triangulate_region(&contours).or_else(|| triangulate_region(&[outline]));
-    let Some((corners, triangles)) = region else {
-        return vec![crate::geom::polygon::convex_hull(outline)];
-    };
+    let (corners, triangles) = triangulate_region(&contours)?;
     let parts = united(&corners, triangles);
-    parts.into_iter().map(|part| part.into_iter().map(|i| corners[i]).collect()).collect()
+    Some(parts.into_iter().map(|part| part.into_iter().map(|i| corners[i]).collect()).collect())
+}
+
+/// Convex parts of more than the area, where contours cross: of the outline without holes, or its
+/// convex hull.
+pub(super) fn wider_parts(outline: &[DVec2]) -> Vec<Vec<DVec2>> {
+    convex_parts(outline, &[]).unwrap_or_else(|| vec![crate::geom::polygon::convex_hull(outline)])
 }
 
 fn is_convex(contour: &[DVec2]) -> bool {
@@ -107,7 +110,7 @@ mod tests {
     }
 
     fn assert_parts(outline: &[DVec2], holes: &[Vec<DVec2>]) -> usize {
-        let parts = convex_parts(outline, holes);
+        let parts = convex_parts(outline, holes).expect("nothing crosses");
         let whole = signed_area(outline) + holes.iter().map(|h| signed_area(h)).sum::<f64>();
         assert!(parts.iter().all(|p| is_convex(p)), "{parts:?}");
         assert!(
@@ -130,7 +133,11 @@ mod tests {
     #[test]
     fn crossing_contours_are_covered_more_widely() {
         let bow = [(0.0, 0.0), (10.0, 0.0), (0.0, 10.0), (12.0, 10.0)].map(DVec2::from);
-        assert_eq!(convex_parts(&bow, &[]).len(), 1);
+        assert_eq!(convex_parts(&bow, &[]), None);
+        assert_eq!(wider_parts(&bow).len(), 1);
+        let hole = square(4.0).into_iter().rev().map(|p| p + DVec2::splat(8.0)).collect();
+        assert_eq!(convex_parts(&square(10.0), &[hole]), None, "it sticks out");
+        assert_eq!(wider_parts(&square(10.0)), [square(10.0)]);
     }
 
     proptest! {

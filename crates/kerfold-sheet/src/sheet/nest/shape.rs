@@ -6,7 +6,7 @@
 use glam::DVec2;
 
 use super::super::layout::Turn;
-use super::parts::convex_parts;
+use super::parts::{convex_parts, wider_parts};
 use super::simplify::simplified;
 use crate::geom::polygon::{bounds, centroid, convex_hull, signed_area};
 
@@ -28,26 +28,35 @@ pub(super) struct Shape {
     /// first.
     pub sides: Vec<[DVec2; 2]>,
     parts: Vec<Vec<DVec2>>,
+    /// Whether the parts cover the shape and, but for what makes it simpler, nothing else.
+    pub is_exact: bool,
     /// The true hull: parts may be larger by a little, and a shape that fills a sheet must fit.
     hull: Vec<DVec2>,
 }
 
 impl Shape {
-    /// Of an outline and its holes; in a slightly larger form when it has very many corners.
+    /// Of an outline and its holes; in a slightly larger form when it has very many corners, and in
+    /// a larger one when contours cross.
     pub fn new(outline: &[DVec2], holes: &[Vec<DVec2>]) -> Self {
         let mut hull = convex_hull(outline);
         let truly = outline;
-        let (outline, holes) = simplified(outline, holes);
-        let origin = centroid(&outline);
-        let mut parts = convex_parts(&outline, &holes);
+        let (fewer, fewer_holes) = simplified(outline, holes);
+        let origin = centroid(&fewer);
+        // Contours made simpler one by one may come to cross.
+        let (parts, outline, holes) = match convex_parts(&fewer, &fewer_holes) {
+            Some(parts) => (Some(parts), fewer, fewer_holes),
+            None => (convex_parts(outline, holes), outline.to_vec(), holes.to_vec()),
+        };
+        let is_exact = parts.is_some();
+        let mut parts = parts.unwrap_or_else(|| wider_parts(&outline));
         parts.iter_mut().flatten().for_each(|p| *p -= origin);
         hull.iter_mut().for_each(|p| *p -= origin);
         let radius = parts.iter().flatten().map(|p| p.length()).fold(0.0, f64::max);
         let area = parts.iter().map(|p| signed_area(p)).sum();
-        let boxes =
-            holes.iter().filter_map(bounds).map(|(low, high)| (low - origin, high - origin));
+        let free = holes.iter().filter(|_| is_exact).filter_map(bounds);
+        let holes = free.map(|(low, high)| (low - origin, high - origin)).collect();
         let sides = sides(truly, origin, 2.0 * radius);
-        Self { origin, diameter: 2.0 * radius, area, sides, holes: boxes.collect(), parts, hull }
+        Self { origin, diameter: 2.0 * radius, area, sides, holes, parts, is_exact, hull }
     }
 
     /// The greatest extents of the parts.

@@ -4,7 +4,7 @@
 use super::abut::abutting;
 use super::collision_field::{CollisionField, Obstacle, Room, Spot};
 use super::search::{Search, Trials, Turns};
-use super::{Bin, CommonLine, NoPlace, Problem};
+use super::{Axis, Bin, CommonLine, NoPlace, Problem};
 use crate::progress::Progress;
 use crate::random::Rng;
 
@@ -154,63 +154,89 @@ impl Start<'_, '_, '_, '_> {
             return Some(spot);
         }
         let only = [bin];
-        let trials = self.trials;
-        let mut search = Search::new(self.field, self.rng, turns, &only, i);
-        let home = match turns {
-            Turns::Free { home } => *home,
-            Turns::Some(angles) => angles[0],
-        };
-        let key = |search: &Search<'_, '_>, spot: Spot| {
-            let far = spot.at + search.high();
-            axis.of(far) + 0.05 * axis.across(far)
-        };
-        let mut best: Option<(f64, Spot)> = None;
-        let offer = |search: &mut Search<'_, '_>, spot: Spot, best: &mut Option<(f64, Spot)>| {
-            // The key is cheap to know before anything is measured.
-            let Some(spot) = search.inside(spot) else { return false };
-            let key = key(search, spot);
-            let better = best.is_none_or(|(least, _)| key < least) && search.is_free(spot);
-            if better {
-                *best = Some((key, spot));
-            }
-            better
-        };
-        let all: Vec<f64> = match turns {
-            Turns::Free { home } => (0..4).map(|k| home + 90.0 * f64::from(k)).collect(),
-            Turns::Some(angles) => angles.clone(),
+        let search = Search::new(self.field, self.rng, turns, &only, i);
+        let mut lowest = Lowest { search, axis, best: None };
+        lowest.try_corners(turns, bin);
+        lowest.try_anywhere(self.trials, bin);
+        if lowest.best.is_none() {
+            lowest.escape(self.trials);
+        }
+        lowest.settled()
+    }
+}
+
+/// The search for the place furthest back.
+struct Lowest<'f, 'a> {
+    search: Search<'f, 'a>,
+    axis: Axis,
+    best: Option<Candidate>,
+}
+
+/// A free place, and how far from the back it is.
+#[derive(Clone, Copy)]
+struct Candidate {
+    far: f64,
+    spot: Spot,
+}
+
+impl Lowest<'_, '_> {
+    /// Keeps a place that is better than the best so far; says whether it is.
+    fn offer(&mut self, spot: Spot) -> bool {
+        let Some(spot) = self.search.inside(spot) else { return false };
+        // This is cheap to know before anything is measured.
+        let high = spot.at + self.search.high();
+        let far = self.axis.of(high) + 0.05 * self.axis.across(high);
+        let is_better = self.best.is_none_or(|best| far < best.far) && self.search.is_free(spot);
+        if is_better {
+            self.best = Some(Candidate { far, spot });
+        }
+        is_better
+    }
+
+    /// As far back as the bin goes, at the angles that are usual.
+    fn try_corners(&mut self, turns: &Turns, bin: usize) {
+        let (home, all): (f64, Vec<f64>) = match turns {
+            Turns::Free { home } => (*home, (0..4).map(|k| home + 90.0 * f64::from(k)).collect()),
+            Turns::Some(angles) => (angles[0], angles.clone()),
         };
         for angle in all.into_iter().chain([home]) {
-            offer(&mut search, Spot { bin, at: glam::DVec2::NEG_INFINITY, angle }, &mut best);
+            self.offer(Spot { bin, at: glam::DVec2::NEG_INFINITY, angle });
         }
+    }
+
+    /// Anywhere, and in the holes of pieces that lie already.
+    fn try_anywhere(&mut self, trials: usize, bin: usize) {
         for _ in 0..trials {
-            let spot = search.anywhere();
-            offer(&mut search, spot, &mut best);
+            let spot = self.search.anywhere();
+            self.offer(spot);
         }
-        for (low, high) in search.holes(bin) {
+        for (low, high) in self.search.holes(bin) {
             for _ in 0..4 {
-                let spot = search.within(bin, low, high);
-                offer(&mut search, spot, &mut best);
+                let spot = self.search.within(bin, low, high);
+                self.offer(spot);
             }
         }
-        if best.is_none() {
-            // Nothing by luck: from the least bad places step by step.
-            let many = Trials { anywhere: trials / 2 + 4, near: 0 };
-            best = search
-                .best(many, None, f64::INFINITY)
-                .filter(|f| f.loss == 0.0)
-                .map(|f| (f64::INFINITY, f.spot));
-        }
-        let (_, mut spot) = best?;
-        let diameter = search.field.shapes[i].diameter;
+    }
+
+    /// Nothing by luck: from the least bad places step by step.
+    fn escape(&mut self, trials: usize) {
+        let many = Trials { anywhere: trials / 2 + 4, near: 0 };
+        let found = self.search.best(many, None, f64::INFINITY).filter(|f| f.loss == 0.0);
+        self.best = found.map(|found| Candidate { far: f64::INFINITY, spot: found.spot });
+    }
+
+    /// The best place, pushed back as far as it goes.
+    fn settled(mut self) -> Option<Spot> {
+        let mut spot = self.best?.spot;
+        let (axis, other) = (self.axis.unit(), self.axis.other().unit());
+        let diameter = self.search.field.shapes[self.search.piece].diameter;
         let mut step = diameter;
         while step > 1e-3 * diameter {
-            let moved = [axis.unit() + axis.other().unit(), axis.unit(), axis.other().unit()]
+            let moved = [axis + other, axis, other]
                 .into_iter()
-                .any(|way| {
-                    offer(&mut search, Spot { at: spot.at - way * step, ..spot }, &mut best)
-                });
-            match best {
-                Some((_, better)) if moved => spot = better,
+                .any(|way| self.offer(Spot { at: spot.at - way * step, ..spot }));
+            match self.best {
+                Some(better) if moved => spot = better.spot,
                 _ => step *= 0.5,
             }
         }

@@ -3,11 +3,11 @@
 use glam::DVec2;
 
 use super::super::error::SheetError;
-use super::super::params::{SheetParams, Stock, StockParams};
+use super::super::stock::{Stock, StockParams};
 use super::collision_field::Obstacle;
 use super::parts::convex_parts;
 use super::shape::Shape;
-use super::{Bin, CommonLine, Guillotine};
+use super::{Bin, CommonLine, Guillotine, NestParams};
 use crate::geom::polygon::{bounds, segments_cross, signed_area};
 
 /// One sheet.
@@ -21,74 +21,70 @@ pub(crate) struct StockSheet {
     pub defects: Vec<Vec<DVec2>>,
 }
 
-impl SheetParams {
-    /// The sheets in the order in which they are used; the last as often as needed. Nothing for
-    /// `sheet = none`.
-    ///
-    /// # Errors
-    /// Numbers out of range, polygons that cross themselves, a margin that leaves nothing of a
-    /// sheet.
-    pub(crate) fn sheets(&self) -> Result<Option<Vec<StockSheet>>, SheetError> {
-        let Some(usual) = self.stock.checked()? else { return Ok(None) };
-        let nest = &self.nest;
-        let outline = sound("sheet-outline", &nest.sheet_outline.0, usual.size)?;
-        let usual = StockSheet { stock: usual, outline, defects: Vec::new() };
-        let mut sheets = Vec::new();
-        for &(size, count) in &nest.stock.0 {
-            let of_size = StockParams { sheet: size, ..self.stock.clone() };
-            if let Some(stock) = of_size.checked()? {
-                let sheet = StockSheet { stock, outline: Vec::new(), defects: Vec::new() };
-                sheets.extend(std::iter::repeat_n(sheet, count));
-            }
+/// The sheets in the order in which they are used; the last as often as needed. Nothing for
+/// `sheet = none`.
+///
+/// # Errors
+/// Numbers out of range, polygons that cross themselves, a margin that leaves nothing of a
+/// sheet.
+pub(crate) fn stock_sheets(
+    nest: &NestParams,
+    stock: &StockParams,
+) -> Result<Option<Vec<StockSheet>>, SheetError> {
+    let Some(usual) = stock.checked()? else { return Ok(None) };
+    let outline = sound("sheet-outline", &nest.sheet_outline.0, usual.size)?;
+    let usual = StockSheet { stock: usual, outline, defects: Vec::new() };
+    let mut sheets = Vec::new();
+    for &(size, count) in &nest.stock.0 {
+        let of_size = StockParams { sheet: size, ..stock.clone() };
+        if let Some(stock) = of_size.checked()? {
+            let sheet = StockSheet { stock, outline: Vec::new(), defects: Vec::new() };
+            sheets.extend(std::iter::repeat_n(sheet, count));
         }
-        let most = nest.defects.0.iter().filter_map(|d| d.0).max().map_or(0, |last| last + 1);
-        if most > MOST_SHEETS {
-            return Err(SheetError::BadPolygon {
-                name: "defects",
-                why: "they name a sheet above 10000".to_owned(),
-            });
-        }
-        while sheets.len() < most + 1
-            || nest.stock.0.iter().map(|s| s.1).sum::<usize>() + 1 > sheets.len()
-        {
-            sheets.push(usual.clone());
-        }
-        let last = sheets.len() - 1;
-        for (which, corners) in &nest.defects.0 {
-            for (i, sheet) in sheets.iter_mut().enumerate() {
-                // The last one stands for all further ones, which have only the defects of all
-                // sheets.
-                if which.is_none_or(|w| w == i && i < last) {
-                    let defect = sound("defects", corners, DVec2::INFINITY)?;
-                    sheet.defects.push(defect);
-                }
-            }
-        }
-        self.check_common_line()?;
-        let is_odd = sheets.iter().any(|s| !s.outline.is_empty() || !s.defects.is_empty());
-        if nest.guillotine == Guillotine::On && (is_odd || !nest.together.0.is_empty()) {
-            return Err(SheetError::GuillotineOption);
-        }
-        Ok(Some(sheets))
     }
+    let most = nest.defects.0.iter().filter_map(|d| d.0).max().map_or(0, |last| last + 1);
+    if most > MOST_SHEETS {
+        return Err(SheetError::BadPolygon {
+            name: "defects",
+            why: "they name a sheet above 10000".to_owned(),
+        });
+    }
+    while sheets.len() < most + 1
+        || nest.stock.0.iter().map(|s| s.1).sum::<usize>() + 1 > sheets.len()
+    {
+        sheets.push(usual.clone());
+    }
+    let last = sheets.len() - 1;
+    for (which, corners) in &nest.defects.0 {
+        for (i, sheet) in sheets.iter_mut().enumerate() {
+            // The last one stands for all further ones, which have only the defects of all
+            // sheets.
+            if which.is_none_or(|w| w == i && i < last) {
+                let defect = sound("defects", corners, DVec2::INFINITY)?;
+                sheet.defects.push(defect);
+            }
+        }
+    }
+    check_common_line(nest, stock)?;
+    let is_odd = sheets.iter().any(|s| !s.outline.is_empty() || !s.defects.is_empty());
+    if nest.guillotine == Guillotine::On && (is_odd || !nest.together.0.is_empty()) {
+        return Err(SheetError::GuillotineOption);
+    }
+    Ok(Some(sheets))
 }
 
-impl SheetParams {
-    fn check_common_line(&self) -> Result<(), SheetError> {
-        if self.nest.common_line == CommonLine::Off {
-            return Ok(());
-        }
-        if self.stock.kerf.mm() > 0.0 {
-            return Err(SheetError::CommonLineKerf { kerf: self.stock.kerf.mm() });
-        }
-        let with = [
-            ("guillotine", self.nest.guillotine == Guillotine::On),
-            ("hold", self.stock.holding_tabs > 0),
-        ];
-        match with.into_iter().find(|w| w.1) {
-            Some((option, _)) => Err(SheetError::CommonLineOption { option }),
-            None => Ok(()),
-        }
+fn check_common_line(nest: &NestParams, stock: &StockParams) -> Result<(), SheetError> {
+    if nest.common_line == CommonLine::Off {
+        return Ok(());
+    }
+    if stock.kerf.mm() > 0.0 {
+        return Err(SheetError::CommonLineKerf { kerf: stock.kerf.mm() });
+    }
+    let with =
+        [("guillotine", nest.guillotine == Guillotine::On), ("hold", stock.holding_tabs > 0)];
+    match with.into_iter().find(|w| w.1) {
+        Some((option, _)) => Err(SheetError::CommonLineOption { option }),
+        None => Ok(()),
     }
 }
 
@@ -143,7 +139,7 @@ impl StockSheet {
             let (l, h) = (least - by, most + by);
             let frame = [l, DVec2::new(h.x, l.y), h, DVec2::new(l.x, h.y)];
             let inside: Vec<DVec2> = self.outline.iter().rev().copied().collect();
-            let parts = convex_parts(&frame, &[inside]);
+            let parts = convex_parts(&frame, &[inside]).expect("sound outlines do not cross");
             obstacles.extend(
                 parts
                     .into_iter()

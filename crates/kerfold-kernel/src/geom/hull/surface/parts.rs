@@ -37,7 +37,7 @@ impl Division {
 }
 
 impl Surface<'_> {
-    /// Divides the surface by what `part_of` says of each facet's first corner. `room` tells for
+    /// Divides the surface by what `part_of` says of each facet's first corner. `room` says for
     /// each part how many facets can be added there.
     ///
     /// Until [`Self::join`] the surface itself is of no use.

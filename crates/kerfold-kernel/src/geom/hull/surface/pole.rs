@@ -1,7 +1,7 @@
 //! The poles of facets, and what they tell of a point without a look at the corners.
 //!
 //! The pole y of a plane that misses the centre is the point with y·x = 1 for all x on the plane; x
-//! lies beyond it, seen from the centre, where y·x > 1. So one product of three terms tells whether
+//! lies beyond it, seen from the centre, where y·x > 1. So one product of three terms says whether
 //! a facet sees a point. A pole is rounded: it is kept only where that can be wrong by less than
 //! [`POLE_BOUND`], and values nearer to 1 are left to the corners.
 

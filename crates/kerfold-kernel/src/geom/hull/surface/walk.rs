@@ -38,7 +38,7 @@ impl Surface<'_> {
     /// Walks over the sides that the ray from the centre to p certainly lies beyond, the farther of
     /// two.
     ///
-    /// Ends at [`Self::last`] and tells whether the ray certainly passes through that facet; `None`
+    /// Ends at [`Self::last`] and says whether the ray certainly passes through that facet; `None`
     /// when it led nowhere. Carries along the products of the corners of the side that was crossed
     /// with the target, so that a step costs one more.
     pub(super) fn quick_walk<S: Signs>(&mut self, cloud: &Cloud<S>, p: u32) -> Option<bool> {

@@ -12,8 +12,11 @@ use crate::mesh::{EdgeId, FaceId, HalfEdgeId, MAX_ELEMENTS, VertexId};
 
 mod corner;
 mod region;
+mod renumbering;
 
 pub use region::Region;
+pub use renumbering::Renumbering;
+use renumbering::renumber;
 
 /// Why a fundamental operator refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -587,42 +590,6 @@ impl Mesh {
         self.faces[f.index()].start = Link::FREE;
         self.free_faces.push(f);
     }
-}
-
-/// Where [`Mesh::compact`] moved the elements.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Renumbering {
-    vertices: Vec<u32>,
-    edges: Vec<u32>,
-    faces: Vec<u32>,
-}
-
-impl Renumbering {
-    /// The new id of a vertex; `None` when it was deleted.
-    pub fn vertex(&self, v: VertexId) -> Option<VertexId> {
-        self.vertices.get(v.index()).filter(|&&i| i != NONE).map(|&i| VertexId(i))
-    }
-
-    /// The new id of an edge; `None` when it was deleted.
-    pub fn edge(&self, e: EdgeId) -> Option<EdgeId> {
-        self.edges.get(e.index()).filter(|&&i| i != NONE).map(|&i| EdgeId(i))
-    }
-
-    /// The new id of a face or hole; `None` when it was deleted.
-    pub fn face(&self, f: FaceId) -> Option<FaceId> {
-        self.faces.get(f.index()).filter(|&&i| i != NONE).map(|&i| FaceId(i))
-    }
-}
-
-fn renumber(live: &[bool]) -> Vec<u32> {
-    let mut next = 0;
-    live.iter()
-        .map(|&live| {
-            let id = if live { next } else { NONE };
-            next += u32::from(live);
-            id
-        })
-        .collect()
 }
 
 fn retain<T>(values: &mut Vec<T>, live: &[bool]) {

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec2;
 
-use super::super::distance::distance_to_segment;
+use super::distance::distance_to_segment;
 use crate::geom::polygon::segments_meet;
 use crate::net::{FlatFace, Net, Segment};
 
@@ -53,8 +53,8 @@ impl Contour {
             .collect()
     }
 
-    /// All that is cut around it, with the edges that it belongs to: the corner before an edge, then
-    /// the edge.
+    /// All that is cut around it, with the edges that it belongs to: the corner before an edge,
+    /// then the edge.
     pub fn cuts(&self) -> impl Iterator<Item = (usize, Segment)> + '_ {
         (0..self.len()).flat_map(|i| {
             let corner = segments(&self.cut_corners[i]);

@@ -3,8 +3,8 @@
 //! A smooth seam of a D-form has hundreds of tiny edges; nobody could letter or read that many
 //! numbers.
 
+use super::boundary::Boundaries;
 use crate::net::{Net, PieceId};
-use crate::sheet::joint::Boundaries;
 
 /// A stretch ends where an outline turns by more than this, in radians (35°).
 const CORNER: f64 = 0.611;

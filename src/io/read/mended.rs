@@ -1,0 +1,59 @@
+//! What a file holds, mended before it is a mesh.
+
+use super::raw::{GroupRun, RawMesh};
+use super::{ReadNote, ReadOptions};
+use crate::mend::{RepairParams, Repairs, Soup, SoupFace, orient, repair};
+
+/// Turns and repairs faces as the options and `params` ask; says what was done. Faces that name
+/// vertices that are not there are left for the builder to report.
+pub(super) fn mend(raw: &mut RawMesh, options: &ReadOptions, params: Option<&RepairParams>) {
+    let names_all = raw.corners.iter().all(|&v| (v as usize) < raw.positions.len());
+    let by_default = RepairParams::default();
+    let params = params.or(options.mend.then_some(&by_default));
+    if names_all && (params.is_some() || options.orient) {
+        let mut soup = Soup { positions: std::mem::take(&mut raw.positions), faces: faces(raw) };
+        let repairs = match params {
+            Some(params) => repair(&mut soup, params),
+            None => orient(&mut soup),
+        };
+        take_back(raw, soup);
+        note(raw, &repairs);
+    }
+    if options.flip {
+        raw.change_faces(|face| face.reverse());
+    }
+}
+
+fn note(raw: &mut RawMesh, repairs: &Repairs) {
+    raw.notes.extend(repairs.done.iter().map(|&mending| ReadNote::Mended(mending)));
+}
+
+fn faces(raw: &RawMesh) -> Vec<SoupFace> {
+    let face = |f: usize| SoupFace { corners: raw.face(f).to_vec(), source: u32::try_from(f).ok() };
+    (0..raw.ends.len()).map(face).collect()
+}
+
+/// Puts the faces back, each with the group that it had.
+fn take_back(raw: &mut RawMesh, soup: Soup) {
+    let group_of = |face: usize| -> Option<(Option<String>, bool)> {
+        let run = raw.groups.partition_point(|run| run.first_face <= face);
+        let run = raw.groups.get(run.checked_sub(1)?)?;
+        Some((run.name.clone(), run.is_made))
+    };
+    let has_groups = !raw.groups.is_empty();
+    let mut groups: Vec<GroupRun> = Vec::new();
+    let mut numbers = Vec::with_capacity(soup.faces.len());
+    for (i, face) in soup.faces.iter().enumerate() {
+        let source = face.source.map(|f| f as usize);
+        // A face that closes a hole is behind all faces of the file.
+        numbers.push(source.map_or(raw.face_lines.len(), |f| raw.file_face(f)) as u32);
+        let (name, is_made) = source.and_then(group_of).unwrap_or_default();
+        let is_same = |run: &GroupRun| run.name == name && run.is_made == is_made;
+        if has_groups && !groups.last().is_some_and(is_same) {
+            groups.push(GroupRun { first_face: i, name, is_made });
+        }
+    }
+    (raw.corners, raw.ends) = (Vec::new(), Vec::new());
+    soup.faces.iter().for_each(|face| raw.push_face(face.corners.iter().copied()));
+    (raw.positions, raw.groups, raw.face_numbers) = (soup.positions, groups, Some(numbers));
+}

@@ -1,0 +1,321 @@
+//! Panelize: a freeform surface becomes planar panels with three members at every node.
+//!
+//! The way of a surface: it is refined ([`refine`], [`delaunay`]) and its curvature looked at with
+//! the eyes of a panel ([`curvature`]); rows are laid along the direction in which it bends least
+//! ([`field`]), their sizes adapted so that they run on ([`scale`]); a lattice along the rows has a
+//! point for each panel ([`lattice`], [`sites`]); regions around these become a mesh of polygons
+//! with valence 3 ([`regions`]); its corners start where tangent planes meet ([`start`]), and all
+//! corners and planes are solved for together ([`solve`]); edges that are in the way are turned
+//! ([`flip`]); the last rounds make planes exact. What was reached is measured by code of its own
+//! ([`prove`], [`report`]).
+//!
+//! Sources: Liu, Pottmann, Wallner, Yang, Wang 2006; Pottmann, Liu, Wallner, Bobenko, Wang 2007;
+//! Tang, Sun, Gomes, Wallner, Pottmann 2014 for planar meshes by optimisation; Jakob, Tarini,
+//! Panozzo, Sorkine-Hornung 2015 for the lattice. That rows along the direction of smaller
+//! curvature do for every sign of the curvature is our own: near a point z = (k₁x² + k₂y²)/2 the
+//! planes at a lattice with a row along k₁ meet in hexagons for k₁ = k₂, in bricks for k₁ = 0 and
+//! in bow-ties for k₁ = −k₂, without a jump. Inside, all lengths are in units of the panel size.
+
+mod curvature;
+mod delaunay;
+mod error;
+mod field;
+mod flip;
+mod formula;
+mod height;
+mod lattice;
+mod layout;
+mod params;
+mod prove;
+mod refine;
+mod regions;
+mod report;
+mod scale;
+mod sites;
+mod size;
+mod solve;
+mod start;
+mod surface;
+
+#[cfg(test)]
+mod tests;
+
+use glam::DVec3;
+
+use self::curvature::{Quadric, quadrics};
+use self::field::{RowField, Target};
+use self::flip::turn_edges;
+use self::layout::layout;
+use self::prove::{Measured, measure};
+use self::refine::Triangles;
+use self::regions::Panels;
+use self::scale::scale_field;
+use self::solve::{Limits, RimRule, Run, Scene, State, Weights};
+use self::start::start;
+use self::surface::{MOST_TRIANGLES, SPACING, Surface, triangles_of};
+use crate::geom::Plane;
+use crate::measure::crossings;
+use crate::mesh::{FaceId, Mesh, MeshBuilder};
+use crate::progress::Progress;
+
+pub use error::{PanelizeError, PanelizeFinding};
+pub use height::{Domain, HeightParams, height_field};
+pub use params::{Align, PanelizeParams, RimChoice, SheetSize};
+pub use report::{PanelizeReport, Place};
+
+/// Rounds of solving.
+const ROUNDS: usize = 40;
+/// Rounds in which planes become exact.
+const POLISH: usize = 12;
+/// Layouts that are tried while some panels are odd or broken.
+const ATTEMPTS: u64 = 6;
+/// The same for large surfaces.
+const ATTEMPTS_LARGE: u64 = 2;
+/// Surfaces with a larger area are large, in squared panel sizes.
+const LARGE: f64 = 1500.0;
+/// Rows along the rim are wanted so much more than rows along curvature.
+const RIM_WEIGHT: f64 = 3.0;
+/// Corners within this distance of their planes are exact, in panel sizes.
+const EXACT: f64 = 1e-13;
+
+/// The surface in units of the panel size, and what is known of it.
+struct Model {
+    size: f64,
+    origin: DVec3,
+    surface: Surface,
+    quadrics: Vec<Quadric>,
+    scale: Vec<f64>,
+    field: RowField,
+    rule: RimRule,
+    limits: Limits,
+}
+
+/// Panels of one layout, solved and measured.
+struct Solved {
+    state: State,
+    measured: Vec<Measured>,
+    lack: f64,
+    /// Pairs of panels of which one goes through the other.
+    through: Vec<[usize; 2]>,
+    was_stopped: bool,
+}
+
+/// Makes planar panels of a surface: a mesh with a face for each panel, planar up to rounding, with
+/// three edges at every inner vertex and at those of the rim where two panels meet. What does not
+/// come out as it should is in the report.
+///
+/// # Errors
+/// Those of [`PanelizeError`].
+pub fn panelize(
+    mesh: &Mesh,
+    params: &PanelizeParams,
+    progress: &dyn Progress,
+) -> Result<(Mesh, PanelizeReport), PanelizeError> {
+    params.check()?;
+    let model = Model::new(mesh, params, progress)?;
+    let solved = model.solve_best(params, progress)?;
+    let made = model.mesh(&solved)?;
+    let report = PanelizeReport::new(&model, &solved, params);
+    Ok((made, report))
+}
+
+impl Model {
+    fn new(
+        mesh: &Mesh,
+        params: &PanelizeParams,
+        progress: &dyn Progress,
+    ) -> Result<Self, PanelizeError> {
+        progress.report("looking at the surface", 0, 0);
+        let given = triangles_of(mesh);
+        let size = size::panel_size(&given, params)?;
+        let (low, high) = mesh.bounds().unwrap_or_default();
+        let origin = low.midpoint(high);
+        let surface = fine_surface(&given, size, origin)?;
+        if progress.is_cancelled() {
+            return Err(PanelizeError::Cancelled);
+        }
+        let quadrics = quadrics(&surface);
+        progress.report("laying out rows", 0, 0);
+        let targets = targets(&surface, params);
+        let follows_curvature = params.align != Align::None;
+        let field = RowField::new(&surface, &quadrics, follows_curvature, &targets)
+            .ok_or(PanelizeError::NoField)?;
+        let scale = scale_field(&surface, &quadrics, &field, params.even);
+        if progress.is_cancelled() {
+            return Err(PanelizeError::Cancelled);
+        }
+        let rule = match &params.rim {
+            RimChoice::Free => RimRule::Curve,
+            RimChoice::Walls => RimRule::Walls,
+            RimChoice::Planes(_) => {
+                RimRule::Planes(params.rim_planes(origin, size).unwrap_or_default())
+            }
+        };
+        let limits = Limits {
+            edge: params.min_edge,
+            angle: params.min_angle.radians(),
+            deviation: Limits::default().deviation.max(report::sag(&quadrics)),
+            ..Limits::default()
+        };
+        Ok(Self { size, origin, surface, quadrics, scale, field, rule, limits })
+    }
+
+    fn scene(&self) -> Scene<'_> {
+        Scene {
+            surface: &self.surface,
+            quadrics: &self.quadrics,
+            limits: &self.limits,
+            rule: &self.rule,
+            fixed: &[],
+        }
+    }
+
+    /// A place in millimetres.
+    fn place(&self, p: DVec3) -> DVec3 {
+        p * self.size + self.origin
+    }
+
+    /// Lays out and solves until nothing is broken, or as often as is worth it; the best of these.
+    fn solve_best(
+        &self,
+        params: &PanelizeParams,
+        progress: &dyn Progress,
+    ) -> Result<Solved, PanelizeError> {
+        let mut best: Option<(f64, Solved)> = None;
+        let mut failed = None;
+        for attempt in 0..ATTEMPTS {
+            // Seeds far apart, so that those of neighbouring runs do not repeat.
+            let seed = params.seed.wrapping_add(attempt * 1_000_003);
+            let solved = match layout(&self.surface, &self.quadrics, &self.field, &self.scale, seed)
+            {
+                Ok(layout) => self.solve(layout.panels, layout.areas, progress),
+                Err(bad) => {
+                    failed = failed.or(bad.first().copied());
+                    continue;
+                }
+            };
+            let bad = self.badness(&solved);
+            if best.as_ref().is_none_or(|(least, _)| bad < *least) {
+                best = Some((bad, solved));
+            }
+            let is_good = best.as_ref().is_some_and(|(least, _)| *least < 1.0);
+            let is_large = self.surface.area() > LARGE && best.is_some();
+            if is_good || is_large && attempt + 1 >= ATTEMPTS_LARGE || progress.is_cancelled() {
+                break;
+            }
+        }
+        best.map(|(_, solved)| solved).ok_or_else(|| {
+            let place = failed.map_or(DVec3::ZERO, |v| self.surface.points[v]);
+            PanelizeError::TooNarrow { size: self.size, place: self.place(place) }
+        })
+    }
+
+    fn solve(&self, mut panels: Panels, areas: Vec<f64>, progress: &dyn Progress) -> Solved {
+        let scene = self.scene();
+        start(&mut panels, &self.quadrics);
+        let mut state = State::new(panels, areas, scene);
+        let weights = Weights::default();
+        let run = Run { rounds: ROUNDS, from: 1.0, to: 300.0, weights, active: None };
+        let mut was_stopped = false;
+        state.run(scene, run, |round| {
+            progress.report("solving for panels", round, ROUNDS);
+            was_stopped |= progress.is_cancelled();
+            was_stopped
+        });
+        if !was_stopped {
+            progress.report("turning edges", 0, 0);
+            turn_edges(&mut state, scene, weights, || progress.is_cancelled());
+        }
+        progress.report("making planes exact", 0, 0);
+        let lack = state.polish(scene, POLISH);
+        let measured = measure(&self.surface, &self.quadrics, &state.panels);
+        let through = self.through(&state, &measured);
+        Solved { state, measured, lack, through, was_stopped }
+    }
+
+    /// Pairs of panels that go through each other, beside those that cross themselves.
+    fn through(&self, state: &State, measured: &[Measured]) -> Vec<[usize; 2]> {
+        let faces = state.panels.faces.iter().map(|face| face.iter().copied());
+        let Ok(mesh) = Mesh::from_faces(state.panels.points.iter().copied(), faces) else {
+            return Vec::new();
+        };
+        let pairs = crossings(&mesh, 1000).into_iter();
+        let pairs = pairs.map(|pair| [pair.first.index(), pair.second.index()]);
+        pairs.filter(|[a, b]| measured[*a].is_sound && measured[*b].is_sound).collect()
+    }
+
+    /// How bad panels are: from 1 on another layout is worth a try, from 100 on panels are broken.
+    fn badness(&self, solved: &Solved) -> f64 {
+        let m = &solved.measured;
+        let broken = m.iter().filter(|m| !m.is_sound).count() + solved.through.len();
+        let inexact = usize::from(solved.lack > EXACT);
+        let sag = report::sag(&self.quadrics);
+        let odd = |m: &&Measured| {
+            m.deviation > (2.5 * sag).max(0.05)
+                || m.least_angle < 12.0
+                || m.largest_angle > 300.0
+                || m.area < 0.2
+                || m.area > 2.4
+        };
+        let odd = m.iter().filter(odd).count() + report::far_nodes(self, solved).len();
+        let short = m.iter().filter(|m| m.shortest < 0.1).count().saturating_sub(m.len() / 50);
+        let deviations: Vec<f64> = m.iter().map(|m| m.deviation).collect();
+        let most = report::percentile(&deviations, 0.95);
+        let off = usize::from(most > (1.5 * sag).max(0.035));
+        (100 * (broken + inexact) + odd + short + off) as f64 + most.min(0.99)
+    }
+
+    /// The panels as a mesh in millimetres.
+    fn mesh(&self, solved: &Solved) -> Result<Mesh, PanelizeError> {
+        let panels = &solved.state.panels;
+        let mut builder = MeshBuilder::new();
+        for &p in &panels.points {
+            builder.vertex(self.place(p));
+        }
+        for face in &panels.faces {
+            builder.face(face.iter().copied());
+        }
+        let place = self.place(panels.points.first().copied().unwrap_or_default());
+        let (mut mesh, splits) = builder.build().map_err(|_| PanelizeError::NoMesh { place })?;
+        if !splits.is_empty() {
+            return Err(PanelizeError::NoMesh { place });
+        }
+        if solved.lack <= EXACT {
+            for (f, plane) in solved.state.planes.iter().enumerate() {
+                if let Some(plane) = Plane::new(plane.normal, self.place(plane.point)) {
+                    mesh.set_plane(FaceId::new(f), plane);
+                }
+            }
+        }
+        Ok(mesh)
+    }
+}
+
+/// The surface in units of the panel size, about the origin, with fine triangles.
+fn fine_surface(given: &Triangles, size: f64, origin: DVec3) -> Result<Surface, PanelizeError> {
+    let points = given.points.iter().map(|&p| (p - origin) / size).collect();
+    let mut triangles = Triangles { points, corners: given.corners.clone() };
+    let area = triangles.area();
+    let count = area / sites::PANEL_AREA;
+    let too_fine = || PanelizeError::TooFine { size, count: count as usize, limit: MOST_TRIANGLES };
+    // A triangle for each thirtieth of a panel is the least that is needed.
+    if count * 30.0 > MOST_TRIANGLES as f64 || !triangles.refine(SPACING, MOST_TRIANGLES) {
+        return Err(too_fine());
+    }
+    Ok(Surface::new(triangles))
+}
+
+/// Rows that are wanted besides those along curvature.
+fn targets(surface: &Surface, params: &PanelizeParams) -> Vec<Target> {
+    if params.align != Align::Rim {
+        return Vec::new();
+    }
+    let on_rim = (0..surface.points.len()).filter(|&v| surface.is_rim(v) && !surface.is_corner[v]);
+    on_rim
+        .map(|vertex| Target {
+            vertex,
+            direction: surface.rim_direction(vertex),
+            weight: RIM_WEIGHT,
+        })
+        .collect()
+}

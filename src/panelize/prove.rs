@@ -1,0 +1,159 @@
+//! What was reached, measured on the result by code that shares nothing with the solver.
+
+use std::f64::consts::TAU;
+
+use glam::{DMat3, DVec2, DVec3};
+
+use super::curvature::Quadric;
+use super::regions::{Kind, Panels};
+use super::sites::PANEL_AREA;
+use super::surface::{Links, Surface};
+use crate::geom::polygon::{convex_hull, segments_meet, signed_area};
+use crate::geom::{Frame, Plane};
+
+/// What was measured of one panel. Lengths in panel sizes, angles in degrees.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Measured {
+    /// Whether its outline neither crosses nor touches itself and runs as the surface does.
+    pub is_sound: bool,
+    /// Its area over that of a regular hexagon.
+    pub area: f64,
+    pub shortest: f64,
+    pub least_angle: f64,
+    pub largest_angle: f64,
+    /// The largest distance of its corners, the middles of its sides and its own middle from the
+    /// surface.
+    pub deviation: f64,
+    /// Corners where it is concave.
+    pub concave: usize,
+    pub diameter: f64,
+    /// The sides of the smallest box around it, the shorter first.
+    pub extent: [f64; 2],
+    pub is_rim: bool,
+    pub sides: usize,
+}
+
+/// Measures every panel.
+pub(super) fn measure(surface: &Surface, quadrics: &[Quadric], panels: &Panels) -> Vec<Measured> {
+    let around = triangles_around(surface);
+    (0..panels.faces.len()).map(|f| measure_one(surface, quadrics, &around, panels, f)).collect()
+}
+
+fn measure_one(
+    surface: &Surface,
+    quadrics: &[Quadric],
+    around: &Links,
+    panels: &Panels,
+    f: usize,
+) -> Measured {
+    let face = &panels.faces[f];
+    let corners: Vec<DVec3> = face.iter().map(|&v| panels.points[v]).collect();
+    let centre = panels.centre(f);
+    let hint = surface.nearest(centre, panels.hints[face[0]]);
+    let up = quadrics[hint].normal;
+    let newell = Plane::newell(&corners).map_or(up, |plane| plane.normal());
+    // A figure of eight may have a Newell vector that says little.
+    let normal = crate::geom::fit_plane(&corners).map_or(newell, |plane| plane.normal());
+    let normal = if normal.dot(up) < 0.0 { -normal } else { normal };
+    let flat = flattened(&corners, normal, centre);
+    let count = flat.len();
+    let angles: Vec<f64> = (0..count)
+        .map(|i| {
+            let (a, b) = (flat[(i + count - 1) % count] - flat[i], flat[(i + 1) % count] - flat[i]);
+            b.perp_dot(a).atan2(b.dot(a)).rem_euclid(TAU).to_degrees()
+        })
+        .collect();
+    let lengths = (0..count).map(|i| flat[i].distance(flat[(i + 1) % count]));
+    let middles = (0..count).map(|i| corners[i].midpoint(corners[(i + 1) % count]));
+    let samples = corners.iter().copied().chain(middles).chain([centre]);
+    let off = |place| distance(surface, around, place, hint);
+    let apart = |i: usize| flat.iter().map(|q| q.distance(flat[i])).fold(0.0, f64::max);
+    Measured {
+        is_sound: is_simple(&flat) && signed_area(&flat) > 0.0,
+        area: signed_area(&flat) / PANEL_AREA,
+        shortest: lengths.fold(f64::INFINITY, f64::min),
+        least_angle: angles.iter().copied().fold(f64::INFINITY, f64::min),
+        largest_angle: angles.iter().copied().fold(0.0, f64::max),
+        deviation: samples.map(off).fold(0.0, f64::max),
+        concave: angles.iter().filter(|&&a| a > 180.5).count(),
+        diameter: (0..count).map(apart).fold(0.0, f64::max),
+        extent: smallest_box(&flat),
+        is_rim: face.iter().any(|&v| panels.kinds[v] != Kind::Inner),
+        sides: count,
+    }
+}
+
+/// Corners in the plane with a normal, seen from its side.
+fn flattened(corners: &[DVec3], normal: DVec3, centre: DVec3) -> Vec<DVec2> {
+    let Some(plane) = Plane::new(normal, centre) else { return vec![DVec2::ZERO; corners.len()] };
+    let frame = Frame::on_plane(&plane);
+    corners.iter().map(|&p| frame.flatten(p)).collect()
+}
+
+/// The sides of the box of least area around a panel; one of its sides lies along a side of the
+/// convex hull (Freeman, Shapira 1975).
+fn smallest_box(flat: &[DVec2]) -> [f64; 2] {
+    let hull = convex_hull(flat);
+    let along = |i: usize| {
+        let side = (hull[(i + 1) % hull.len()] - hull[i]).normalize_or(DVec2::X);
+        let spread = |axis: DVec2| {
+            let places = hull.iter().map(|p| p.dot(axis));
+            places.clone().fold(f64::NEG_INFINITY, f64::max) - places.fold(f64::INFINITY, f64::min)
+        };
+        let (a, b) = (spread(side), spread(side.perp()));
+        [a.min(b), a.max(b)]
+    };
+    let boxes = (0..hull.len()).map(along);
+    boxes.min_by(|a, b| (a[0] * a[1]).total_cmp(&(b[0] * b[1]))).unwrap_or([0.0; 2])
+}
+
+/// Whether sides that do not follow each other have nothing in common.
+fn is_simple(flat: &[DVec2]) -> bool {
+    let count = flat.len();
+    let side = |i: usize| (flat[i], flat[(i + 1) % count]);
+    (0..count).all(|i| {
+        (i + 2..count).filter(|&j| i > 0 || j + 1 < count).all(|j| {
+            let ((a, b), (c, d)) = (side(i), side(j));
+            !segments_meet(a, b, c, d)
+        })
+    })
+}
+
+/// The triangles at each vertex of the surface.
+fn triangles_around(surface: &Surface) -> Links {
+    let pairs = surface.triangles.iter().enumerate().flat_map(|(k, t)| t.map(|v| [v, k]));
+    Links::of_pairs(surface.points.len(), pairs)
+}
+
+/// The distance of a place from the triangles near the vertex that is nearest to it.
+fn distance(surface: &Surface, around: &Links, place: DVec3, hint: usize) -> f64 {
+    let v = surface.nearest(place, hint);
+    let near = surface.links.of(v).iter().chain([&v]).flat_map(|&u| around.of(u));
+    near.map(|&t| from_triangle(surface.triangles[t].map(|i| surface.points[i]), place))
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// The distance of a place from a triangle.
+fn from_triangle([a, b, c]: [DVec3; 3], p: DVec3) -> f64 {
+    let normal = (b - a).cross(c - a);
+    let inside =
+        [[a, b], [b, c], [c, a]].iter().all(|&[u, v]| (v - u).cross(p - u).dot(normal) >= 0.0);
+    if inside && normal != DVec3::ZERO {
+        return (p - a).dot(normal.normalize()).abs();
+    }
+    let from_side = |u: DVec3, v: DVec3| {
+        let way = v - u;
+        let share = ((p - u).dot(way) / way.length_squared()).clamp(0.0, 1.0);
+        p.distance(u + way * share)
+    };
+    from_side(a, b).min(from_side(b, c)).min(from_side(c, a))
+}
+
+/// How far the corner of a plate lies from its node for each thickness: the length of the shortest
+/// vector that has the product 1 with all three normals.
+pub(super) fn node_reach(normals: [DVec3; 3]) -> f64 {
+    let rows = DMat3::from_cols(normals[0], normals[1], normals[2]);
+    // Where the normals lie in one plane, a shift leaves the part that is settled.
+    let gram = rows.transpose() * rows + DMat3::from_diagonal(DVec3::splat(1e-10));
+    (rows * (gram.inverse() * DVec3::ONE)).length()
+}

@@ -1,0 +1,52 @@
+//! The panel size, from what the user gave.
+
+use super::curvature::quadrics;
+use super::refine::Triangles;
+use super::sites::PANEL_AREA;
+use super::surface::Surface;
+use super::{PanelizeError, PanelizeParams, fine_surface};
+
+/// Rounds of finding the size for a sag: curvature is seen at the scale of the panels.
+const ROUNDS: usize = 4;
+/// The sag counts where it is largest but for this share of the surface.
+pub(super) const SHARE: f64 = 0.99;
+
+impl Triangles {
+    /// The area, in squared units of the points.
+    pub(super) fn area(&self) -> f64 {
+        let places = self.corners.iter().map(|t| t.map(|i| self.points[i]));
+        places.map(|[a, b, c]| (b - a).cross(c - a).length() / 2.0).sum()
+    }
+}
+
+/// The distance of the middles of neighbouring panels in mm.
+pub(super) fn panel_size(given: &Triangles, params: &PanelizeParams) -> Result<f64, PanelizeError> {
+    let area = given.area();
+    let of_count = |count: f64| (area / (count * PANEL_AREA)).sqrt();
+    match (params.size, params.count, params.sag) {
+        (Some(size), ..) => Ok(size.mm()),
+        (_, Some(count), _) => Ok(of_count(f64::from(count))),
+        (.., Some(sag)) => size_of_sag(given, sag.mm(), of_count(200.0)),
+        _ => Err(PanelizeError::NoSize { given: 0 }),
+    }
+}
+
+/// The size at which a flat panel leaves the surface by `sag` where it bends most: k L²/6 = sag.
+fn size_of_sag(given: &Triangles, sag: f64, start: f64) -> Result<f64, PanelizeError> {
+    // Of a flat surface any size will do.
+    let largest = start * 10.0;
+    let mut size = start;
+    for _ in 0..ROUNDS {
+        let surface = fine_surface(given, size, glam::DVec3::ZERO)?;
+        let seen = surface_sag(&surface) * size;
+        size = (size * (sag / seen.max(f64::MIN_POSITIVE)).sqrt()).min(largest);
+    }
+    Ok(size)
+}
+
+/// The sag of panels, in panel sizes, where the surface bends most.
+fn surface_sag(surface: &Surface) -> f64 {
+    let mut sags: Vec<f64> = quadrics(surface).iter().map(|q| q.sag()).collect();
+    sags.sort_by(f64::total_cmp);
+    sags[((sags.len() - 1) as f64 * SHARE) as usize]
+}

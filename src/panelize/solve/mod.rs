@@ -1,0 +1,343 @@
+//! Gauss–Newton on corners and planes together.
+//!
+//! Corners *and* planes are unknowns (after Tang, Sun, Gomes, Wallner, Pottmann 2014, "Form-finding
+//! with polyhedral meshes made simple"): where the surface is developable, neighbouring planes
+//! hardly meet in points, while corners that are wanted to lie in planes always do. A plane is
+//! coupled with its own corners only, so it is eliminated face by face, and what is solved for is
+//! the corners alone. The terms stand in [`terms`], what one face adds to the system in
+//! [`element`].
+
+mod element;
+mod planes;
+mod rim;
+mod terms;
+
+use glam::DVec3;
+
+use self::element::Element;
+pub(super) use self::planes::FacePlane;
+pub(super) use self::rim::{RimRow, RimRule};
+pub(super) use self::terms::{Limits, Weights};
+use super::curvature::{Height, Quadric};
+use super::regions::{Kind, Panels};
+use super::surface::{NONE, Surface};
+use crate::geom::fronts::{BlockMatrix, FrontFactor, Fronts};
+
+/// No corner goes farther in one round, in panel sizes.
+const LONGEST_STEP: f64 = 0.3;
+/// The least shift of Levenberg's.
+const LEAST_SHIFT: f64 = 1e-6;
+/// Shifts that are tried in a round.
+const SHIFTS: usize = 5;
+
+/// What does not change while panels are solved for.
+#[derive(Clone, Copy)]
+pub(super) struct Scene<'a> {
+    pub surface: &'a Surface,
+    pub quadrics: &'a [Quadric],
+    pub limits: &'a Limits,
+    pub rule: &'a RimRule,
+    /// For each face the plane that the user gave it.
+    pub fixed: &'a [Option<FacePlane>],
+}
+
+/// The panels with their planes, and what is known of them between rounds.
+#[derive(Clone)]
+pub(super) struct State {
+    pub panels: Panels,
+    pub planes: Vec<FacePlane>,
+    /// The area that each face should have.
+    pub areas: Vec<f64>,
+    /// Faces whose hinges were broken for long weigh more.
+    pub stress: Vec<f64>,
+    /// The faces at each corner.
+    pub fans: Vec<Vec<usize>>,
+    /// For each face its neighbour across each side; [`NONE`] at a rim.
+    pub across: Vec<Vec<usize>>,
+    shift: f64,
+}
+
+/// What the terms of a round look at besides the panels.
+struct Round<'a> {
+    /// Where the corners were at the start.
+    start: &'a [DVec3],
+    rim: Vec<RimRow>,
+    /// For each corner the node there, if its plates reach too far.
+    nodes: Vec<Option<terms::Node>>,
+}
+
+/// Which unknowns a run solves for.
+struct Unknowns {
+    /// The node of each corner; [`NONE`] where it stays.
+    node: Vec<usize>,
+    corners: Vec<usize>,
+    /// The faces with a corner that moves.
+    faces: Vec<usize>,
+    fronts: Fronts,
+}
+
+impl State {
+    /// The state of some panels; `areas` as in [`Self::areas`].
+    pub(super) fn new(panels: Panels, areas: Vec<f64>, scene: Scene<'_>) -> Self {
+        let stress = vec![1.0; panels.faces.len()];
+        let (fans, across, planes) = (Vec::new(), Vec::new(), Vec::new());
+        let mut made = Self { panels, planes, areas, stress, fans, across, shift: LEAST_SHIFT };
+        made.link();
+        made.fit_planes(scene);
+        made
+    }
+
+    /// Looks up fans and neighbours again after faces changed.
+    pub(super) fn link(&mut self) {
+        self.fans = self.panels.fans();
+        self.across = (0..self.panels.faces.len())
+            .map(|f| {
+                let face = &self.panels.faces[f];
+                (0..face.len())
+                    .map(|i| self.other_side(f, face[i], face[(i + 1) % face.len()]))
+                    .collect()
+            })
+            .collect();
+    }
+
+    /// The face that runs along an edge from v to u, where f runs from u to v.
+    fn other_side(&self, f: usize, u: usize, v: usize) -> usize {
+        let runs = |&g: &usize| {
+            let face = &self.panels.faces[g];
+            (0..face.len()).any(|i| face[i] == v && face[(i + 1) % face.len()] == u)
+        };
+        self.fans[u].iter().copied().find(|g| *g != f && runs(g)).unwrap_or(NONE)
+    }
+
+    /// Whether the face does not touch the rim.
+    fn is_inner_face(&self, f: usize) -> bool {
+        !self.panels.is_rim_face(f)
+    }
+
+    /// The surface at a place near a corner.
+    fn height(&self, scene: Scene<'_>, place: DVec3, hint: usize) -> Height {
+        scene.quadrics[scene.surface.nearest(place, hint)].height(place)
+    }
+
+    /// Fits the plane of every face to its corners, on the side of the surface.
+    pub(super) fn fit_planes(&mut self, scene: Scene<'_>) {
+        self.planes = (0..self.panels.faces.len())
+            .map(|f| {
+                let centre = self.panels.centre(f);
+                let hint = self.panels.hints[self.panels.faces[f][0]];
+                let up = self.height(scene, centre, hint).normal;
+                match scene.fixed.get(f).copied().flatten() {
+                    Some(plane) => plane.facing(up),
+                    None => FacePlane::fit(&self.panels, f, up),
+                }
+            })
+            .collect();
+    }
+
+    /// Runs so many rounds; corners with a face where `active` is false stay. `from` and `to` are
+    /// the weights of planarity at the beginning and the end. Ends early when `stop` says so.
+    pub(super) fn run(
+        &mut self,
+        scene: Scene<'_>,
+        run: Run<'_>,
+        mut stop: impl FnMut(usize) -> bool,
+    ) {
+        let Some(unknowns) = self.unknowns(run.active) else { return };
+        let start = self.panels.points.clone();
+        for round in 0..run.rounds {
+            if stop(round) {
+                return;
+            }
+            let share = (round as f64 / (0.7 * run.rounds as f64).max(1.0)).min(1.0);
+            let planarity = run.from * (run.to / run.from).powf(share);
+            let weights = Weights { planarity, ..run.weights };
+            self.round(scene, &unknowns, &weights, (&start, round));
+        }
+    }
+
+    /// One round: sum up the terms, solve, step.
+    fn round(
+        &mut self,
+        scene: Scene<'_>,
+        unknowns: &Unknowns,
+        weights: &Weights,
+        (start, round): (&[DVec3], usize),
+    ) {
+        self.follow_surface(scene, unknowns);
+        let terms = Round { start, rim: RimRow::all(scene, &self.panels), nodes: self.far_nodes() };
+        let mut elements: Vec<Element> =
+            unknowns.faces.iter().map(|&f| self.element(scene, f, weights, &terms)).collect();
+        if round % 4 == 3 {
+            self.adapt_stress(unknowns, scene.limits);
+        }
+        self.shift = (self.shift * 0.3).max(LEAST_SHIFT);
+        for attempt in 1..=SHIFTS {
+            let Some(steps) = self.solve(unknowns, &mut elements) else {
+                self.shift = (self.shift * 10.0).max(1e-4);
+                continue;
+            };
+            let largest = steps.iter().map(|s| s.abs().max_element()).fold(0.0, f64::max);
+            if largest < 2.0 * LONGEST_STEP || attempt == SHIFTS {
+                self.step(unknowns, &elements, &steps, scene);
+                return;
+            }
+            self.shift = (self.shift * 10.0).max(1e-4);
+        }
+    }
+
+    /// The steps of the corners at the present shift.
+    fn solve(&self, unknowns: &Unknowns, elements: &mut [Element]) -> Option<Vec<DVec3>> {
+        let mut matrix = unknowns.fronts.zeros();
+        let mut right = vec![0.0; 3 * unknowns.corners.len()];
+        for (clique, element) in elements.iter_mut().enumerate() {
+            let face = &self.panels.faces[unknowns.faces[clique]];
+            element.eliminate_plane(self.shift)?;
+            let local: Vec<usize> =
+                (0..face.len()).filter(|&i| unknowns.node[face[i]] != NONE).collect();
+            add_element(unknowns, clique, element, &local, &mut matrix);
+            for &i in &local {
+                let node = unknowns.node[face[i]];
+                (0..3).for_each(|a| right[3 * node + a] -= element.slope[3 * i + a]);
+            }
+        }
+        let factor: FrontFactor<'_> = unknowns.fronts.factor(&matrix, self.shift)?;
+        let solved = factor.solve(&right);
+        let steps: Vec<DVec3> = solved.chunks_exact(3).map(DVec3::from_slice).collect();
+        steps.iter().all(|s| s.is_finite()).then_some(steps)
+    }
+
+    /// Moves corners and planes, none of them too far.
+    fn step(
+        &mut self,
+        unknowns: &Unknowns,
+        elements: &[Element],
+        steps: &[DVec3],
+        scene: Scene<'_>,
+    ) {
+        for (&f, element) in unknowns.faces.iter().zip(elements) {
+            let moved: Vec<DVec3> = self.panels.faces[f]
+                .iter()
+                .map(|&v| unknowns.node[v])
+                .map(|node| if node == NONE { DVec3::ZERO } else { steps[node] })
+                .collect();
+            if scene.fixed.get(f).copied().flatten().is_none() {
+                let step = element.plane_step(&moved).clamp_length_max(LONGEST_STEP);
+                self.planes[f] = self.planes[f].stepped(step);
+            }
+        }
+        for (&v, step) in unknowns.corners.iter().zip(steps) {
+            self.panels.points[v] += step.clamp_length_max(LONGEST_STEP);
+        }
+        for &f in &unknowns.faces {
+            self.planes[f] = self.planes[f].moved_to(self.panels.centre(f));
+        }
+    }
+
+    /// Keeps the hint of each corner at the vertex of the surface that is nearest now.
+    fn follow_surface(&mut self, scene: Scene<'_>, unknowns: &Unknowns) {
+        for &v in &unknowns.corners {
+            let Panels { points, hints, kinds, .. } = &mut self.panels;
+            hints[v] = match kinds[v] {
+                Kind::Inner => scene.surface.nearest(points[v], hints[v]),
+                Kind::Rim => rim::nearest_on_rim(scene.surface, points[v], hints[v]),
+                Kind::Corner => hints[v],
+            };
+        }
+    }
+
+    /// Corners that move, the faces at them, and the pattern of the system; `None` without any.
+    fn unknowns(&self, active: Option<&[bool]>) -> Option<Unknowns> {
+        let moves = |v: usize| {
+            !self.fans[v].is_empty() && self.fans[v].iter().all(|&f| active.is_none_or(|a| a[f]))
+        };
+        let corners: Vec<usize> = (0..self.panels.points.len()).filter(|&v| moves(v)).collect();
+        let mut node = vec![NONE; self.panels.points.len()];
+        corners.iter().enumerate().for_each(|(i, &v)| node[v] = i);
+        let nodes = |f: usize| -> Vec<usize> {
+            self.panels.faces[f].iter().map(|&v| node[v]).filter(|&n| n != NONE).collect()
+        };
+        let faces: Vec<usize> =
+            (0..self.panels.faces.len()).filter(|&f| !nodes(f).is_empty()).collect();
+        if faces.is_empty() {
+            return None;
+        }
+        let places: Vec<DVec3> = corners.iter().map(|&v| self.panels.points[v]).collect();
+        let cliques = faces.iter().map(|&f| nodes(f)).collect();
+        Some(Unknowns { node, corners, faces, fronts: Fronts::new(&places, cliques, 3) })
+    }
+
+    /// The last rounds: nothing but planarity and hard rims, each step the least that keeps them to
+    /// first order. Returns how far the corners are from their planes then, in panel sizes.
+    pub(super) fn polish(&mut self, scene: Scene<'_>, rounds: usize) -> f64 {
+        let Some(unknowns) = self.unknowns(None) else { return 0.0 };
+        let shift = std::mem::replace(&mut self.shift, 1e-10);
+        let mut best: Option<(f64, Self)> = None;
+        for _ in 0..rounds {
+            let rim = RimRow::all(scene, &self.panels);
+            let mut elements: Vec<Element> =
+                unknowns.faces.iter().map(|&f| self.polish_element(scene, f, &rim)).collect();
+            let Some(steps) = self.solve(&unknowns, &mut elements) else { break };
+            self.step(&unknowns, &elements, &steps, scene);
+            let lack = self.lack(scene);
+            if best.as_ref().is_none_or(|(least, _)| lack < *least) {
+                best = Some((lack, self.clone()));
+            }
+            if lack < 1e-15 {
+                break;
+            }
+        }
+        let lack = best.map_or(f64::INFINITY, |(lack, state)| {
+            *self = state;
+            lack
+        });
+        self.shift = shift;
+        lack
+    }
+
+    /// The largest distance of a corner from one of its planes or from a hard rim.
+    fn lack(&self, scene: Scene<'_>) -> f64 {
+        let faces = self.panels.faces.iter().zip(&self.planes);
+        let planes = faces.flat_map(|(face, plane)| {
+            face.iter().map(|&v| plane.distance(self.panels.points[v]).abs())
+        });
+        let rims = RimRow::all(scene, &self.panels);
+        let rims = rims.iter().filter(|row| row.is_hard);
+        let rims = rims.map(|row| row.distance(self.panels.points[row.corner]).abs());
+        planes.chain(rims).fold(0.0, f64::max)
+    }
+}
+
+/// One run of rounds.
+#[derive(Clone, Copy)]
+pub(super) struct Run<'a> {
+    pub rounds: usize,
+    /// The weight of planarity in the first round and at the end.
+    pub from: f64,
+    /// See `from`.
+    pub to: f64,
+    pub weights: Weights,
+    /// Faces whose corners may move; all without it.
+    pub active: Option<&'a [bool]>,
+}
+
+/// Adds the part of an element that belongs to corners that move.
+fn add_element(
+    unknowns: &Unknowns,
+    clique: usize,
+    element: &Element,
+    local: &[usize],
+    matrix: &mut BlockMatrix,
+) {
+    let size = 3 * local.len();
+    let mut block = vec![0.0; size * size];
+    for (i, &li) in local.iter().enumerate() {
+        for (j, &lj) in local.iter().enumerate() {
+            for a in 0..3 {
+                for b in 0..3 {
+                    block[(3 * i + a) * size + 3 * j + b] = element.reduced(3 * li + a, 3 * lj + b);
+                }
+            }
+        }
+    }
+    unknowns.fronts.add(matrix, clique, &block);
+}

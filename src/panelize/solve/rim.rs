@@ -1,0 +1,122 @@
+//! What corners at the rim are held by.
+
+use glam::DVec3;
+
+use super::super::regions::{Kind, Panels};
+use super::super::surface::Surface;
+use super::Scene;
+
+/// What becomes of the rim.
+#[derive(Debug, Clone, PartialEq)]
+pub(in super::super) enum RimRule {
+    /// Corners slide along the rim curve.
+    Curve,
+    /// Straight stretches of the rim lie in upright walls, exactly; others as in [`Self::Curve`].
+    Walls,
+    /// Corners near one of some planes lie in it, exactly; others as in [`Self::Curve`].
+    Planes(Vec<(DVec3, DVec3)>),
+}
+
+/// A plane that a corner at the rim is held to.
+#[derive(Debug, Clone, Copy)]
+pub(in super::super) struct RimRow {
+    pub corner: usize,
+    pub normal: DVec3,
+    pub point: DVec3,
+    /// Whether it is kept exactly.
+    pub is_hard: bool,
+}
+
+/// The direction of a rim turns by less than this between vertices of a straight stretch.
+const STRAIGHT: f64 = 1e-4;
+
+impl RimRow {
+    /// How far a place is from the plane.
+    pub(super) fn distance(&self, place: DVec3) -> f64 {
+        (place - self.point).dot(self.normal)
+    }
+
+    /// The planes of all corners at rims: one where two panels meet, two where the rim turns.
+    pub(super) fn all(scene: Scene<'_>, panels: &Panels) -> Vec<Self> {
+        let mut rows = Vec::new();
+        for (corner, kind) in panels.kinds.iter().enumerate() {
+            let hint = panels.hints[corner];
+            match kind {
+                Kind::Inner => {}
+                Kind::Rim => {
+                    let v = nearest_on_rim(scene.surface, panels.points[corner], hint);
+                    let direction = direction_at(scene.surface, v);
+                    rows.push(Self::at(scene, corner, v, direction));
+                }
+                Kind::Corner => {
+                    let (surface, v) = (scene.surface, hint);
+                    let ends = [surface.rim_before[v], surface.rim_next[v]];
+                    let here = surface.points[v];
+                    let directions =
+                        [here - surface.points[ends[0]], surface.points[ends[1]] - here];
+                    let rows_here =
+                        directions.map(|d| Self::at(scene, corner, v, d.normalize_or_zero()));
+                    rows.extend(rows_here);
+                }
+            }
+        }
+        rows
+    }
+
+    /// The plane along the rim at one of its vertices.
+    fn at(scene: Scene<'_>, corner: usize, v: usize, direction: DVec3) -> Self {
+        let point = scene.surface.points[v];
+        if let RimRule::Planes(planes) = scene.rule {
+            let near = |&&(normal, through): &&(DVec3, DVec3)| {
+                (point - through).dot(normal).abs() < 0.3 * super::super::surface::SPACING
+                    && direction.dot(normal).abs() < 0.2
+            };
+            if let Some(&(normal, point)) = planes.iter().find(near) {
+                return Self { corner, normal, point, is_hard: true };
+            }
+        }
+        let wall = direction.cross(DVec3::Z).normalize_or_zero();
+        if *scene.rule == RimRule::Walls
+            && wall != DVec3::ZERO
+            && is_straight(scene.surface, v, wall)
+        {
+            return Self { corner, normal: wall, point, is_hard: true };
+        }
+        let normal = direction.cross(scene.quadrics[v].normal).normalize_or_zero();
+        Self { corner, normal, point, is_hard: false }
+    }
+}
+
+/// Whether the rim runs straight in plan at a vertex, up to its corners.
+fn is_straight(surface: &Surface, v: usize, wall: DVec3) -> bool {
+    let off = |u: usize| {
+        let way = surface.points[u] - surface.points[v];
+        way.dot(wall).abs() > STRAIGHT * way.length()
+    };
+    let next = surface.rim_next[v];
+    let before = surface.rim_before[v];
+    let is_corner = surface.is_corner[v];
+    (!off(next) || is_corner) && (!off(before) || is_corner) && !(off(next) && off(before))
+}
+
+/// The direction of the rim at a vertex; at a corner of the rim that of what comes next.
+fn direction_at(surface: &Surface, v: usize) -> DVec3 {
+    if surface.is_corner[v] {
+        return (surface.points[surface.rim_next[v]] - surface.points[v]).normalize_or_zero();
+    }
+    surface.rim_direction(v)
+}
+
+/// The vertex on a rim nearest to a place, by walking along the rim from one of its vertices.
+pub(super) fn nearest_on_rim(surface: &Surface, place: DVec3, from: usize) -> usize {
+    let mut best = from;
+    let distance = |v: usize| surface.points[v].distance_squared(place);
+    loop {
+        let sides = [surface.rim_next[best], surface.rim_before[best]];
+        let next = if distance(sides[0]) <= distance(sides[1]) { sides[0] } else { sides[1] };
+        if distance(next) >= distance(best) {
+            return best;
+        }
+        best = next;
+    }
+}

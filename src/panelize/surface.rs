@@ -1,0 +1,228 @@
+//! The given surface as a fine triangle mesh, in units of the panel size.
+
+use glam::{DVec2, DVec3};
+
+use super::refine::Triangles;
+use crate::geom::{Frame, Plane, triangulate};
+use crate::mesh::Mesh;
+
+/// Edges are at most so long, in panel sizes.
+pub(super) const SPACING: f64 = 1.0 / 6.0;
+/// The rim has a corner where it turns by more, in degrees.
+const CORNER_TURN: f64 = 40.0;
+/// More triangles are refused before they are made.
+pub(super) const MOST_TRIANGLES: usize = 3_000_000;
+/// No vertex.
+pub(super) const NONE: usize = usize::MAX;
+
+/// A fine triangle mesh with what all steps ask of it.
+#[derive(Debug, Clone)]
+pub(super) struct Surface {
+    pub points: Vec<DVec3>,
+    pub triangles: Vec<[usize; 3]>,
+    /// Every edge once, the lower vertex first, ascending.
+    pub edges: Vec<[usize; 2]>,
+    pub links: Links,
+    /// Of each vertex: a third of the area of its triangles.
+    pub areas: Vec<f64>,
+    /// Of each vertex: the mean normal of its triangles.
+    pub normals: Vec<DVec3>,
+    /// Of each vertex on a rim the next one, with the surface on the left; else [`NONE`].
+    pub rim_next: Vec<usize>,
+    /// Of each vertex on a rim the one before.
+    pub rim_before: Vec<usize>,
+    /// Vertices at which the rim turns sharply.
+    pub is_corner: Vec<bool>,
+}
+
+/// For each vertex a list of others.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Links {
+    starts: Vec<usize>,
+    others: Vec<usize>,
+}
+
+impl Links {
+    /// Both ways of each pair.
+    pub(super) fn of_edges(count: usize, edges: &[[usize; 2]]) -> Self {
+        Self::of_pairs(count, edges.iter().flat_map(|&[a, b]| [[a, b], [b, a]]))
+    }
+
+    /// The second of each pair with the first, in the order of the pairs.
+    pub(super) fn of_pairs(count: usize, pairs: impl Iterator<Item = [usize; 2]> + Clone) -> Self {
+        let mut starts = vec![0; count + 1];
+        pairs.clone().for_each(|[a, _]| starts[a + 1] += 1);
+        (0..count).for_each(|i| starts[i + 1] += starts[i]);
+        let mut next = starts.clone();
+        let mut others = vec![0; starts[count]];
+        for [a, b] in pairs {
+            others[next[a]] = b;
+            next[a] += 1;
+        }
+        Self { starts, others }
+    }
+
+    /// What is listed with a vertex.
+    pub(super) fn of(&self, vertex: usize) -> &[usize] {
+        &self.others[self.range(vertex)]
+    }
+
+    /// Where the list of a vertex stands among all lists.
+    pub(super) fn range(&self, vertex: usize) -> std::ops::Range<usize> {
+        self.starts[vertex]..self.starts[vertex + 1]
+    }
+}
+
+/// The triangles of a mesh of polygons, each divided in its own plane, as they stand.
+pub(super) fn triangles_of(mesh: &Mesh) -> Triangles {
+    let mut number = vec![NONE; mesh.vertex_slots()];
+    let mut points = Vec::with_capacity(mesh.vertex_count());
+    for v in mesh.vertices() {
+        number[v.index()] = points.len();
+        points.push(mesh.position(v));
+    }
+    let mut corners = Vec::with_capacity(2 * mesh.face_count());
+    for f in mesh.faces() {
+        let face: Vec<usize> = mesh.face_vertices(f).map(|v| number[v.index()]).collect();
+        corners.extend(divide(&mesh.face_positions(f)).into_iter().map(|t| t.map(|i| face[i])));
+    }
+    Triangles { points, corners }
+}
+
+/// The triangles of one polygon.
+fn divide(corners: &[DVec3]) -> Vec<[usize; 3]> {
+    let fan = || (1..corners.len() - 1).map(|i| [0, i, i + 1]).collect();
+    let plane = match (corners.len(), Plane::newell(corners)) {
+        (4.., Some(plane)) => plane,
+        _ => return fan(),
+    };
+    let frame = Frame::on_plane(&plane);
+    let flat: Vec<DVec2> = corners.iter().map(|&p| frame.flatten(p)).collect();
+    let divided = triangulate(&flat);
+    if divided.len() + 2 == corners.len() { divided } else { fan() }
+}
+
+impl Surface {
+    /// The surface of triangles that are fine enough; vertices without a triangle are left out.
+    pub(super) fn new(triangles: Triangles) -> Self {
+        let Triangles { points, corners: triangles } = compacted(triangles);
+        let count = points.len();
+        let mut sides: Vec<[usize; 2]> =
+            triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
+        let (mut areas, mut normals) = (vec![0.0; count], vec![DVec3::ZERO; count]);
+        for t in &triangles {
+            let [a, b, c] = t.map(|i| points[i]);
+            let normal = (b - a).cross(c - a) / 2.0;
+            for &i in t {
+                normals[i] += normal;
+                areas[i] += normal.length() / 3.0;
+            }
+        }
+        normals.iter_mut().for_each(|n| *n = n.normalize_or(DVec3::Z));
+        let (mut rim_next, mut rim_before) = (vec![NONE; count], vec![NONE; count]);
+        sides.sort_unstable();
+        for &[a, b] in &sides {
+            if sides.binary_search(&[b, a]).is_err() {
+                (rim_next[a], rim_before[b]) = (b, a);
+            }
+        }
+        let mut edges: Vec<[usize; 2]> = sides.iter().map(|&[a, b]| [a.min(b), a.max(b)]).collect();
+        edges.sort_unstable();
+        edges.dedup();
+        let links = Links::of_edges(count, &edges);
+        let is_corner = Vec::new();
+        let mut made = Self {
+            points,
+            triangles,
+            edges,
+            links,
+            areas,
+            normals,
+            rim_next,
+            rim_before,
+            is_corner,
+        };
+        made.is_corner = (0..count).map(|v| made.turns_at(v)).collect();
+        made
+    }
+
+    fn turns_at(&self, v: usize) -> bool {
+        let (before, next) = (self.rim_before[v], self.rim_next[v]);
+        if before == NONE || next == NONE {
+            return false;
+        }
+        let (a, b) = (self.points[v] - self.points[before], self.points[next] - self.points[v]);
+        a.dot(b) < CORNER_TURN.to_radians().cos() * a.length() * b.length()
+    }
+
+    /// Whether a vertex lies on a rim.
+    pub(super) fn is_rim(&self, v: usize) -> bool {
+        self.rim_next[v] != NONE
+    }
+
+    /// The area, in squared panel sizes.
+    pub(super) fn area(&self) -> f64 {
+        self.areas.iter().sum()
+    }
+
+    /// The unit direction of the rim at a vertex on it: from the vertex before to the next.
+    pub(super) fn rim_direction(&self, v: usize) -> DVec3 {
+        (self.points[self.rim_next[v]] - self.points[self.rim_before[v]]).normalize_or_zero()
+    }
+
+    /// The vertex nearest to a place, by walking downhill from a vertex near it. Walking keeps to
+    /// the sheet of the surface on which it starts.
+    pub(super) fn nearest(&self, place: DVec3, from: usize) -> usize {
+        let (mut best, mut least) = (from, self.points[from].distance_squared(place));
+        loop {
+            let before = best;
+            // Needles may hide a way down that is two edges long.
+            let ring = self.links.of(before);
+            let nearest = |best: (usize, f64), &v: &usize| {
+                let distance = self.points[v].distance_squared(place);
+                if distance < best.1 { (v, distance) } else { best }
+            };
+            (best, least) = ring.iter().fold((best, least), nearest);
+            if best == before {
+                let wider = ring.iter().flat_map(|&v| self.links.of(v));
+                (best, least) = wider.fold((best, least), nearest);
+            }
+            if best == before {
+                return best;
+            }
+        }
+    }
+
+    /// The vertices on each rim, in order, one list for each.
+    pub(super) fn rims(&self) -> Vec<Vec<usize>> {
+        let mut seen = vec![false; self.points.len()];
+        let mut rims = Vec::new();
+        for start in 0..self.points.len() {
+            let (mut rim, mut v) = (Vec::new(), start);
+            while v != NONE && self.is_rim(v) && !seen[v] {
+                seen[v] = true;
+                rim.push(v);
+                v = self.rim_next[v];
+            }
+            if !rim.is_empty() {
+                rims.push(rim);
+            }
+        }
+        rims
+    }
+}
+
+/// Without the points that no triangle uses.
+fn compacted(triangles: Triangles) -> Triangles {
+    let mut number = vec![NONE; triangles.points.len()];
+    triangles.corners.iter().flatten().for_each(|&i| number[i] = 0);
+    let mut points = Vec::new();
+    for (i, &p) in triangles.points.iter().enumerate() {
+        if number[i] == 0 {
+            number[i] = points.len();
+            points.push(p);
+        }
+    }
+    let corners = triangles.corners.iter().map(|t| t.map(|i| number[i])).collect();
+    Triangles { points, corners }
+}

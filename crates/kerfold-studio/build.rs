@@ -22,7 +22,10 @@ fn main() {
     // A page that somebody has built before: packagers that build without a network.
     println!("cargo::rerun-if-changed=build.rs");
     let dist = match env::var_os("KERFOLD_STUDIO_PAGE") {
-        Some(folder) => PathBuf::from(folder),
+        Some(folder) => {
+            println!("cargo::rerun-if-changed={}", folder.to_string_lossy());
+            PathBuf::from(folder)
+        }
         None => build(&web, &out.join("web")),
     };
     let mut files = Vec::new();

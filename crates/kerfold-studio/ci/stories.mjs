@@ -186,7 +186,7 @@ test("2: a sculptor marks, looks, and cuts", () => story("sculptor", {}, async (
   await page.waitForFunction(() => window.studio.app.preview?.told.cut?.overcut.length === 0);
   assert.equal(await app("app.recipe.steps.length"), 1);
   const slider = page.locator(".cutting .field[data-key=offset] input[type=range]");
-  await drag(page, slider, 0.6);
+  await drag(page, slider, 0.3);
   await page.waitForFunction(() => window.studio.app.preview?.told.cut?.overcut.length === 4);
   assert.ok(await page.locator(".cutting.overcut").count());
   await page.waitForSelector(".limit");

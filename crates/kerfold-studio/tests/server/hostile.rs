@@ -148,10 +148,11 @@ fn a_recipe_that_runs_for_hours_stops_when_nobody_waits_and_blocks_nobody() {
     let refused = studio.get(&format!("{tab}/model"));
     assert_eq!(refused.status, 422, "{}", String::from_utf8_lossy(&refused.body));
     studio.ask("DELETE", &format!("{tab}/steps/2"), None);
-    // Hours of nesting.
-    studio.post(&steps, &json!({ "step": [["subdivide", "doo-sabin"], ["rounds", 4]] }));
-    let unfold =
-        json!({ "step": [["unfold", "faces"], ["sheet", "2000x2000"], ["nest_effort", 100_000]] });
+    // A long nesting: 720 triangles, with much effort.
+    let body = json!({ "key": "solid", "value": "geodesic-6" });
+    studio.ask("PATCH", &format!("{tab}/steps/1"), Some(&body));
+    let unfold = json!([["unfold", "faces"], ["sheet", "2000x2000"], ["nest_effort", 1000]]);
+    let unfold = json!({ "step": unfold });
     let told = studio.post(&steps, &unfold);
     assert_eq!(told.status, 200, "{}", String::from_utf8_lossy(&told.body));
     std::thread::scope(|scope| {

@@ -129,7 +129,7 @@ fn marks_are_texts_and_texts_are_marks() {
     let ids = text["ids"].as_array().expect("ids").clone();
     assert_eq!(ids.len(), 4);
     let click = mark(json!({ "kind": "edge", "id": ids[0], "how": "direction" })).json();
-    assert_eq!((&click["selection"], &click["ids"]), (&json!("along=z"), &text["ids"]));
+    assert_eq!((&click["selection"], &click["ids"]), (&json!("along=z:1deg"), &text["ids"]));
     let all = mark(json!({ "kind": "vertex", "id": 0, "how": "symmetric" })).json();
     assert_eq!(all["selection"], "0-7");
     assert_eq!(mark(json!({ "kind": "edge", "selection": "along=" })).status, 422);

@@ -55,8 +55,8 @@ export const getJson = async <T>(path: string, signal?: AbortSignal): Promise<T>
   (await send("GET", path, undefined, signal)).json();
 export const getText = async (path: string, signal?: AbortSignal) =>
   (await send("GET", path, undefined, signal)).text();
-export const post = async <T>(path: string, body: unknown = {}, method = "POST"): Promise<T> =>
-  (await send(method, path, body)).json();
+export const post = async <T>(path: string, body: unknown = {}, method = "POST", signal?: AbortSignal): Promise<T> =>
+  (await send(method, path, body, signal)).json();
 export const getArrays = async (path: string, signal?: AbortSignal) =>
   decode(await (await send("GET", path, undefined, signal)).arrayBuffer());
 export const postArrays = async (path: string, body: unknown, signal?: AbortSignal) =>

@@ -72,6 +72,7 @@ export class App {
   private resultStop: AbortController | null = null;
   private resultTimer = 0;
   private limitTimer = 0;
+  private limitStop: AbortController | null = null;
   limit: number | null = null;
   /** How long the last frame of a slider took, in ms; for the bench. */
   frames: number[] = [];
@@ -111,7 +112,7 @@ export class App {
     events.onmessage = (event) => {
       const told = JSON.parse(event.data);
       if (told.warning) this.say(told.warning, true);
-      else {
+      else if (this.working || this.pending) {
         this.work = told.total ? `${told.work} ${told.done}/${told.total}` : told.work;
         this.tell("work");
       }
@@ -261,6 +262,7 @@ export class App {
     if (!this.model) return;
     const begin = performance.now();
     if (!this.marked.size) {
+      if (this.preview) this.clearFault();
       this.preview = null;
       this.view.show(this.model);
       this.tell("cutting");
@@ -288,6 +290,8 @@ export class App {
   /** Shows what the cut would do, before it is made. */
   look() {
     clearTimeout(this.limitTimer);
+    // The picture comes first; the limit is looked for when the slider rests.
+    this.limitStop?.abort();
     this.limitTimer = window.setTimeout(() => void this.findLimit(), 350);
     return this.lookNow();
   }
@@ -301,7 +305,9 @@ export class App {
     }
     try {
       const body = { steps: this.steps, step: this.cut, key: "offset", from: 0, to: 2 };
-      this.limit = (await api.post<{ value: number | null }>(this.path("/limit"), body)).value;
+      this.limitStop = new AbortController();
+      const told = await api.post<{ value: number | null }>(this.path("/limit"), body, "POST", this.limitStop.signal);
+      this.limit = told.value;
       this.tell("cutting");
     } catch {
       // A newer value asks again.
@@ -335,7 +341,17 @@ export class App {
     return `file=${encodeURIComponent(this.recipe.file ?? "recipe.toml")}&folder=out`;
   }
 
+  private working = 0;
+
   private async loadResult() {
+    this.working++;
+    await this.loadResultNow();
+    this.working--;
+    this.work = "";
+    this.tell("work");
+  }
+
+  private async loadResultNow() {
     const stop = new AbortController();
     this.resultStop = stop;
     if (!this.recipe.steps.length) {
@@ -358,8 +374,6 @@ export class App {
       result.pieces?.pieces.forEach((p) => p.faces.forEach((f) => piece.set(f.face, p.id)));
       this.view.piece = piece;
       if (this.view.colourBy === "piece") this.view.rebuild();
-      this.work = "";
-      this.tell("work");
       this.tell("result");
     } catch (error) {
       if (error instanceof Refusal && error.code === "E907") return;

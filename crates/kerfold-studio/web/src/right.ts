@@ -230,7 +230,7 @@ function seamButton(row: SeamRow, model: Model, isTaken: boolean, onclick: () =>
   const dot = (a: number[], b: number[]) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   const folds = new Set(row.folds);
   const r = model.radius;
-  const svg = s("svg", { viewBox: `${-1.05 * r} ${-1.05 * r} ${2.1 * r} ${2.1 * r}`, "aria-hidden": "true" });
+  const svg = s("svg", { viewBox: `${-0.72 * r} ${-0.72 * r} ${1.44 * r} ${1.44 * r}`, "aria-hidden": "true" });
   const depth = (place: number) => dot(model.vertex(model.ends[2 * place]), [x, y, z]) + dot(model.vertex(model.ends[2 * place + 1]), [x, y, z]);
   const order = Array.from(model.edges.keys()).sort((a, b) => depth(a) - depth(b));
   for (const place of order) {

@@ -15,6 +15,17 @@ export interface Marks {
   ids: Set<number>;
 }
 
+/** Takes everything out of a group and gives its memory back. */
+function clear(group: THREE.Object3D) {
+  for (const child of [...group.children] as THREE.Mesh[]) {
+    group.remove(child);
+    child.geometry?.dispose();
+    (child.material as THREE.Material | undefined)?.dispose();
+    clear(child);
+  }
+}
+
+/** How near to an edge or a vertex the pointer must be, in pixels. */
 const CLOSE = 12;
 
 const COLOURS = {
@@ -31,6 +42,7 @@ export class View {
   private readonly over = new THREE.Group();
   /** What is picked: the faces of the base model, drawn or not. */
   private solid: THREE.Mesh | null = null;
+  private solidOf: Model | null = null;
   private bvh: MeshBVH | null = null;
   private base: Model | null = null;
   private shown: Model | null = null;
@@ -98,7 +110,7 @@ export class View {
 
   home() {
     const radius = (this.base ?? this.shown)?.radius ?? 1;
-    const far = (1.15 * radius) / Math.sin((this.camera.fov * Math.PI) / 360) / Math.min(1, this.camera.aspect);
+    const far = (0.95 * radius) / Math.sin((this.camera.fov * Math.PI) / 360) / Math.min(1, this.camera.aspect);
     this.camera.position.set(0.62, -0.86, 0.52).setLength(far);
     this.camera.near = far / 100;
     this.camera.far = far * 20;
@@ -111,11 +123,9 @@ export class View {
   /** The model on which elements are marked, and what is drawn in its place while a step is tried. */
   show(base: Model | null, preview: Model | null = null, bad: number[] = []) {
     const before = this.base;
-    const isNew = base !== this.base;
     this.base = base;
     this.shown = preview ?? base;
     this.bad = new Set(bad);
-    if (isNew) this.bvh = null;
     this.rebuild();
     if (base && (!before || Math.abs(Math.log(before.radius / base.radius)) > 0.7)) this.home();
   }
@@ -132,15 +142,16 @@ export class View {
 
   /** Draws the model anew: after a change of it, of its colours, of the theme. */
   rebuild() {
-    for (const child of [...this.body.children]) {
-      this.body.remove(child);
-      (child as THREE.Mesh).geometry?.dispose();
-    }
-    this.solid = null;
-    if (this.base) {
-      this.solid = new THREE.Mesh(this.geometry(this.base, null));
-      this.solid.raycast = acceleratedRaycast;
+    clear(this.body);
+    if (this.solidOf !== this.base) {
+      this.solidOf = this.base;
+      this.solid?.geometry.dispose();
+      this.solid = null;
       this.bvh = null;
+      if (this.base) {
+        this.solid = new THREE.Mesh(this.geometry(this.base, null));
+        this.solid.raycast = acceleratedRaycast;
+      }
     }
     const model = this.shown;
     if (model) {
@@ -193,7 +204,7 @@ export class View {
     geometry.setAttribute("position", new THREE.BufferAttribute(position, 3));
     if (colour) {
       geometry.setAttribute("color", new THREE.BufferAttribute(colour, 3));
-      geometry.computeVertexNormals();
+      geometry.setAttribute("normal", new THREE.BufferAttribute(normals(position), 3));
     }
     return geometry;
   }
@@ -246,10 +257,7 @@ export class View {
 
   /** Marks and hints over the model. */
   private overlay() {
-    for (const child of [...this.over.children]) {
-      this.over.remove(child);
-      (child as THREE.Mesh).geometry?.dispose();
-    }
+    clear(this.over);
     const { kind, ids } = this.marks;
     const good = [...ids].filter((id) => !this.bad.has(id));
     const bad = [...ids].filter((id) => this.bad.has(id));
@@ -314,7 +322,10 @@ export class View {
 
   /** The pieces on their way to the closed model, or nothing of it. */
   showFilm(arrays: Arrays | null) {
-    if (this.film) this.scene.remove(this.film);
+    if (this.film) {
+      this.scene.remove(this.film);
+      clear(this.film);
+    }
     this.film = null;
     this.body.visible = this.over.visible = !arrays;
     if (arrays) {
@@ -352,6 +363,12 @@ export class View {
         ),
         new THREE.LineSegments(lines, new THREE.LineBasicMaterial({ color: this.colours.edge })),
       );
+      // Flat pieces spread wider than the body; all of them are seen.
+      geometry.computeBoundingSphere();
+      const { center, radius } = geometry.boundingSphere!;
+      const scale = Math.min(1, (0.9 * model.radius) / radius);
+      this.film.scale.setScalar(scale);
+      this.film.position.copy(center).multiplyScalar(-scale);
       this.scene.add(this.film);
     }
     this.draw();
@@ -448,4 +465,21 @@ export class View {
     this.renderNow();
     return new Promise((done) => this.canvas.toBlob(done, "image/png"));
   }
+}
+
+/** Every triangle looks straight out of its own plane: faces are flat. */
+function normals(position: Float32Array) {
+  const normal = new Float32Array(position.length);
+  for (let i = 0; i < position.length; i += 9) {
+    const [ax, ay, az] = [position[i + 3] - position[i], position[i + 4] - position[i + 1], position[i + 5] - position[i + 2]];
+    const [bx, by, bz] = [position[i + 6] - position[i], position[i + 7] - position[i + 1], position[i + 8] - position[i + 2]];
+    const [x, y, z] = [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx];
+    const length = Math.hypot(x, y, z) || 1;
+    for (let k = 0; k < 9; k += 3) {
+      normal[i + k] = x / length;
+      normal[i + k + 1] = y / length;
+      normal[i + k + 2] = z / length;
+    }
+  }
+  return normal;
 }

@@ -95,18 +95,30 @@ fn sheets_of_an_earlier_run_are_named_or_removed() {
         ok(&scratch, &[&args, more].concat())
     };
     unfold(&["--sheet", "130x130"]);
-    let sheets = scratch.names("out").iter().filter(|n| n.starts_with("sheet-")).count();
-    assert_eq!(sheets, 6);
+    let names = scratch.names("out");
+    let sheets = |ending: &str| {
+        names.iter().filter(|n| n.starts_with("sheet-") && n.ends_with(ending)).count()
+    };
+    assert_eq!((sheets(".svg"), sheets(".png")), (6, 6));
     scratch.write("out/sheet-07.svg", "<svg/>");
     scratch.write("out/own.txt", "mine");
     let named = unfold(&["--sheet", "600x400"]);
     assert!(named.contains("sheet-02.svg") && named.contains("--clean"), "{named}");
     assert!(scratch.names("out").contains(&"sheet-06.svg".to_owned()));
     let removed = unfold(&["--sheet", "600x400", "--clean"]);
-    assert!(removed.contains("removed") && removed.contains("sheet-06.svg"), "{removed}");
+    assert!(removed.contains("removed") && removed.contains("sheet-05.svg"), "{removed}");
     assert_eq!(
         scratch.names("out"),
-        ["assembly.txt", "layout.json", "own.txt", "pieces.json", "sheet-01.svg", "sheet-07.svg"]
+        [
+            "assembly.txt",
+            "layout.json",
+            "own.txt",
+            "pieces.json",
+            "sheet-01.png",
+            "sheet-01.svg",
+            "sheet-07.svg",
+            "sheets.html"
+        ]
     );
     let quiet = unfold(&["--sheet", "600x400"]);
     assert!(!quiet.contains("earlier run"), "{quiet}");

@@ -130,6 +130,8 @@ fn the_files_of_the_table_are_those_that_are_written() {
         "3mm",
         "--solids",
         "step,obj,glb,stl",
+        "--drawings",
+        "pdf,dxf",
         "-o",
         &path("panels"),
     ]);
@@ -139,8 +141,9 @@ fn the_files_of_the_table_are_those_that_are_written() {
     run(&["nest", &path("unfolded/pieces.json"), "-o", &path("nested")]);
     run(&["man", "-o", &path("manual")]);
     let steps = "[[step]]\nsolid = \"cube\"\n\n[[step]]\nhull = \"dual\"\nsteps = \
-    \"1,all\"\n\n[[step]]\ncheck = \"glass\"\n\n\
-                 [[step]]\nrender = \"iso\"\nwidth = 64\n\n[[step]]\nunfold = \"auto\"\n";
+    \"1,all\"\n\n[[step]]\ncut = \"vertex\"\nselect = \"all\"\noffset = \
+    0.2\n\n[[step]]\ncheck = \"glass\"\n\n\
+                 [[step]]\nrender = \"iso\"\nwidth = 64\nbefore = \"on\"\n\n[[step]]\nunfold = \"auto\"\n";
     fs::write(&recipe, steps).expect("a recipe");
     run(&["run", &recipe, "-o", &path("made")]);
 

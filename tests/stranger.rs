@@ -208,28 +208,34 @@ fn assert_nothing_on_parts(folder: &Path) {
     }
 }
 
-/// Whether strokes are a text, turned and scaled anyhow, but not mirrored.
+/// Whether strokes are a text, turned and scaled anyhow, but not mirrored. The machine's order may
+/// have turned the whole of it around.
 fn spells(strokes: &[(Vec<DVec2>, bool)], text: &str) -> bool {
-    let letters = lettering(text, 1.0).expect("letters").strokes;
-    let shape = |points: &[Vec<DVec2>]| points.iter().map(Vec::len).collect::<Vec<_>>();
     let found: Vec<Vec<DVec2>> =
         strokes.iter().map(|(p, _)| p.iter().map(|p| DVec2::new(p.x, -p.y)).collect()).collect();
-    if shape(&found) != shape(&letters) {
+    let backwards: Vec<Vec<DVec2>> =
+        found.iter().rev().map(|stroke| stroke.iter().rev().copied().collect()).collect();
+    let letters = lettering(text, 1.0).expect("letters").strokes;
+    is_like(&found, &letters) || is_like(&backwards, &letters)
+}
+
+/// Whether lines are others turned, scaled and moved.
+fn is_like(found: &[Vec<DVec2>], letters: &[Vec<DVec2>]) -> bool {
+    let shape = |points: &[Vec<DVec2>]| points.iter().map(Vec::len).collect::<Vec<_>>();
+    if shape(found) != shape(letters) {
         return false;
     }
     let [from, to] = [letters.concat(), found.concat()];
-    let Some(far) = (1..from.len())
-        .max_by(|&i, &j| from[i].distance(from[0]).total_cmp(&from[j].distance(from[0])))
-    else {
-        return false;
-    };
+    let farthest = (1..from.len())
+        .max_by(|&i, &j| from[i].distance(from[0]).total_cmp(&from[j].distance(from[0])));
+    let Some(far) = farthest else { return false };
     // As complex numbers: to = turn · from + shift.
     let (u, v) = (from[far] - from[0], to[far] - to[0]);
     let turn = DVec2::new(u.dot(v), u.perp_dot(v)) / u.length_squared();
     let size = v.length() / u.length();
-    from.iter()
-        .zip(&to)
-        .all(|(&a, &b)| (to[0] + turn.rotate(a - from[0])).distance(b) < 0.03 * size)
+    let is_near =
+        |(&a, &b): (&DVec2, &DVec2)| (to[0] + turn.rotate(a - from[0])).distance(b) < 0.03 * size;
+    from.iter().zip(&to).all(is_near)
 }
 
 /// Names and numbers that the steps of an assembly use.
@@ -309,7 +315,7 @@ fn every_verb_that_writes_sheets_leaves_what_can_be_seen_and_built() {
     run(here, &["unfold", "solid.obj", "--pieces", "4", "--labels", "pieces", "-o", "pieces"]);
     run(here, &["panels", "solid.obj", "--thickness", "3mm", "-o", "panels"]);
     run(here, &["nest", "unfold/pieces.json", "--quantity", "3", "-o", "nest"]);
-    run(here, &["dform", "cube", "--size", "120mm", "-o", "dform"]);
+    run(here, &["dform", "cube", "--size", "120mm", "--rounds", "2", "-o", "dform"]);
     for folder in ["unfold", "edges", "pieces", "panels", "nest", "dform"] {
         println!("{folder}");
         assert_fit_for_a_stranger(&here.join(folder));

@@ -184,8 +184,12 @@ pub(super) fn pdf_pages(
     file
 }
 
-/// A PDF text string as UTF-16 in hexadecimal, which needs no escapes.
+/// A PDF text string: ASCII in brackets, anything else as UTF-16 in hexadecimal.
 fn pdf_text(text: &str) -> String {
+    if text.chars().all(|c| (' '..='~').contains(&c)) {
+        let escaped = text.replace('\\', r"\\").replace('(', r"\(").replace(')', r"\)");
+        return format!("({escaped})");
+    }
     let units: String = text.encode_utf16().map(|unit| format!("{unit:04X}")).collect();
     format!("<FEFF{units}>")
 }

@@ -47,7 +47,7 @@ pub use outputs::{Output, fabrication_outputs, sheet_picture};
 pub use panel_error::PanelOptionError;
 pub use panels::{PaneFile, PanelFiles, PanelJob, Panelled, SolidFile, panel_model, panel_outputs};
 pub use picture::PointOut;
-pub(crate) use picture::{before_and_sections, x_ray};
+pub(crate) use picture::{before_and_sections, in_pieces, x_ray};
 pub use planes::{PlanesStep, solid_of_planes};
 pub use report_pictures::report_pictures;
 pub use seam_choice::SeamChoice;

@@ -12,7 +12,8 @@ use crate::mesh::Mesh;
 use crate::net::EdgeLabel;
 use crate::picture::{PictureError, Polyline, StrokeLayer, Strokes, render_sheet};
 use crate::sheet::{
-    Drawing, JointFallback, JointReport, LayerKind, SheetFinding, SheetParams, SheetReport, Style,
+    Drawing, JointFallback, JointReport, LayerKind, NearScores, SheetFinding, SheetParams,
+    SheetReport, Style,
 };
 use crate::units::counted;
 
@@ -89,26 +90,17 @@ impl Fabrication {
         notes.extend(contour_notes(report));
         notes.extend(layout_notes(report));
         notes.extend(info_notes(report));
+        notes.extend(near_note(report));
         notes.extend(joint_notes(&report.joints));
         notes
     }
 
-    /// What breaks a limit of the material, with its code and what to do.
+    /// What breaks a limit of the material, with its code and what to do; nothing where the material
+    /// is not known.
     pub fn findings(&self) -> Vec<String> {
-        let near = self.sheets.report.near_scores.as_ref();
-        let text = near.map(|near| {
-            let code = SheetFinding::NearScores.code();
-            let pairs = counted(near.pairs, "pair of folds is", "pairs of folds are");
-            let short = |mm: f64| (mm * 100.0).round() / 100.0;
-            let (least, limit) = (short(near.least), short(near.limit));
-            format!(
-                "finding {code}: {pairs} scored nearer than {limit} mm, the nearest {least} mm, on \
-                {}; fewer rounds, a larger model or --hinge {}mm give it room",
-                piece_list(&near.pieces),
-                short(2.0 * limit)
-            )
-        });
-        text.into_iter().collect()
+        let near = self.sheets.report.near_scores.as_ref().filter(|near| near.is_known);
+        let code = SheetFinding::NearScores.code();
+        near.map(|near| format!("finding {code}: {}", near_text(near))).into_iter().collect()
     }
 
     fn piece_notes(&self) -> Vec<String> {
@@ -213,6 +205,25 @@ fn layout_notes(report: &SheetReport) -> impl Iterator<Item = String> {
         )
     });
     [stopped, spacing, shared, widened].into_iter().flatten()
+}
+
+/// Folds that are scored too near to each other, and what to do.
+fn near_text(near: &NearScores) -> String {
+    let pairs = counted(near.pairs, "pair of folds is", "pairs of folds are");
+    let short = |mm: f64| (mm * 100.0).round() / 100.0;
+    let (least, limit) = (short(near.least), short(near.limit));
+    format!(
+        "{pairs} scored nearer than {limit} mm, the nearest {least} mm, on {}; fewer rounds, a larger \
+        model or --hinge {}mm give it room",
+        piece_list(&near.pieces),
+        short(2.0 * limit)
+    )
+}
+
+/// The same where the material is not known.
+fn near_note(report: &SheetReport) -> Option<String> {
+    let near = report.near_scores.as_ref().filter(|near| !near.is_known)?;
+    Some(format!("{} (as on card; --material tells more)", near_text(near)))
 }
 
 /// What the info layer lacks.

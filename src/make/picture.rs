@@ -3,7 +3,7 @@
 
 use serde::Deserialize;
 
-use super::MakeError;
+use super::{Fabrication, MakeError};
 use crate::mesh::{FaceId, Mesh};
 use crate::op::{Keep, OpContext, OpError, SliceParams, slice};
 use crate::picture::{Colour, Ids, Marks, RenderParams, Surface};
@@ -134,6 +134,22 @@ pub(crate) fn before_and_sections(
     }
     let both = Mesh::from_faces(points, polygons).ok()?;
     Some((both, Marks { faces: red, ..Marks::default() }))
+}
+
+/// The mesh with its pieces as groups, so that they have the colours of groups.
+pub(crate) fn in_pieces(
+    fabrication: &Fabrication,
+    mut mesh: Mesh,
+    render: &RenderParams,
+) -> (Mesh, RenderParams) {
+    for piece in &fabrication.net.pieces {
+        for face in piece.faces.iter().map(|f| FaceId::new(f.face)) {
+            if mesh.has_face(face) {
+                mesh.set_group(face, &piece.id.to_string());
+            }
+        }
+    }
+    (mesh, RenderParams { colour: Colour::Group, ..render.clone() })
 }
 
 /// How the picture before a step looks.

@@ -9,6 +9,7 @@
 mod band;
 mod bsp;
 mod camera;
+mod frame;
 mod legend;
 mod lettering;
 mod marks;
@@ -22,15 +23,17 @@ mod smooth;
 mod strip;
 mod through;
 mod vector;
+mod views;
 
 pub use marks::Marks;
-pub use model::{render_marked, render_model, render_shares, render_with};
+pub use model::{render_marked, render_model, render_shares};
 pub use params::{
     Colour, EdgeLines, Ids, Projection, RenderParams, Shadow, Surface, UpAxis, View, ViewError,
 };
 pub use sheet::{Polyline, StrokeLayer, Strokes, render_sheet};
 pub use strip::{Cell, render_strip};
 pub use vector::{MAX_VECTOR_FACES, VectorPicture, render_vector};
+pub use views::render_with;
 
 use tiny_skia::Pixmap;
 

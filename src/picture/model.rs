@@ -4,21 +4,19 @@ use glam::DVec2;
 use tiny_skia::Pixmap;
 
 use super::band::{BAND_ROWS, Band, Coverage};
-use super::camera::{Camera, Window};
+use super::camera::Camera;
+use super::frame::window;
 use super::legend::Legend;
 use super::lettering::write_clear;
 use super::marks::{Marks, Tag};
 use super::paint;
 use super::pieces::piece_of_faces;
 use super::scene::{Dot, Scene};
-use super::strip::render_views;
 use super::through::aimed;
 use super::{Colour, Picture, PictureError, RenderParams};
 use crate::measure::planarity;
 use crate::mesh::{FaceId, FaceMap, Mesh};
 
-/// The margin around the model, as a part of the smaller side of the picture.
-const MARGIN: f64 = 0.06;
 /// Deviations below this part of the model's diagonal look planar in every picture: they may be no
 /// more than rounding.
 const PLANAR: f64 = 1e-6;
@@ -44,21 +42,15 @@ const PLANAR: f64 = 1e-6;
 /// # Ok::<(), kerfold::picture::PictureError>(())
 /// ```
 pub fn render_model(mesh: &Mesh, params: &RenderParams) -> Result<Picture, PictureError> {
-    render_with(mesh, params, &Marks::default())
+    render_one(mesh, params, &Marks::default())
 }
 
-/// As [`render_model`], with elements pointed out in red.
-///
-/// # Errors
-/// As [`render_model`].
-pub fn render_with(
+/// A picture from one side, with elements pointed out in red.
+pub(super) fn render_one(
     mesh: &Mesh,
     params: &RenderParams,
     marks: &Marks,
 ) -> Result<Picture, PictureError> {
-    if !params.views.is_empty() {
-        return render_views(mesh, params, marks);
-    }
     let (legend, mut colours) = colours(mesh, params.colour);
     marks.faces.iter().for_each(|&f| colours[f] = paint::MARKED);
     draw_model(mesh, params, legend, (&colours, marks))
@@ -126,14 +118,6 @@ fn draw_model(
 /// The number of threads for a picture.
 pub(super) fn workers() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from).min(8)
-}
-
-/// The part of the picture for the model, beside the legend.
-pub(super) fn window(width: u32, height: u32, has_legend: bool) -> Window {
-    let size = DVec2::new(f64::from(width), f64::from(height));
-    let margin = DVec2::splat(size.min_element() * MARGIN);
-    let beside = DVec2::new(if has_legend { Legend::width(width, height) } else { 0.0 }, 0.0);
-    Window { low: margin, high: size - margin - beside }
 }
 
 /// The legend and the colour of each face.

@@ -4,12 +4,12 @@ use tiny_skia::{Pixmap, PixmapPaint, Transform};
 
 use super::band::BAND_ROWS;
 use super::camera::Camera;
+use super::frame::window;
 use super::lettering::write;
 use super::marks::Marks;
-use super::model::{Division, colours, draw, window, workers};
+use super::model::{Division, colours, draw, workers};
 use super::scene::Scene;
-use super::through::aimed;
-use super::{Picture, PictureError, RenderParams, View, paint};
+use super::{Picture, PictureError, RenderParams, paint};
 use crate::mesh::Mesh;
 
 /// One state.
@@ -71,47 +71,8 @@ fn draw_cell(cell: &Cell, params: &RenderParams, camera: &Camera) -> Result<Pixm
     Ok(pixmap)
 }
 
-fn letter_height(height: u32) -> f32 {
+pub(super) fn letter_height(height: u32) -> f32 {
     (height as f32 / 20.0).max(7.0)
-}
-
-/// Draws a model from several sides, in rows that are nearly as many as columns, each with the name
-/// of its view; `params.width` and `params.height` are those of the whole.
-pub(super) fn render_views(
-    mesh: &Mesh,
-    params: &RenderParams,
-    marks: &Marks,
-) -> Result<Picture, PictureError> {
-    let count = params.views.len() as u32;
-    let columns = (1..=count).find(|c| c * c >= count).unwrap_or(1);
-    let rows = count.div_ceil(columns);
-    let (_, whole_height) = params.pixels();
-    let (width, height) = (params.width / columns, whole_height / rows);
-    let mut whole = super::blank(width * columns, height * rows)?;
-    let [r, g, b] = paint::PAPER;
-    whole.fill(tiny_skia::Color::from_rgba8(r, g, b, 255));
-    for (i, &view) in (0..).zip(&params.views) {
-        let params =
-            RenderParams { width, height: Some(height), view, views: Vec::new(), ..params.clone() };
-        let mut picture = super::render_with(mesh, &aimed(mesh, &params)?, marks)?.pixmap;
-        let letter = letter_height(height);
-        let name = view_name(view);
-        write(&mut picture, &name, (letter, 2.0 * letter), letter, paint::LINE);
-        let at = |n: u32| i32::try_from(n).unwrap_or(i32::MAX);
-        whole.draw_pixmap(
-            at(i % columns * width),
-            at(i / columns * height),
-            picture.as_ref(),
-            &PixmapPaint::default(),
-            Transform::identity(),
-            None,
-        );
-    }
-    Ok(Picture { pixmap: whole })
-}
-
-fn view_name(view: View) -> String {
-    view.to_string().to_uppercase()
 }
 
 #[cfg(test)]

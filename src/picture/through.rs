@@ -1,14 +1,15 @@
 //! From where a hole of a model can be looked through.
 //!
 //! A view is judged by a small picture: how much of the background is enclosed by the model. Of a
-//! fixed set of directions, the usual one among them, the one that shows most wins.
+//! fixed list of directions, the usual one first, the first that shows enough of a hole is taken, else
+//! the one that shows most.
 
 use glam::DVec3;
 
 use super::band::Band;
 use super::camera::Camera;
+use super::frame::window;
 use super::marks::Marks;
-use super::model::window;
 use super::params::{EdgeLines, Ids, Shadow, Surface};
 use super::scene::Scene;
 use super::{PictureError, RenderParams, View, paint};
@@ -17,8 +18,9 @@ use crate::mesh::{FaceMap, Mesh};
 /// Width and height of the picture that a view is judged by, in pixels.
 const SMALL: u32 = 72;
 
-/// What must show of a hole, as a part of that picture.
+/// What must show of a hole, as a part of that picture, and what is enough of it.
 const LEAST: f64 = 0.002;
+const ENOUGH: f64 = 0.008;
 
 /// Directions that are tried: around the model at four heights, the usual one first.
 fn directions() -> Vec<DVec3> {
@@ -58,9 +60,11 @@ pub(super) fn aimed(mesh: &Mesh, params: &RenderParams) -> Result<RenderParams, 
     for from in directions() {
         let view = View::From(from);
         let share = enclosed(mesh, &RenderParams { view, ..small.clone() })?;
-        // The usual directions come first: others must show clearly more.
-        if share > 1.25 * best.0 {
+        if share > best.0 {
             best = (share, view);
+        }
+        if best.0 >= ENOUGH {
+            break;
         }
     }
     Ok(RenderParams { view: best.1, ..params.clone() })

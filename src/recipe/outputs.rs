@@ -7,13 +7,12 @@ use crate::io::report::json::check_json;
 use crate::io::report::page::{ReportPage, ReportRows};
 use crate::io::{MeshFormat, WriteOptions, mesh_bytes};
 use crate::make::{
-    MakeError, Output, before_and_sections, fabrication_outputs, panel_outputs, report_pictures,
-    show_outputs, x_ray,
+    MakeError, Output, before_and_sections, fabrication_outputs, in_pieces, panel_outputs,
+    report_pictures, show_outputs, x_ray,
 };
-use crate::mesh::{FaceId, Mesh};
-use crate::net::Net;
+use crate::mesh::Mesh;
 use crate::op::OpContext;
-use crate::picture::{Colour, RenderParams, render_model, render_with};
+use crate::picture::{Colour, render_model, render_with};
 use crate::progress::Silent;
 
 /// The files of a whole recipe: model, picture, report, the steps of a hull where asked for, and if
@@ -56,7 +55,7 @@ fn pictures(job: &Job, mesh: &Mesh) -> Result<Vec<Output>, MakeError> {
     let (shown, marks) = job.point_out.shown(mesh, job.made(), job.render.ids, &context)?;
     let made = job.fabrication.as_ref().map(|(f, _)| f);
     let (shown, render) = match made.filter(|_| job.render.colour == Colour::Piece) {
-        Some(made) => in_pieces(&made.net, shown, &job.render),
+        Some(made) => in_pieces(made, shown, &job.render),
         None => (shown, job.render.clone()),
     };
     let mut outputs =
@@ -67,18 +66,6 @@ fn pictures(job: &Job, mesh: &Mesh) -> Result<Vec<Output>, MakeError> {
         outputs.push(("before.png".to_owned(), picture.to_png()));
     }
     Ok(outputs)
-}
-
-/// The mesh with its pieces as groups, so that they have the colours of groups.
-fn in_pieces(net: &Net, mut mesh: Mesh, render: &RenderParams) -> (Mesh, RenderParams) {
-    for piece in &net.pieces {
-        for face in piece.faces.iter().map(|f| FaceId::new(f.face)) {
-            if mesh.has_face(face) {
-                mesh.set_group(face, &piece.id.to_string());
-            }
-        }
-    }
-    (mesh, RenderParams { colour: Colour::Group, ..render.clone() })
 }
 
 /// The page of the report, with the pictures seen as the recipe says.

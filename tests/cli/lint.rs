@@ -46,7 +46,7 @@ fn lint_tells_what_it_finds_and_passes_our_own_sheets() {
         (&["unfold", &model, "--material", "unobtainium", "-o", &out], "known are"),
         (&["kerf-test", "--thickness", "3mm", "-o", "kerf.png"], ".lbrn2"),
         (&["kerf-test", "-o", "kerf.svg"], "--thickness"),
-        (&["kerf-test", "--thickness", "0.1mm", "-o", "kerf.svg"], "0.3"),
+        (&["kerf-test", "--thickness", "0mm", "-o", "kerf.svg"], "0.01"),
     ] {
         let ran = run(arguments);
         assert_eq!((ran.code, ran.out.as_str()), (Some(2), ""), "{arguments:?}");

@@ -14,9 +14,14 @@ const fn file(name: &'static str, by: &'static str, what: &'static str) -> File 
     File { name, by, what }
 }
 
-const FILES: [File; 30] = [
+const FILES: [File; 35] = [
     file("model.obj", "`run`, `dform`", "the model as it is at the end"),
     file("model.png", "`run`, `dform`", "its picture"),
+    file(
+        "before.png",
+        "`run` with `before = \"on\"` in a step `render`",
+        "the model before the last operator, with the sections that it cut",
+    ),
     file(
         "list.png",
         "`dform --list`",
@@ -36,12 +41,13 @@ const FILES: [File; 30] = [
     ),
     file("layout.json", "with sheets", "where each piece lies"),
     file("assembly.txt", "with sheets", "the order in which seams are closed"),
+    file("sheets.html", "with sheets", "one page to look at all sheets, beside the model"),
     file("assembly-NN.png", "`--assembly pictures`", "the same as pictures"),
     file("sheet-NN.svg", "with sheets, `--format svg`", "the sheet as SVG in layers"),
     file("sheet-NN.dxf", "with sheets, `--format dxf`", "the sheet as DXF R2000"),
     file("sheet-NN.pdf", "with sheets, `--format pdf`", "the sheet as PDF at true size"),
     file("sheet-NN.lbrn2", "with sheets, `--format lbrn2`", "the sheet as LightBurn project"),
-    file("sheet-NN.png", "`run`, `dform`", "a picture of the sheet"),
+    file("sheet-NN.png", "with sheets", "a picture of the sheet"),
     file(
         "sheet-NN-PAPER.pdf",
         "with sheets, `--tile PAPER`",
@@ -57,6 +63,9 @@ const FILES: [File; 30] = [
     file("edges.csv", "`panels`", "a row for each edge"),
     file("nodes.csv", "`panels`", "a row for each node"),
     file("cutting-list.csv", "`panels`", "a row for each group of congruent panels"),
+    file("schedule.xlsx", "`panels`", "the four tables as one workbook"),
+    file("panes.pdf", "`panels`", "a dimensioned drawing of each pane"),
+    file("pane-PNN.dxf", "`panels --drawings dxf`", "the same as a DXF at true size"),
     file("assembly-map.svg", "`panels`", "the model from the sides that its panels look at"),
     file("assembly-map.pdf", "`panels`", "the same on A3"),
     file("plates.step", "`panels --solids step`", "the plates as solids (AP214)"),

@@ -11,10 +11,12 @@ use std::path::{Path, PathBuf};
 /// Endings of the drawings of sheets and parts.
 const DRAWINGS: [&str; 4] = ["svg", "dxf", "pdf", "lbrn2"];
 /// Names that are the same in every run.
-const FIXED: [&str; 17] = [
+const FIXED: [&str; 19] = [
     "pieces.json",
     "layout.json",
     "assembly.txt",
+    "sheets.html",
+    "panes.pdf",
     "panels.json",
     "panels.csv",
     "edges.csv",
@@ -75,8 +77,9 @@ fn is_sheet(stem: &str) -> bool {
     is_number(number) && !paper.is_empty() && paper.bytes().all(|b| b.is_ascii_alphanumeric())
 }
 
-/// `P01`.
+/// `P01`, or `pane-P01` for its drawing.
 fn is_part(stem: &str) -> bool {
+    let stem = stem.strip_prefix("pane-").unwrap_or(stem);
     stem.strip_prefix('P').is_some_and(is_number)
 }
 
@@ -108,8 +111,14 @@ mod tests {
 
     #[test]
     fn names_of_others_are_not_ours() {
-        for ours in ["sheet-01.svg", "sheet-12-a4.pdf", "P07.dxf", "pieces.json", "sheet-100.lbrn2"]
-        {
+        for ours in [
+            "sheet-01.svg",
+            "sheet-12-a4.pdf",
+            "P07.dxf",
+            "pane-P07.dxf",
+            "pieces.json",
+            "sheet-100.lbrn2",
+        ] {
             assert!(is_ours_by_name(ours), "{ours}");
         }
         for other in [

@@ -73,16 +73,6 @@ pub enum SheetFormat {
     Lbrn2,
 }
 
-impl super::params::SheetParams {
-    /// The same with a name of the project, unless it has one already; an empty name is none.
-    pub fn titled(mut self, title: &str) -> Self {
-        if self.files.title.is_none() && !title.is_empty() {
-            self.files.title = Some(title.to_owned());
-        }
-        self
-    }
-}
-
 impl SheetFormat {
     /// All formats.
     pub const ALL: [Self; 4] = [Self::Svg, Self::Dxf, Self::Pdf, Self::Lbrn2];

@@ -112,6 +112,8 @@ pub struct NearScores {
     pub least: f64,
     /// What it should be: twice the thickness, at least 1 mm.
     pub limit: f64,
+    /// Whether the thickness is known; else card is supposed, and nothing is found.
+    pub is_known: bool,
     /// The pieces that have such folds.
     pub pieces: Vec<PieceId>,
 }

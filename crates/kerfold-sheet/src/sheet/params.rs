@@ -118,6 +118,22 @@ impl SheetParams {
         params
     }
 
+    /// The same with a name of the project, unless it has one already; an empty name is none.
+    ///
+    /// # Example
+    /// ```
+    /// use kerfold_sheet::sheet::SheetParams;
+    ///
+    /// let params = SheetParams::default().titled("lamp").titled("other");
+    /// assert_eq!(params.files.title.as_deref(), Some("lamp"));
+    /// ```
+    pub fn titled(mut self, title: &str) -> Self {
+        if self.files.title.is_none() && !title.is_empty() {
+            self.files.title = Some(title.to_owned());
+        }
+        self
+    }
+
     /// The colours and widths of lines.
     pub fn style(&self) -> Style {
         let of = |m: &Material| {

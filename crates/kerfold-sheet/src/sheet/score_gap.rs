@@ -16,10 +16,10 @@ const ON_CARD: f64 = 1.0;
 const THICKNESSES: f64 = 2.0;
 
 /// What scores must keep apart, in mm: twice the thickness, where it is known, and 1 mm at least.
-fn limit(params: &SheetParams) -> f64 {
+fn limit(params: &SheetParams) -> (f64, bool) {
     let of_material = params.stock.made_of.as_ref().map(|m| m.thickness);
-    let thickness = params.joint.thickness.or(of_material).map_or(0.0, Length::mm);
-    (THICKNESSES * thickness).max(ON_CARD)
+    let thickness = params.joint.thickness.or(of_material);
+    ((THICKNESSES * thickness.map_or(0.0, Length::mm)).max(ON_CARD), thickness.is_some())
 }
 
 /// Pairs of folds of one face, without a common corner, that are scored nearer than the limit.
@@ -28,7 +28,7 @@ pub(crate) fn near_scores(
     drawings: &[Drawing],
     params: &SheetParams,
 ) -> Option<NearScores> {
-    let limit = limit(params);
+    let (limit, is_known) = limit(params);
     let folds = [MarkKind::MountainFold, MarkKind::ValleyFold, MarkKind::Perforation];
     let marks = drawings.iter().flat_map(Drawing::marks).filter(|m| folds.contains(&m.kind));
     let scored: BTreeSet<&str> = marks.map(|m| m.id.as_str()).collect();
@@ -40,7 +40,8 @@ pub(crate) fn near_scores(
             of_face.entry(face).or_default().push(fold);
         }
     }
-    let mut near = NearScores { pairs: 0, least: f64::INFINITY, limit, pieces: Vec::new() };
+    let mut near =
+        NearScores { pairs: 0, least: f64::INFINITY, limit, is_known, pieces: Vec::new() };
     for folds in of_face.values() {
         for (i, a) in folds.iter().enumerate() {
             for b in &folds[i + 1..] {
@@ -103,6 +104,7 @@ mod tests {
     fn scores_nearer_than_two_thicknesses_or_a_millimetre_are_counted() {
         let near = found(0.9, None).expect("less than 1 mm apart");
         assert_eq!((near.pairs, near.limit, near.pieces.len()), (3, 1.0, 1));
+        assert!(!near.is_known && found(0.9, Some(0.2)).is_some_and(|n| n.is_known));
         assert!((near.least - 0.9).abs() < 1e-9, "{near:?}");
         assert_eq!(found(1.1, None), None);
         assert_eq!(found(1.1, Some(0.5)), None);

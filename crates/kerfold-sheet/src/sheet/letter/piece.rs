@@ -160,7 +160,9 @@ impl<'a> PieceLettering<'a> {
                 }
                 let (s, forward) = stretch.seams[k];
                 let side = (&self.net.seams[s], forward ^ i);
-                let label = self.beside(&text, &faces, side, (across, letter), &lettered.taken)?;
+                // Across an edge the length of the stretch is no limit.
+                let largest = if across { self.letter } else { letter };
+                let label = self.beside(&text, &faces, side, (across, largest), &lettered.taken)?;
                 // Nearer to the middle is better, unless it is much smaller there.
                 found = label.filter(|(_, l)| l.height > WORTH * height).or(found);
             }

@@ -191,7 +191,7 @@ mod tests {
     fn the_nearest_code_or_name_is_proposed() {
         let all = pages();
         for (typed, near) in [
-            ("E999", Some("E831")),
+            ("E999", Some("E913")),
             ("f150", Some("F117")),
             ("E130", Some("E131")),
             ("planarty", Some("planarity")),

@@ -1,4 +1,4 @@
-//! Closed polygons with given sides: how chords become as long as their arcs (see [`super::rims`]).
+//! Closed polygons with given sides: how chords become as long as their arcs (see `rims`).
 
 use glam::{DMat3, DVec2, DVec3};
 
@@ -6,8 +6,7 @@ use super::rims::STRAIGHT;
 use super::triangle::turn;
 
 /// The closed polygon with the given sides whose turns are as nearly as possible in proportion to
-/// those of the given one.
-/// `None` when it does not close.
+/// those of the given one. `None` when it does not close.
 pub(super) fn with_sides(points: &[DVec2], sides: &[f64]) -> Option<Vec<DVec2>> {
     let n = points.len();
     let perimeter: f64 = sides.iter().sum();

@@ -9,9 +9,9 @@
 //! only along straight lines between points of the seam.
 //!
 //! The way: [`Outline`]s and [`Seam`]s → rims cut into chords that are equal on both sides
-//! ([`rims`]) → a triangulated surface that knows lengths and no positions ([`surface`]) → the
-//! distances from the apex ([`alexandrov`]) → positions, mended until every edge has its length
-//! ([`place`]) → where the seams run on the body ([`trace`]) → mesh and net ([`body`]).
+//! (`rims`) → a triangulated surface that knows lengths and no positions (`surface`) → the
+//! distances from the apex (`alexandrov`) → positions, mended until every edge has its length
+//! (`place`) → where the seams run on the body (`trace`) → mesh and net (`body`).
 
 mod alexandrov;
 mod body;

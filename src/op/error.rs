@@ -1,6 +1,6 @@
 //! What a caller of an operator can mend.
 
-use super::roll::RollError;
+use super::roll_error::RollError;
 use crate::code::codes;
 use crate::geom::hull::{HalfSpaceError, HullError};
 use crate::mesh::{BuildError, EdgeId, FaceId, FileFault, VertexId};

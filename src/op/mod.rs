@@ -16,6 +16,8 @@ mod report;
 mod resolve;
 mod rind;
 mod roll;
+mod roll_error;
+mod rolled;
 mod sierpinski;
 mod simple;
 mod simplify;
@@ -46,10 +48,9 @@ pub use repair::{RepairParams, RepairReport, repair};
 pub use report::{CutReport, Origins, ShrunkOffset};
 pub use resolve::{ResolveParams, ResolveReport, resolve};
 pub use rind::{GroupThickness, RindParams, RindReport, ShellSource, rind};
-pub use roll::{
-    Place, Roll, RollError, RollLimit, RollParams, RollWordError, RolledEdge, StripSize,
-    StripWordError, largest_roll,
-};
+pub use roll::{Roll, RollParams, RollWordError, StripSize, StripWordError, largest_roll};
+pub use roll_error::RollError;
+pub use rolled::{Place, RollLimit, RolledEdge};
 pub use sierpinski::{
     SierpinskiParams, SierpinskiReport, VertexKind, sierpinski, sierpinski_preview, vertex_kind,
 };

@@ -2,7 +2,7 @@
 
 use super::OpError;
 use super::cut::{Cutter, Lineage};
-use super::roll::{RollLimit, RolledEdge};
+use super::rolled::{RollLimit, RolledEdge};
 use super::simple::keep_cut_simple;
 use crate::code::Code;
 use crate::measure::{CrossingKind, CrossingPair, crossings_while};

@@ -6,35 +6,16 @@
 //! something of every edge do not meet: the parts that planes take off a convex corner are convex,
 //! and disjoint wherever they are disjoint on the surface.
 
-use std::fmt;
-
 use glam::DVec3;
 
 use super::ridge::Ridge;
 use crate::geom::Plane;
 use crate::measure::edge_length;
-use crate::mesh::{EdgeId, EdgeMap, FaceId, HalfEdgeId, Mesh};
+use crate::mesh::{EdgeMap, FaceId, HalfEdgeId, Mesh};
+use crate::op::rolled::Place;
 
 /// Planes that stand for the whole roll where an edge leaves a corner between others.
 const SAMPLES: u32 = 63;
-
-/// An edge or a face that must stay what it is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Place {
-    /// An edge that must keep some of its length.
-    Edge(EdgeId),
-    /// A face with a corner that the roll would reach.
-    Face(FaceId),
-}
-
-impl fmt::Display for Place {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Edge(e) => write!(f, "edge {e}"),
-            Self::Face(face) => write!(f, "face {face} up to one of its corners"),
-        }
-    }
-}
 
 /// A place with the share of it that each ridge takes; all taken at 1.
 #[derive(Debug, Clone, PartialEq)]

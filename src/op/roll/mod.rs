@@ -12,7 +12,6 @@
 //! are concave, flat or rims, ends with such an edge, chosen edges that meet, radii that leave
 //! nothing of an edge or a face (`limit`). What was cut is measured by code of its own (`proof`).
 
-mod error;
 mod limit;
 mod params;
 mod proof;
@@ -22,8 +21,6 @@ mod ridge;
 #[cfg(test)]
 mod tests;
 
-pub use error::RollError;
-pub use limit::Place;
 pub use params::{Roll, RollParams, RollWordError, StripSize, StripWordError};
 
 use self::limit::Limit;
@@ -32,6 +29,8 @@ use self::radii::Radii;
 use self::ridge::{Ridge, Shapes};
 use super::cut::{Cutter, Reach, SlicingPlane};
 use super::report::{CutReport, Origins, RoundMarks, StripMark, finish};
+use super::roll_error::RollError;
+use super::rolled::{RollLimit, RolledEdge};
 use super::size::check_size;
 use super::{OpContext, OpError};
 use crate::geom::Plane;
@@ -39,40 +38,9 @@ use crate::measure::convexity;
 use crate::mesh::{EdgeId, Mesh, VertexId};
 use crate::progress::Progress;
 
-/// A rolled edge.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RolledEdge {
-    /// The edge, in the mesh before.
-    pub edge: EdgeId,
-    /// The radius at its end with the lower vertex number and at the other, in mm.
-    pub radii: [f64; 2],
-    /// How far from the edge the faces are touched at these ends, in mm.
-    pub touch: [f64; 2],
-    /// How many strips.
-    pub strips: u32,
-    /// The width of each at its narrower end, in mm.
-    pub width: f64,
-    /// The angle between neighbours, in degrees; of a cone a little less.
-    pub fold_deg: f64,
-}
-
-/// What limits the largest radius.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RollLimit {
-    /// The place of which the least is left.
-    pub place: Place,
-    /// The edges whose rolls meet there.
-    pub edges: Vec<EdgeId>,
-    /// The radius, in mm.
-    pub radius: f64,
-    /// The share of the place that the rolls take.
-    pub share: f64,
-}
-
-impl RollLimit {
-    fn new(limit: &Limit, ridges: &[Ridge], radius: f64, share: f64) -> Self {
-        Self { place: limit.place, edges: first_edges(limit, ridges), radius, share }
-    }
+/// A limit as the report names it.
+fn named(limit: &Limit, ridges: &[Ridge], radius: f64, share: f64) -> RollLimit {
+    RollLimit { place: limit.place, edges: first_edges(limit, ridges), radius, share }
 }
 
 /// The edges of a limit, ascending.

@@ -1,10 +1,10 @@
 //! Looks at what was cut, by code that did not cut: counts, valences, widths and angles, measured
 //! on the result alone.
 
-use super::error::RollError;
 use super::ridge::Ridge;
 use crate::measure::{crossings, edge_length, fold_angle};
 use crate::mesh::{EdgeId, FaceId, FaceMap, Mesh};
+use crate::op::roll_error::RollError;
 use crate::select::NewElements;
 
 /// By how much widths and angles of one roll may differ, as a share.

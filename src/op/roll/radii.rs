@@ -1,12 +1,13 @@
 //! The radii of rolls: the largest that the limits leave, or those that were asked for.
 
-use super::error::RollError;
 use super::limit::{Limit, limits, tightest};
 use super::params::Roll;
 use super::ridge::Ridge;
-use super::{RollLimit, first_edges};
+use super::{first_edges, named};
 use crate::mesh::Mesh;
 use crate::op::OpError;
+use crate::op::roll_error::RollError;
+use crate::op::rolled::{Place, RollLimit};
 use crate::units::Length;
 
 /// How much of an edge or of the way to a corner the largest rolls take; the rest keeps strips and
@@ -42,7 +43,7 @@ fn largest_common(limits: &[Limit], ridges: &[Ridge]) -> Result<Radii, OpError> 
     if !(radius.is_finite() && radius > 0.0) {
         return Err(no_room(limits, ridges));
     }
-    let limit = RollLimit::new(tight, ridges, radius, SHARE);
+    let limit = named(tight, ridges, radius, SHARE);
     Ok(Radii { of: vec![[radius; 2]; ridges.len()], limit: Some(limit) })
 }
 
@@ -66,7 +67,7 @@ fn largest_for_each(limits: &[Limit], ridges: &[Ridge]) -> Result<Radii, OpError
         if !(radius.is_finite() && radius > 0.0) {
             return Err(no_room(limits, ridges));
         }
-        first = first.or_else(|| Some(RollLimit::new(limit, ridges, radius, SHARE)));
+        first = first.or_else(|| Some(named(limit, ridges, radius, SHARE)));
         for &(i, _) in &limit.taken {
             radii[i] = radii[i].or(Some(radius));
         }
@@ -134,7 +135,7 @@ fn rounded_down(x: f64) -> f64 {
 /// Where not even the smallest radius has room.
 fn no_room(limits: &[Limit], ridges: &[Ridge]) -> OpError {
     let tight = tightest(limits);
-    let place = tight.map_or(super::Place::Edge(ridges[0].edge), |limit| limit.place);
+    let place = tight.map_or(Place::Edge(ridges[0].edge), |limit| limit.place);
     let edges = tight.map_or_else(Vec::new, |limit| first_edges(limit, ridges));
     RollError::TooLarge { asked: "any radius".to_owned(), place, edges, largest: 0.0 }.into()
 }

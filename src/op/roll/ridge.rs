@@ -2,11 +2,11 @@
 
 use glam::DVec3;
 
-use super::error::RollError;
 use crate::geom::Plane;
 use crate::measure::{edge_length, fold_angle};
 use crate::mesh::{EdgeId, EdgeMap, FaceId, HalfEdgeId, Mesh, VertexId};
 use crate::op::OpError;
+use crate::op::roll_error::RollError;
 
 /// Faces that turn by less, in radians, lie in one plane for whoever folds them: there is nothing
 /// to roll.

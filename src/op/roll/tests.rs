@@ -3,7 +3,7 @@ use glam::DVec3;
 use super::*;
 use crate::measure::{convexity, face_diameter, fold_angle, planarity, volume};
 use crate::mesh::MeshBuilder;
-use crate::op::{CutReport, TruncateEdgeParams, truncate_edges};
+use crate::op::{CutReport, Place, TruncateEdgeParams, truncate_edges};
 use crate::shape::{SolidParams, cube, solid};
 use crate::units::{Angle, Length};
 

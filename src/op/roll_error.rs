@@ -1,6 +1,6 @@
 //! Why edges cannot be rolled as asked.
 
-use super::limit::Place;
+use super::rolled::Place;
 use crate::code::codes;
 use crate::mesh::{EdgeId, VertexId};
 

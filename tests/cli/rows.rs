@@ -107,7 +107,7 @@ pub const ROWS: &[Row] = &[
         "hub.obj",
     ),
     row(Mesh, &["planarize", "IN", "-o", "OUT"], "out.obj"),
-    row(Mesh, &["panelize", "IN", "--count", "60", "-o", "OUT"], "out.obj"),
+    row(Mesh, &["panelize", "IN", "--count", "24", "-o", "OUT"], "out.obj"),
     row(Mesh, &["unfold", "IN", "--sheet", "600x400", "-o", "OUT"], "out"),
     row(Mesh, &["unfold", "IN", "--sheet", "none", "--assembly", "pictures", "-o", "OUT"], "shown"),
     row(Mesh, &["seams", "IN"], ""),

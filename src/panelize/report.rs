@@ -152,33 +152,36 @@ impl PanelizeReport {
     /// Places with one finding, in words.
     fn told(&self, places: &[Place]) -> String {
         let kind = places[0].finding;
-        let what = match kind {
-            PanelizeFinding::Crosses => {
-                "panels cross themselves or run against the surface; take a smaller size, another \
-                alignment or another seed"
-            }
+        let (what, advice) = match kind {
+            PanelizeFinding::Crosses => (
+                "panels that cross themselves or run against the surface",
+                "take a smaller size, another alignment or another seed",
+            ),
             PanelizeFinding::GoesThrough => {
-                "panels go through another; take a smaller size or another seed"
+                ("panels that go through another", "take a smaller size or another seed")
             }
             PanelizeFinding::NotPlanar => {
-                "panels did not become planar up to rounding; take a smaller size or another seed"
+                ("panels that are not planar up to rounding", "take a smaller size or another seed")
             }
-            PanelizeFinding::TooCurved => {
-                "panels leave the surface by more than a fifth of their size, since it bends too \
-                much for it; take a smaller size"
-            }
+            PanelizeFinding::TooCurved => (
+                "panels that leave the surface by more than a fifth of their size, since it bends \
+                too much for it",
+                "take a smaller size",
+            ),
             PanelizeFinding::ShortEdge => {
-                "panels have a shorter edge than allowed; take another seed or a smaller size"
+                ("panels with a shorter edge than allowed", "take another seed or a smaller size")
             }
             PanelizeFinding::SharpAngle => {
-                "panels have a sharper angle than allowed; take another seed or a smaller size"
+                ("panels with a sharper angle than allowed", "take another seed or a smaller size")
             }
-            PanelizeFinding::TooLarge => "panels do not fit the sheet; take a smaller size",
-            PanelizeFinding::FarNode => {
-                "nodes are reached by plates from far; bend the surface more there, or take \
-                another seed"
+            PanelizeFinding::TooLarge => {
+                ("panels that do not fit the sheet", "take a smaller size")
             }
-            PanelizeFinding::Stopped => "panels are not finished",
+            PanelizeFinding::FarNode => (
+                "vertices that plates reach from far",
+                "bend the surface more there, or take another seed",
+            ),
+            PanelizeFinding::Stopped => ("panels that are not finished", "run it to the end"),
         };
         let unit = match kind {
             PanelizeFinding::SharpAngle => "°",
@@ -196,7 +199,7 @@ impl PanelizeReport {
             format!("{}{measured} at ({:.0}, {:.0}, {:.0})", place.element, p.x, p.y, p.z)
         };
         let fitting = self.size_mm * MOST_OFF / (self.sag_mm / self.size_mm);
-        let advice = match kind {
+        let fitting = match kind {
             PanelizeFinding::TooCurved if fitting < self.size_mm => {
                 format!(" (about {} mm fits)", short(fitting))
             }
@@ -204,7 +207,12 @@ impl PanelizeReport {
         };
         let names: Vec<String> = places.iter().take(NAMED).map(name).collect();
         let more = if places.len() > NAMED { ", …" } else { "" };
-        format!("{} {what}{advice}: {}{more} ({})", places.len(), names.join(", "), kind.code())
+        format!(
+            "{what}, {} in all: {}{more}; {advice}{fitting} ({})",
+            places.len(),
+            names.join(", "),
+            kind.code()
+        )
     }
 }
 

@@ -110,7 +110,7 @@ pub const ROWS: &[Row] = &[
     row(Mesh, &["merge", "IN", "--tolerance", "0.02mm", "-o", "OUT"], "merged.obj"),
     row(Mesh, &["repair", "IN", "--close-holes", "10mm", "-o", "OUT"], "repaired.obj"),
     row(Mesh, &["simplify", "IN", "--faces", "20", "-o", "OUT"], "simple.obj"),
-    row(Mesh, &["panelize", "IN", "--count", "60", "-o", "OUT"], "out.obj"),
+    row(Mesh, &["panelize", "IN", "--count", "24", "-o", "OUT"], "out.obj"),
     row(Mesh, &["unfold", "IN", "--sheet", "600x400", "-o", "OUT"], "out"),
     row(Mesh, &["unfold", "IN", "--sheet", "none", "--assembly", "pictures", "-o", "OUT"], "shown"),
     row(Mesh, &["seams", "IN"], ""),

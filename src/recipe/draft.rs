@@ -24,6 +24,9 @@ pub struct StepDraft {
 pub struct RecipeDraft {
     /// What it makes.
     pub name: Option<String>,
+    /// Names and values that steps use as `"{size}"`, in their order.
+    #[serde(default)]
+    pub parameters: Vec<(String, Value)>,
     /// The steps.
     pub steps: Vec<StepDraft>,
 }
@@ -61,12 +64,13 @@ impl StepDraft {
         }
     }
 
-    /// The step that the keys and values stand for.
+    /// The step that the keys and values stand for in a recipe with these parameters.
     ///
     /// # Errors
     /// As [`Recipe::parse`]; the line of the place is that of [`Self::text`].
-    pub fn read(&self) -> Result<Step, RecipeError> {
-        let mut recipe = Recipe::parse(&self.text())?;
+    pub fn read(&self, parameters: &[(String, Value)]) -> Result<Step, RecipeError> {
+        // They come last, so that lines stay as they are.
+        let mut recipe = Recipe::parse(&(self.text() + &parameters_text(parameters)))?;
         recipe.steps.pop().ok_or(RecipeError::NoSteps)
     }
 
@@ -83,6 +87,13 @@ impl StepDraft {
         }
         text
     }
+}
+
+/// The table of parameters; empty without any.
+fn parameters_text(parameters: &[(String, Value)]) -> String {
+    let head = if parameters.is_empty() { "" } else { "[parameters]\n" };
+    let line = |(name, value): &(String, Value)| format!("{} = {value}\n", bare_key(name));
+    head.to_owned() + &parameters.iter().map(line).collect::<String>()
 }
 
 /// A key that needs quotes gets them; no step knows such a key, and the message names it.
@@ -103,24 +114,20 @@ impl RecipeDraft {
     pub fn parse(text: &str) -> Result<Self, RecipeError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let recipe = Recipe::parse(text)?;
-        let mut draft = Self { name: recipe.name, steps: Vec::new() };
+        let mut draft = Self { name: recipe.name, ..Self::default() };
         // It was read once, so it is TOML.
         let Ok(table) = DeTable::parse(text) else { return Ok(draft) };
+        let parameters = table.get_ref().iter().find(|(key, _)| key.get_ref() == "parameters");
+        if let Some(DeValue::Table(keys)) = parameters.map(|(_, value)| value.get_ref()) {
+            draft.parameters = entries(text, keys);
+        }
         let steps = table.get_ref().iter().find(|(key, _)| key.get_ref().as_ref() == "step");
         let Some(DeValue::Array(steps)) = steps.map(|(_, value)| value.get_ref()) else {
             return Ok(draft);
         };
         for step in steps.iter() {
             let DeValue::Table(keys) = step.get_ref() else { continue };
-            let mut entries: Vec<_> = keys.iter().collect();
-            entries.sort_by_key(|(key, _)| key.span().start);
-            let read = |(key, value): (&toml::Spanned<_>, &toml::Spanned<DeValue<'_>>)| {
-                let line = format!("v = {}", text.get(value.span())?);
-                let value = toml::from_str::<toml::Table>(&line).ok()?.remove("v")?;
-                let key: &std::borrow::Cow<'_, str> = key.get_ref();
-                Some((key.to_string(), value))
-            };
-            let mut entries: Vec<(String, Value)> = entries.into_iter().filter_map(read).collect();
+            let mut entries = entries(text, keys);
             let verbs = super::keys::verbs();
             // A stable sort: only the verb moves.
             entries.sort_by_key(|(key, _)| !verbs.contains(&key.as_str()));
@@ -132,9 +139,24 @@ impl RecipeDraft {
     /// The recipe as TOML.
     pub fn text(&self) -> String {
         let name = self.name.as_ref().map(|name| format!("name = {}\n", Value::from(name.clone())));
+        let parameters = parameters_text(&self.parameters);
+        let parameters = Some(parameters).filter(|text| !text.is_empty());
         let steps = self.steps.iter().map(StepDraft::text);
-        name.into_iter().chain(steps).collect::<Vec<_>>().join("\n")
+        name.into_iter().chain(parameters).chain(steps).collect::<Vec<_>>().join("\n")
     }
+}
+
+/// Keys and values of a table in the order of the text, each as it was typed.
+fn entries(text: &str, keys: &DeTable<'_>) -> Vec<(String, Value)> {
+    let mut entries: Vec<_> = keys.iter().collect();
+    entries.sort_by_key(|(key, _)| key.span().start);
+    let read = |(key, value): (&toml::Spanned<_>, &toml::Spanned<DeValue<'_>>)| {
+        let line = format!("v = {}", text.get(value.span())?);
+        let value = toml::from_str::<toml::Table>(&line).ok()?.remove("v")?;
+        let key: &std::borrow::Cow<'_, str> = key.get_ref();
+        Some((key.to_string(), value))
+    };
+    entries.into_iter().filter_map(read).collect()
 }
 
 #[cfg(test)]
@@ -177,13 +199,24 @@ mod tests {
     }
 
     #[test]
+    fn parameters_are_kept_and_count() {
+        let text = "name = \"x\"\n\n[parameters]\nsize = \"80mm\"\nrounds = 2\n\n[[step]]\n\
+            solid = \"cube\"\nsize = \"{size}/2\"\n";
+        let draft = RecipeDraft::parse(text).expect("a recipe");
+        assert_eq!(draft.text(), text);
+        let Ok(Step::Solid(solid)) = draft.steps[0].read(&draft.parameters) else { panic!() };
+        assert_eq!(solid.size.map(crate::units::Length::mm), Some(40.0));
+        assert!(draft.steps[0].read(&[]).is_err());
+    }
+
+    #[test]
     fn keys_are_set_and_taken_away() {
         let mut step = StepDraft::new("cut", "edge").with("select", "all").with("offset", 0.2);
-        assert!(step.read().is_ok());
+        assert!(step.read(&[]).is_ok());
         step.set("offset", None);
         assert_eq!(step.text(), "[[step]]\ncut = \"edge\"\nselect = \"all\"\n");
         step.set("no key", Some(Value::from(1)));
-        let error = step.read().expect_err("no such key").to_string();
+        let error = step.read(&[]).expect_err("no such key").to_string();
         assert!(error.starts_with("line 4, column 1: `no key` is not known"), "{error}");
     }
 }

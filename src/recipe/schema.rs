@@ -125,7 +125,7 @@ fn of_step(step: &StepKind) -> StepSchema {
 
 fn group(verb: &str) -> StepGroup {
     match verb {
-        "solid" | "read" | "planes" => StepGroup::Begin,
+        "solid" | "read" | "height" | "planes" => StepGroup::Begin,
         "check" | "render" => StepGroup::Look,
         "unfold" | "dform" | "panels" | "nest" => StepGroup::Make,
         _ => StepGroup::Shape,
@@ -156,9 +156,12 @@ fn verb_key(step: &StepKind, arg: &Arg) -> KeySchema {
             word: word.trim_matches('"').to_owned(),
             help: String::new(),
         };
-        key.choices = step.words.iter().map(choice).collect();
-        key.kind = ValueKind::Choice;
-        key.default = key.choices.first().map(|choice| choice.word.clone());
+        key.choices.extend(step.words.iter().map(choice));
+        // A switch of the command line is one of the words; another value may be one of them.
+        if key.kind == ValueKind::Switch {
+            key.kind = ValueKind::Choice;
+            key.default = key.choices.first().map(|choice| choice.word.clone());
+        }
     }
     key
 }
@@ -261,7 +264,6 @@ mod tests {
         assert_eq!((key("select").kind, key("select").is_required), (ValueKind::Selection, true));
         let offset = key("offset");
         assert_eq!((offset.kind, offset.range), (ValueKind::Number, Some([0.0, 2.0])));
-        assert!(offset.default.is_some_and(|d| d.parse::<f64>().is_ok()));
         assert_eq!(key("bend").range, Some([-1.0, 1.0]));
         assert_eq!(
             (key("repeat").kind, key("repeat").range),
@@ -279,6 +281,11 @@ mod tests {
         let hull = step("hull", None);
         let words: Vec<&str> = hull.keys[0].choices.iter().map(|c| c.word.as_str()).collect();
         assert_eq!((hull.keys[0].key.as_str(), words), ("hull", vec!["convex", "dual"]));
+        assert_eq!(hull.keys[0].kind, ValueKind::Choice);
+        // A word among other values.
+        let dform = step("dform", None);
+        assert_eq!(dform.keys[0].kind, ValueKind::Text);
+        assert_eq!(dform.keys[0].choices[0].word, "outlines");
         let solid = step("solid", None);
         assert_eq!((solid.keys[0].key.as_str(), solid.group), ("solid", StepGroup::Begin));
         let size = solid.keys.iter().find(|k| k.key == "size").expect("a size");

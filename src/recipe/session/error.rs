@@ -39,8 +39,8 @@ pub enum SessionError {
 }
 
 codes!(error SessionError {
-    NoSuchStep = 721,
-    NoPreview = 722,
+    NoSuchStep = 761,
+    NoPreview = 762,
 } through {
     Step.error,
     Run.0,

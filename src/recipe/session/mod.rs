@@ -30,8 +30,12 @@ pub(super) struct Entry {
 }
 
 impl Entry {
-    fn read(number: usize, draft: StepDraft) -> Result<Arc<Self>, SessionError> {
-        let step = draft.read().map_err(|error| SessionError::Step {
+    fn read(
+        number: usize,
+        draft: StepDraft,
+        parameters: &[(String, Value)],
+    ) -> Result<Arc<Self>, SessionError> {
+        let step = draft.read(parameters).map_err(|error| SessionError::Step {
             step: number,
             key: error.at().and_then(|at| draft.key_in_line(at.line)).map(str::to_owned),
             error: Box::new(error),
@@ -44,6 +48,7 @@ impl Entry {
 #[derive(Debug, Clone, Default)]
 struct Version {
     name: Option<String>,
+    parameters: Arc<[(String, Value)]>,
     steps: Vec<Arc<Entry>>,
 }
 
@@ -80,12 +85,13 @@ impl Session {
     /// As [`super::Recipe::parse`]; the recipe is then as it was.
     pub fn open(&mut self, text: &str) -> Result<(), RecipeError> {
         let draft = RecipeDraft::parse(text)?;
+        let draft_parameters: Arc<[(String, Value)]> = draft.parameters.into();
         let read = |draft: StepDraft| {
-            let step = draft.read()?;
+            let step = draft.read(&draft_parameters)?;
             Ok(Arc::new(Entry { draft, step }))
         };
         let steps = draft.steps.into_iter().map(read).collect::<Result<Vec<_>, RecipeError>>()?;
-        self.change(Version { name: draft.name, steps });
+        self.change(Version { name: draft.name, parameters: draft_parameters.clone(), steps });
         // Files that it reads may be others by now.
         self.cache = Cache::default();
         Ok(())
@@ -94,7 +100,7 @@ impl Session {
     /// The recipe as it stands.
     pub fn recipe(&self) -> RecipeDraft {
         let steps = self.now.steps.iter().map(|entry| entry.draft.clone()).collect();
-        RecipeDraft { name: self.now.name.clone(), steps }
+        RecipeDraft { name: self.now.name.clone(), parameters: self.now.parameters.to_vec(), steps }
     }
 
     /// How many steps there are.
@@ -123,7 +129,7 @@ impl Session {
         if at == 0 || at > self.step_count() + 1 {
             return Err(self.no_such(at));
         }
-        let entry = Entry::read(at, draft)?;
+        let entry = Entry::read(at, draft, &self.now.parameters)?;
         let mut next = self.now.clone();
         next.steps.insert(at - 1, entry);
         self.change(next);
@@ -148,7 +154,7 @@ impl Session {
         if draft == entry.draft {
             return Ok(());
         }
-        let entry = Entry::read(step, draft)?;
+        let entry = Entry::read(step, draft, &self.now.parameters)?;
         let mut next = self.now.clone();
         next.steps[step - 1] = entry;
         let drag = gesture.map(|gesture| (step, key.to_owned(), gesture));
@@ -158,6 +164,26 @@ impl Session {
             self.change(next);
         }
         self.drag = drag;
+        Ok(())
+    }
+
+    /// Gives a parameter of the recipe a value; steps that use it are read anew.
+    ///
+    /// # Errors
+    /// [`SessionError::Step`] for a step that cannot be read with it; nothing is changed then.
+    pub fn set_parameter(&mut self, name: &str, value: Value) -> Result<(), SessionError> {
+        let mut parameters = self.now.parameters.to_vec();
+        match parameters.iter_mut().find(|(known, _)| known == name) {
+            Some((_, old)) => *old = value,
+            None => parameters.push((name.to_owned(), value)),
+        }
+        let mut next = Version { parameters: parameters.into(), ..self.now.clone() };
+        for (i, entry) in next.steps.iter_mut().enumerate() {
+            if entry.draft.text().contains('{') {
+                *entry = Entry::read(i + 1, entry.draft.clone(), &next.parameters)?;
+            }
+        }
+        self.change(next);
         Ok(())
     }
 
@@ -206,7 +232,8 @@ impl Session {
     pub fn replay(&mut self, steps: usize) -> Result<Replay, SessionError> {
         let wanted = self.now.steps.get(..steps).ok_or_else(|| self.no_such(steps))?.to_vec();
         let (known, job) = self.cache.longest(&wanted);
-        Ok(Replay { folder: self.folder.clone(), steps: wanted, known, job })
+        let (folder, parameters) = (self.folder.clone(), self.now.parameters.clone());
+        Ok(Replay { folder, parameters, steps: wanted, known, job })
     }
 
     /// Remembers what a replay has reached, be it to its end or not.

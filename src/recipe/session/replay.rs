@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::{Entry, Job, SessionError, Step, StepDraft, StepError};
+use super::{Entry, Job, SessionError, Step, StepDraft, StepError, Value};
 use crate::mesh::Mesh;
 use crate::op::{CutReport, OpContext};
 use crate::progress::Progress;
@@ -32,6 +32,7 @@ impl Reached {
 /// Steps that are to be done, from the last state that is known on.
 pub struct Replay {
     pub(super) folder: PathBuf,
+    pub(super) parameters: Arc<[(String, Value)]>,
     pub(super) steps: Vec<Arc<Entry>>,
     /// How many of them are done, and what they made.
     pub(super) known: usize,
@@ -88,7 +89,7 @@ impl Replay {
         let number = self.steps.len() + 1;
         let (reached, job) = self.run(progress);
         let preview = || {
-            let (entry, job) = (Entry::read(number, draft)?, job?);
+            let (entry, job) = (Entry::read(number, draft, &self.parameters)?, job?);
             preview(number, &entry.step, &job, &self.folder, progress)
         };
         (reached, preview())

@@ -103,7 +103,7 @@ fn what_cannot_be_read_changes_nothing() {
     assert!(!error.to_string().contains("line"), "{error}");
     for step in [0, 3] {
         let error = session.set(step, "offset", None, None).expect_err("no such step");
-        assert_eq!(error.code().to_string(), "E721");
+        assert_eq!(error.code().to_string(), "E761");
     }
     assert!(session.apply(cut("all", 0.1), Some(4)).is_err());
     assert!(session.apply(StepDraft::new("cut", "corner"), None).is_err());
@@ -149,7 +149,7 @@ fn a_preview_shows_what_meets_and_changes_nothing() {
     assert_eq!(large.cut.map(|c| c.overcut.len()), Some(4));
     assert!(large.notes.iter().any(|n| n.contains("met each other")), "{:?}", large.notes);
     let error = replay.preview(StepDraft::new("unfold", "auto"), &Silent).1.expect_err("no mesh");
-    assert_eq!(error.code().to_string(), "E722");
+    assert_eq!(error.code().to_string(), "E762");
     assert_eq!(session.step_count(), 1);
 }
 
@@ -193,4 +193,24 @@ fn memory_is_bounded() {
         session.run(2, &Silent).expect("a run");
     }
     assert!(session.cache.len() <= 128);
+}
+
+#[test]
+fn a_parameter_changes_the_steps_that_use_it() {
+    let mut session = Session::new(Path::new(""));
+    let text = "[parameters]\nsize = \"80mm\"\n[[step]]\nsolid = \"cube\"\nsize = \"{size}\"\n\
+        [[step]]\ncut = \"edge\"\nselect = \"along=z\"\noffset = 0.2\n";
+    session.open(text).expect("a recipe");
+    let size = |session: &mut Session| {
+        let job = session.run(2, &Silent).expect("a run");
+        crate::mesh::Mesh::bounds(job.mesh().expect("a mesh")).map(|(low, high)| (high - low).z)
+    };
+    assert_eq!(size(&mut session), Some(80.0));
+    session.set_parameter("size", "50mm".into()).expect("a value");
+    assert_eq!(size(&mut session), Some(50.0));
+    let refused = session.set_parameter("size", "wide".into()).expect_err("no length");
+    assert!(matches!(refused, SessionError::Step { step: 1, .. }), "{refused:?}");
+    assert!(session.recipe().text().contains("size = \"50mm\"\n\n[[step]]"));
+    session.undo();
+    assert_eq!(size(&mut session), Some(80.0));
 }

@@ -254,7 +254,11 @@ export class App {
   }
 
   setCutting(key: string, value: Value | undefined) {
-    this.cutting[this.mode] = withKey(this.cutting[this.mode], key, value);
+    let step = withKey(this.cutting[this.mode], key, value);
+    // An edge is cut by offset or rolled; the one takes the place of the other.
+    if (value !== undefined && key === "roll") for (const other of ["offset", "bend", "disjoint"]) step = withKey(step, other, undefined);
+    if (value !== undefined && key === "offset") for (const other of ["roll", "strips", "strip"]) step = withKey(step, other, undefined);
+    this.cutting[this.mode] = step;
     return this.look();
   }
 
@@ -304,6 +308,11 @@ export class App {
       return;
     }
     try {
+      if (this.cut.some(([key]) => key === "roll")) {
+        this.limit = null;
+        this.tell("cutting");
+        return;
+      }
       const body = { steps: this.steps, step: this.cut, key: "offset", from: 0, to: 2 };
       this.limitStop = new AbortController();
       const told = await api.post<{ value: number | null }>(this.path("/limit"), body, "POST", this.limitStop.signal);

@@ -83,6 +83,7 @@ function control(key: Key, id: string, value: Value | undefined, hooks: FormHook
     return [list];
   }
   const slider = sliderRange(key, value);
+  const examples = [...key.examples, ...key.choices.map((choice) => choice.word)];
   const text = h("input", {
     id,
     type: "text",
@@ -92,12 +93,12 @@ function control(key: Key, id: string, value: Value | undefined, hooks: FormHook
     value: value === undefined ? "" : shown(value),
     placeholder: key.default === undefined ? (key.isRequired ? "required" : "none") : String(key.default),
     title: key.help,
-    list: key.examples.length ? `${id}-list` : undefined,
+    list: examples.length ? `${id}-list` : undefined,
   });
   text.addEventListener("change", () => set(typed(key, text.value)));
   const parts: HTMLElement[] = [text];
-  if (key.examples.length) {
-    parts.push(h("datalist", { id: `${id}-list` }, ...key.examples.map((word) => h("option", { value: word }))));
+  if (examples.length) {
+    parts.push(h("datalist", { id: `${id}-list` }, ...examples.map((word) => h("option", { value: word }))));
   }
   if (slider) {
     const range = h("input", {
@@ -153,7 +154,9 @@ function sliderRange(key: Key, value: Value | undefined) {
     return { low: isOpen ? step : low, high: most, step, at: Number.isFinite(now) ? now : low };
   }
   if (key.kind === "integer") return { low: 0, high: Math.max(10, 2 * (now || 0)), step: 1, at: now || 0 };
-  if (!["number", "length", "angle"].includes(key.kind) || !Number.isFinite(now) || now === 0) return null;
+  // A text that is a quantity by now, such as a radius that may be `max` as well.
+  const isQuantity = key.kind === "text" && typeof value === "string" && unitOf(value) !== "";
+  if ((!isQuantity && !["number", "length", "angle"].includes(key.kind)) || !Number.isFinite(now) || now === 0) return null;
   const high = 2 * Math.abs(now);
   return { low: now < 0 ? -high : 0, high, step: high / 200, at: now };
 }

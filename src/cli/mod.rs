@@ -4,6 +4,7 @@
 //! error. A broken pipe is a success: whoever reads has read enough.
 
 mod check;
+mod colour;
 mod cut;
 mod dform;
 mod error;
@@ -152,7 +153,7 @@ fn command() -> clap::Command {
 
 /// Reads the arguments of the process, does what they say, and returns the exit code.
 pub fn run() -> ExitCode {
-    let colour = output::asked_colour(std::env::args_os());
+    let colour = colour::asked_colour(std::env::args_os());
     let parsed = command()
         .color(colour.of_clap())
         .try_get_matches()

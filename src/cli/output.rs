@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
+use super::colour::{Colour, asked_colour};
 use super::error::CliError;
 use super::snippet::recipe_snippet;
 use crate::code::Coded;
@@ -27,47 +28,6 @@ pub(super) struct Console {
     /// Colours in messages and help: auto where a terminal reads them and NO_COLOR is not set
     #[arg(long, global = true, value_enum, default_value_t, value_name = "WHEN")]
     pub color: Colour,
-}
-
-/// When messages and help are coloured.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum)]
-pub(super) enum Colour {
-    /// Where a terminal reads them.
-    #[default]
-    Auto,
-    /// Also into files and pipes.
-    Always,
-    /// Nowhere.
-    Never,
-}
-
-impl Colour {
-    pub(super) const fn of_clap(self) -> clap::ColorChoice {
-        match self {
-            Self::Auto => clap::ColorChoice::Auto,
-            Self::Always => clap::ColorChoice::Always,
-            Self::Never => clap::ColorChoice::Never,
-        }
-    }
-}
-
-/// What `--color` says among arguments that are not read yet, since reading them may end with a
-/// message; the last one counts, and a wrong word is told when they are read.
-pub(super) fn asked_colour(arguments: impl Iterator<Item = std::ffi::OsString>) -> Colour {
-    let mut colour = Colour::default();
-    let mut is_next = false;
-    for argument in arguments.filter_map(|argument| argument.into_string().ok()) {
-        let word =
-            if is_next { Some(argument.as_str()) } else { argument.strip_prefix("--color=") };
-        colour = match word {
-            Some("always") => Colour::Always,
-            Some("never") => Colour::Never,
-            Some("auto") => Colour::Auto,
-            _ => colour,
-        };
-        is_next = argument == "--color";
-    }
-    colour
 }
 
 /// What becomes of files that an earlier run left in the folder.

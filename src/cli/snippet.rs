@@ -6,7 +6,7 @@ use std::path::Path;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
-use super::output::Colour;
+use super::colour::Colour;
 use crate::recipe::{Position, RecipeError};
 
 /// The line with the fault; `None` when no line is to blame.

@@ -12,6 +12,7 @@ use glam::{DVec2, DVec3};
 
 use super::GluingError;
 use super::place::flat_of_apex;
+use super::pyramid::apex;
 use super::surface::Surface;
 use crate::geom::ldl::solve_symmetric;
 use crate::progress::Progress;
@@ -138,18 +139,6 @@ fn newton(at: &mut Continuation, goal: f64) -> Result<(), &'static str> {
         at.effort.flips += convexify(&mut at.surface, &at.r)?;
     }
     Err("Newton's method did not come near")
-}
-
-/// The apex over a triangle: the foot of its height with the half-edge along x, and the squared
-/// height.
-pub(super) fn apex(surface: &Surface, r: &[f64], h: usize) -> (DVec2, f64) {
-    let (base, third) = (surface.length[h], surface.third(h));
-    let (i, j) = (surface.origin[h], surface.target(h));
-    let k = surface.origin[surface.previous(h)];
-    let x = ((r[i] - r[j]) * (r[i] + r[j]) / base + base) / 2.0;
-    let to_third = (r[i] - r[k]) * (r[i] + r[k]) + third.length_squared();
-    let y = (to_third - 2.0 * x * third.x) / (2.0 * third.y);
-    (DVec2::new(x, y), (r[i] - x) * (r[i] + x) - y * y)
 }
 
 fn has_heights(surface: &Surface, r: &[f64]) -> bool {

@@ -2,8 +2,7 @@
 
 use glam::{DMat3, DVec2, DVec3};
 
-use super::rims::STRAIGHT;
-use super::triangle::turn;
+use super::triangle::{STRAIGHT, turn};
 
 /// The closed polygon with the given sides whose turns are as nearly as possible in proportion to
 /// those of the given one. `None` when it does not close.

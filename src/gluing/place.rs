@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 use glam::{DVec2, DVec3};
 
 use super::GluingError;
-use super::alexandrov::apex;
+use super::pyramid::apex;
 use super::surface::Surface;
 use crate::geom::ldl::solve_symmetric;
 use crate::geom::polygon::{convex_hull, signed_area};

@@ -13,15 +13,13 @@ use glam::DVec2;
 
 use super::closing::with_sides;
 use super::seams::{EQUAL, Gluing, Seam, Span};
-use super::triangle::turn;
+use super::triangle::{STRAIGHT, turn};
 use super::{GluingError, Outline};
 
 /// The fewest and the most chords of a rim.
 pub const POINTS_LIMIT: [usize; 2] = [12, 4000];
 /// A point with so little missing to 360°, in radians, is flat.
 pub(super) const FLAT: f64 = 1e-9;
-/// A rim that turns by less, in radians, is straight there.
-pub(super) const STRAIGHT: f64 = 1e-11;
 
 /// Pieces as polygons, joined side by side.
 #[derive(Debug, Clone)]

@@ -2,6 +2,9 @@
 
 use glam::DVec2;
 
+/// A rim that turns by less, in radians, is straight there.
+pub(super) const STRAIGHT: f64 = 1e-11;
+
 /// Where the third corner lies when the side `base` runs along x from the origin: `left` is its
 /// distance from the origin, `right` from the other end. Never below the side.
 pub(super) fn third_corner(base: f64, left: f64, right: f64) -> DVec2 {

@@ -15,8 +15,8 @@ use serde::Deserialize;
 
 use super::MakeError;
 use super::outline_source::read_outline;
-use super::outlines::RimPlace;
 use super::outlines_error::OutlinesError;
+use super::rim_place::RimPlace;
 use crate::gluing::{Gluing, Outline, Seam, Span};
 use crate::io::read_text;
 use crate::units::nearest_word;

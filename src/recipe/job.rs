@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::{Before, OperatorStep, Recipe, Step, StepError};
+use super::{Before, OperatorStep, ReadStep, Recipe, Step, StepError};
 use crate::check::{CheckParams, Report, check};
 use crate::io::{ReadMesh, read_mesh, size_note};
 use crate::make::{
@@ -166,19 +166,7 @@ impl Job {
             Step::Height(params) => {
                 self.start(height_field(params).map_err(OpError::from)?)?;
             }
-            Step::Read(read) => {
-                let path: PathBuf = folder.join(&read.path);
-                let ReadMesh { mut mesh, notes, made, .. } = read_mesh(&path, &read.options)?;
-                let notes = notes.into_iter().chain(size_note(&mesh, &read.options));
-                self.notes.extend(notes.map(|note| note.to_string()));
-                // From here on ids are those of the model.obj that will be written.
-                self.made = made.map(|mut made| {
-                    made.compact(&mut mesh);
-                    made
-                });
-                mesh.compact();
-                self.start(mesh)?;
-            }
+            Step::Read(read) => self.read(read, folder)?,
             Step::Planes(planes) => {
                 let params = HullParams { simple: planes.simple, ..HullParams::default() };
                 let path = folder.join(&planes.path);
@@ -186,29 +174,8 @@ impl Job {
                 self.notes.extend(report.notes());
                 self.start(mesh)?;
             }
-            Step::Operator(OperatorStep { verb, params }) => {
-                let context = OpContext { made: self.made.as_ref(), progress };
-                let output = operate(params.as_ref(), folder, self.mesh()?, &context)?;
-                self.notes.extend(output.notes);
-                // To planarize again is how to mend faces that did not become planar.
-                self.with_findings.retain(|u| u.verb != "planarize" || *verb != "planarize");
-                if !output.is_clean {
-                    self.with_findings.push(StepWithFindings { step: number, verb });
-                }
-                let cut = (&output.cut_edges[..], self.made.as_ref());
-                self.promised = PiecePromise::of(self.mesh()?, cut, self.promised);
-                self.before = self.mesh.take().filter(|_| self.keeps_before);
-                (self.mesh, self.made) = (Some(Arc::new(output.mesh)), output.made);
-            }
-            Step::Hull(params) => {
-                let (mesh, report) =
-                    hull(self.mesh()?, params, &OpContext { made: None, progress })?;
-                self.notes.extend(report.notes());
-                self.hull_steps = report.steps;
-                // The hull is a solid of its own, whatever its corners came from.
-                self.with_findings.clear();
-                (self.mesh, self.made, self.promised) = (Some(Arc::new(mesh)), None, None);
-            }
+            Step::Operator(operator) => self.operator(number, operator, folder, progress)?,
+            Step::Hull(params) => self.hull(params, progress)?,
             Step::Check(params) => (self.check, self.is_check_asked) = (params.clone(), true),
             Step::Render { render, point_out, .. } => {
                 (self.render, self.point_out) = (render.clone(), point_out.clone());
@@ -238,6 +205,53 @@ impl Job {
                 self.fabrication = Some((fabrication, sheet));
             }
         }
+        Ok(())
+    }
+
+    fn read(&mut self, read: &ReadStep, folder: &Path) -> Result<(), MakeError> {
+        let path: PathBuf = folder.join(&read.path);
+        let ReadMesh { mut mesh, notes, made, .. } = read_mesh(&path, &read.options)?;
+        let notes = notes.into_iter().chain(size_note(&mesh, &read.options));
+        self.notes.extend(notes.map(|note| note.to_string()));
+        // From here on ids are those of the model.obj that will be written.
+        self.made = made.map(|mut made| {
+            made.compact(&mut mesh);
+            made
+        });
+        mesh.compact();
+        self.start(mesh)?;
+        Ok(())
+    }
+
+    fn operator(
+        &mut self,
+        number: usize,
+        OperatorStep { verb, params }: &OperatorStep,
+        folder: &Path,
+        progress: &dyn Progress,
+    ) -> Result<(), MakeError> {
+        let context = OpContext { made: self.made.as_ref(), progress };
+        let output = operate(params.as_ref(), folder, self.mesh()?, &context)?;
+        self.notes.extend(output.notes);
+        // To planarize again is how to mend faces that did not become planar.
+        self.with_findings.retain(|u| u.verb != "planarize" || *verb != "planarize");
+        if !output.is_clean {
+            self.with_findings.push(StepWithFindings { step: number, verb });
+        }
+        let cut = (&output.cut_edges[..], self.made.as_ref());
+        self.promised = PiecePromise::of(self.mesh()?, cut, self.promised);
+        self.before = self.mesh.take().filter(|_| self.keeps_before);
+        (self.mesh, self.made) = (Some(Arc::new(output.mesh)), output.made);
+        Ok(())
+    }
+
+    fn hull(&mut self, params: &HullParams, progress: &dyn Progress) -> Result<(), MakeError> {
+        let (mesh, report) = hull(self.mesh()?, params, &OpContext { made: None, progress })?;
+        self.notes.extend(report.notes());
+        self.hull_steps = report.steps;
+        // The hull is a solid of its own, whatever its corners came from.
+        self.with_findings.clear();
+        (self.mesh, self.made, self.promised) = (Some(Arc::new(mesh)), None, None);
         Ok(())
     }
 

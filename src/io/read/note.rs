@@ -153,12 +153,6 @@ impl fmt::Display for ReadNote {
                 let count = counted(*count, "vertex belongs", "vertices belong");
                 write!(f, "{count} to no face, the first of them vertex {first}")
             }
-            Self::CoincidentRims { coincident, rim_edges, vertices: [a, b] } => write!(
-                f,
-                "{coincident} of {rim_edges} rim edges lie exactly on another one, such as at \
-                vertices {a} and {b}; \
-                 if the surface is torn there, --weld 0 closes it"
-            ),
             Self::RepeatedCorners { count, first } => write!(
                 f,
                 "{} a vertex twice in a row and {} read without the second, the first of them \
@@ -197,6 +191,33 @@ impl fmt::Display for ReadNote {
                 line {first_line}",
                 counted(*count, "line has", "lines have")
             ),
+            Self::CoincidentRims { .. }
+            | Self::Mended(_)
+            | Self::NothingToMend
+            | Self::Merged { .. }
+            | Self::OtherUnit { .. }
+            | Self::OddSize { .. }
+            | Self::InsideOut { .. } => self.fmt_of_model(f),
+            Self::Rest { bytes } => write!(
+                f,
+                "{} after the last element and {} passed over",
+                counted(*bytes, "byte follows", "bytes follow"),
+                were(*bytes)
+            ),
+        }
+    }
+}
+
+impl ReadNote {
+    /// Notes on the model and on what was done to it; those on the file are written above.
+    fn fmt_of_model(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::CoincidentRims { coincident, rim_edges, vertices: [a, b] } => write!(
+                f,
+                "{coincident} of {rim_edges} rim edges lie exactly on another one, such as at \
+                vertices {a} and {b}; \
+                 if the surface is torn there, --weld 0 closes it"
+            ),
             Self::Mended(mending) => mending.fmt(f),
             Self::NothingToMend => f.write_str("there was nothing to mend"),
             Self::Merged { before, after } => write!(
@@ -223,12 +244,7 @@ impl fmt::Display for ReadNote {
                 "the faces of this closed model look inwards (its volume is {volume:.4e} mm³); \
                 --flip turns them around, and `kerfold repair` does for good"
             ),
-            Self::Rest { bytes } => write!(
-                f,
-                "{} after the last element and {} passed over",
-                counted(*bytes, "byte follows", "bytes follow"),
-                were(*bytes)
-            ),
+            _ => Ok(()),
         }
     }
 }

@@ -213,6 +213,10 @@ test("2: a sculptor marks, looks, and cuts", () => story("sculptor", {}, async (
   assert.ok((await page.locator(".pieces line.lit").count()) >= 2);
   assert.equal(await app("app.hover.kind"), "edge");
   await add(page, "unfold");
+  const pieces = page.locator(".steps .field[data-key=unfold] input");
+  await pieces.fill("one");
+  await pieces.press("Tab");
+  await page.waitForFunction(() => window.studio.app.recipe.text.includes('unfold = "one"'));
   await settled(page);
   await exported(page, "column.toml");
   compare(work, "column.toml", "made");

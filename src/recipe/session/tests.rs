@@ -159,7 +159,7 @@ fn a_recipe_saved_from_a_session_makes_the_same_bytes() {
     session.rename(Some("A \"column\"".to_owned()));
     session.apply(cut("along=z", 0.1), None).expect("a cut");
     session.set(2, "offset", Some(0.3.into()), None).expect("a value");
-    session.apply(StepDraft::new("unfold", "auto").with("kerf", "0.2mm"), None).expect("a step");
+    session.apply(StepDraft::new("unfold", "one").with("kerf", "0.2mm"), None).expect("a step");
     session.set(3, "sheet", Some("300x300".into()), None).expect("a value");
     session.undo();
     session.redo();

@@ -113,10 +113,11 @@ impl Tab {
         auto: bool,
         progress: &dyn Progress,
     ) -> Result<Arc<Job>, StudioError> {
-        let (replay, folder) = {
+        let (replay, folder, name) = {
             let mut session = self.session();
             let steps = steps.unwrap_or(session.step_count());
-            (session.replay(steps)?, session.folder().to_owned())
+            let name = session.recipe().name;
+            (session.replay(steps)?, session.folder().to_owned(), name)
         };
         let (reached, job) = replay.run(progress);
         self.session().keep(&reached);
@@ -125,7 +126,8 @@ impl Tab {
             return Ok(job);
         }
         let unfold = |pieces: &str| -> Result<Arc<Job>, StudioError> {
-            let step = Recipe::parse(&StepDraft::new("unfold", pieces).text())?;
+            let mut step = Recipe::parse(&StepDraft::new("unfold", pieces).text())?;
+            step.name.clone_from(&name);
             Ok(Arc::new(Job::clone(&job).carry_on(&step, &folder, progress)?))
         };
         // Strips that cuts have made need not be pieces that lie flat; then one piece is tried.

@@ -78,6 +78,18 @@ fn only_what_follows_a_change_is_done_again() {
 }
 
 #[test]
+fn a_new_name_makes_everything_anew_since_it_stands_on_sheets() {
+    let mut session = cube();
+    let replay = session.replay(1).expect("a step");
+    faces(&mut session);
+    session.rename(Some("Other".to_owned()));
+    assert_eq!(session.replay(1).expect("a step").left(), 1);
+    // What was begun under the old name is not taken for what it is now.
+    session.keep(&replay.run(&Silent).0);
+    assert_eq!(session.replay(1).expect("a step").left(), 1);
+}
+
+#[test]
 fn a_slider_that_is_dragged_is_one_change() {
     let mut session = cube();
     session.apply(cut("along=z", 0.2), None).expect("a cut");

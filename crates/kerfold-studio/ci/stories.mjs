@@ -304,6 +304,8 @@ test("axe finds no serious fault", async () => {
       await look(tab);
     }
     await page.click("#theme");
+    // Colours change over a moment.
+    await page.waitForTimeout(500);
     await look("the other theme");
     await page.click("#export");
     await look("export");

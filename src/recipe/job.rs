@@ -39,6 +39,23 @@ impl fmt::Display for StepWithFindings {
     }
 }
 
+/// What a recipe as a whole says of every step.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub(super) struct JobContext {
+    /// The name of the recipe, which stands on its sheets.
+    title: String,
+    /// Whether a picture shows the mesh before the last operator.
+    keeps_before: bool,
+}
+
+impl JobContext {
+    pub(super) fn of<'a>(name: Option<&str>, mut steps: impl Iterator<Item = &'a Step>) -> Self {
+        let shows =
+            |s: &Step| matches!(s, Step::Render { story, .. } if story.before == Before::On);
+        Self { title: name.unwrap_or_default().to_owned(), keeps_before: steps.any(shows) }
+    }
+}
+
 /// What a recipe has made so far. A copy shares the mesh, so that the states between the steps can
 /// be kept.
 #[derive(Clone, Default)]
@@ -100,14 +117,17 @@ impl Job {
         folder: &Path,
         progress: &dyn Progress,
     ) -> Result<Self, StepError> {
-        let shows =
-            |s: &Step| matches!(s, Step::Render { story, .. } if story.before == Before::On);
-        self.keeps_before = recipe.steps.iter().any(shows);
-        self.title = recipe.name.clone().unwrap_or_default();
+        self.begin(&JobContext::of(recipe.name.as_deref(), recipe.steps.iter()));
         for (i, step) in recipe.steps.iter().enumerate() {
             self.carry_out(i + 1, step, folder, progress)?;
         }
         Ok(self)
+    }
+
+    /// Takes over what the whole recipe says of every step.
+    pub(super) fn begin(&mut self, context: &JobContext) {
+        self.title.clone_from(&context.title);
+        self.keeps_before = context.keeps_before;
     }
 
     /// Carries out one step; `number` is its place in the recipe, from 1.

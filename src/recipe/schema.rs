@@ -172,7 +172,7 @@ fn key(arg: &Arg) -> KeySchema {
     let choices: Vec<ChoiceSchema> = arg
         .get_possible_values()
         .iter()
-        .filter(|value| !value.is_hide_set())
+        .filter(|value| !value.is_hide_set() && arg.get_action().takes_values())
         .map(|value| ChoiceSchema {
             word: value.get_name().to_owned(),
             help: one_line(&value.get_help().map(ToString::to_string).unwrap_or_default()),

@@ -174,9 +174,9 @@ test("2: a sculptor marks, looks, and cuts", () => story("sculptor", {}, async (
   await page.keyboard.press("Escape");
   const canvas = await page.locator("#canvas").boundingBox();
   await page.keyboard.down("Shift");
-  await page.mouse.move(canvas.x + 60, canvas.y + 60);
+  await page.mouse.move(canvas.x + 6, canvas.y + 60);
   await page.mouse.down();
-  await page.mouse.move(canvas.x + canvas.width - 20, canvas.y + canvas.height - 90, { steps: 5 });
+  await page.mouse.move(canvas.x + canvas.width - 20, canvas.y + canvas.height - 12, { steps: 5 });
   await page.mouse.up();
   await page.keyboard.up("Shift");
   assert.equal((await app("[...app.marked]")).length, 9);
@@ -193,7 +193,13 @@ test("2: a sculptor marks, looks, and cuts", () => story("sculptor", {}, async (
   assert.match(await page.textContent(".limit"), /0\.(49|50)/);
   await drag(page, slider, 0.1);
   await page.waitForFunction(() => window.studio.app.preview?.told.cut?.overcut.length === 0);
-  // A typed number counts as well.
+  // Rolled instead: the keys came from the schema, and a radius that is typed gets a slider.
+  const field = (key) => page.locator(`.cutting .field[data-key=${key}]`);
+  await field("roll").locator("input").fill("20mm");
+  await field("roll").locator("input").press("Tab");
+  await page.waitForFunction(() => window.studio.app.preview?.made("face").length === 36);
+  assert.equal(await field("roll").locator("input[type=range]").count(), 1);
+  // A typed number counts as well, and takes the roll's place.
   const typed = page.locator(".cutting .field[data-key=offset] input[type=text]");
   await typed.fill("0.2");
   await typed.press("Tab");
@@ -213,6 +219,10 @@ test("2: a sculptor marks, looks, and cuts", () => story("sculptor", {}, async (
   assert.ok((await page.locator(".pieces line.lit").count()) >= 2);
   assert.equal(await app("app.hover.kind"), "edge");
   await add(page, "unfold");
+  const pieces = page.locator(".steps .field[data-key=unfold] input");
+  await pieces.fill("one");
+  await pieces.press("Tab");
+  await page.waitForFunction(() => window.studio.app.recipe.text.includes('unfold = "one"'));
   await settled(page);
   await exported(page, "column.toml");
   compare(work, "column.toml", "made");
@@ -294,6 +304,8 @@ test("axe finds no serious fault", async () => {
       await look(tab);
     }
     await page.click("#theme");
+    // Colours change over a moment.
+    await page.waitForTimeout(500);
     await look("the other theme");
     await page.click("#export");
     await look("export");

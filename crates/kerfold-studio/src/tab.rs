@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use kerfold::progress::Progress;
-use kerfold::recipe::{Job, Recipe, Session};
+use kerfold::recipe::{Job, Recipe, Session, StepDraft};
 use serde_json::json;
 use tokio::sync::broadcast;
 
@@ -106,17 +106,18 @@ impl Tab {
     }
 
     /// What the recipe makes after so many steps. With `auto`, a recipe that makes no pieces is
-    /// unfolded as by `unfold = "auto"`, so that there are always sheets to look at.
+    /// unfolded as by `unfold = "auto"`, or else "one", so that there are sheets to look at.
     pub fn run(
         &self,
         steps: Option<usize>,
         auto: bool,
         progress: &dyn Progress,
     ) -> Result<Arc<Job>, StudioError> {
-        let (replay, folder) = {
+        let (replay, folder, name) = {
             let mut session = self.session();
             let steps = steps.unwrap_or(session.step_count());
-            (session.replay(steps)?, session.folder().to_owned())
+            let name = session.recipe().name;
+            (session.replay(steps)?, session.folder().to_owned(), name)
         };
         let (reached, job) = replay.run(progress);
         self.session().keep(&reached);
@@ -124,8 +125,15 @@ impl Tab {
         if !auto || !job.has_mesh() || job.fabrication.is_some() || job.panelled.is_some() {
             return Ok(job);
         }
-        let unfold = Recipe::parse("[[step]]\nunfold = \"auto\"\n")?;
-        Ok(Arc::new(Job::clone(&job).carry_on(&unfold, &folder, progress)?))
+        let unfold = |pieces: &str| -> Result<Arc<Job>, StudioError> {
+            let mut step = Recipe::parse(&StepDraft::new("unfold", pieces).text())?;
+            step.name.clone_from(&name);
+            Ok(Arc::new(Job::clone(&job).carry_on(&step, &folder, progress)?))
+        };
+        // Strips that cuts have made need not be pieces that lie flat; then one piece is tried.
+        unfold("auto").or_else(|error| {
+            if error.is_stopped() { Err(error) } else { unfold("one").map_err(|_| error) }
+        })
     }
 
     fn stop(&self, lane: Lane) -> Arc<AtomicBool> {

@@ -18,6 +18,7 @@ use std::sync::Arc;
 pub use error::SessionError;
 pub use replay::{Preview, Reached, Replay};
 
+use super::job::JobContext;
 use super::{Job, RecipeDraft, RecipeError, Step, StepDraft, StepError, Value};
 use crate::progress::Progress;
 use cache::Cache;
@@ -64,6 +65,8 @@ pub struct Session {
     /// The value that is being dragged: its step, its key, and the gesture.
     drag: Option<(usize, String, u64)>,
     cache: Cache,
+    /// What the recipe as a whole says of the states in the cache.
+    context: Arc<JobContext>,
 }
 
 impl Session {
@@ -76,6 +79,7 @@ impl Session {
             redo: Vec::new(),
             drag: None,
             cache: Cache::default(),
+            context: Arc::default(),
         }
     }
 
@@ -231,14 +235,23 @@ impl Session {
     /// [`SessionError::NoSuchStep`].
     pub fn replay(&mut self, steps: usize) -> Result<Replay, SessionError> {
         let wanted = self.now.steps.get(..steps).ok_or_else(|| self.no_such(steps))?.to_vec();
+        let all = self.now.steps.iter().map(|entry| &entry.step);
+        let context = JobContext::of(self.now.name.as_deref(), all);
+        if context != *self.context {
+            // The name stands on sheets, and so no state is what it would be.
+            (self.context, self.cache) = (Arc::new(context), Cache::default());
+        }
         let (known, job) = self.cache.longest(&wanted);
+        let context = self.context.clone();
         let (folder, parameters) = (self.folder.clone(), self.now.parameters.clone());
-        Ok(Replay { folder, parameters, steps: wanted, known, job })
+        Ok(Replay { folder, parameters, context, steps: wanted, known, job })
     }
 
     /// Remembers what a replay has reached, be it to its end or not.
     pub fn keep(&mut self, reached: &[Reached]) {
-        reached.iter().for_each(|one| self.cache.keep(one.clone()));
+        // What was begun under another name is not what it would be now.
+        let is_of_now = |one: &&Reached| Arc::ptr_eq(&one.context, &self.context);
+        reached.iter().filter(is_of_now).for_each(|one| self.cache.keep(one.clone()));
     }
 
     /// Runs the recipe up to so many steps: a [`Self::replay`] that is kept.

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use super::super::job::JobContext;
 use super::{Entry, Job, SessionError, Step, StepDraft, StepError, Value};
 use crate::mesh::Mesh;
 use crate::op::{CutReport, OpContext};
@@ -13,6 +14,7 @@ use crate::select::NewElements;
 /// A chain of steps with what it made.
 #[derive(Clone)]
 pub struct Reached {
+    pub(super) context: Arc<JobContext>,
     pub(super) steps: Vec<Arc<Entry>>,
     pub(super) job: Arc<Job>,
 }
@@ -33,6 +35,7 @@ impl Reached {
 pub struct Replay {
     pub(super) folder: PathBuf,
     pub(super) parameters: Arc<[(String, Value)]>,
+    pub(super) context: Arc<JobContext>,
     pub(super) steps: Vec<Arc<Entry>>,
     /// How many of them are done, and what they made.
     pub(super) known: usize,
@@ -67,11 +70,13 @@ impl Replay {
         let mut reached = Vec::new();
         for i in self.known..self.steps.len() {
             let mut next = Job::clone(&job);
+            next.begin(&self.context);
             if let Err(error) = next.carry_out(i + 1, &self.steps[i].step, &self.folder, progress) {
                 return (reached, Err(error));
             }
             job = Arc::new(next);
-            reached.push(Reached { steps: self.steps[..=i].to_vec(), job: job.clone() });
+            let (context, steps) = (self.context.clone(), self.steps[..=i].to_vec());
+            reached.push(Reached { context, steps, job: job.clone() });
         }
         (reached, Ok(job))
     }

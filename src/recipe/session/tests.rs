@@ -78,6 +78,18 @@ fn only_what_follows_a_change_is_done_again() {
 }
 
 #[test]
+fn a_new_name_makes_everything_anew_since_it_stands_on_sheets() {
+    let mut session = cube();
+    let replay = session.replay(1).expect("a step");
+    faces(&mut session);
+    session.rename(Some("Other".to_owned()));
+    assert_eq!(session.replay(1).expect("a step").left(), 1);
+    // What was begun under the old name is not taken for what it is now.
+    session.keep(&replay.run(&Silent).0);
+    assert_eq!(session.replay(1).expect("a step").left(), 1);
+}
+
+#[test]
 fn a_slider_that_is_dragged_is_one_change() {
     let mut session = cube();
     session.apply(cut("along=z", 0.2), None).expect("a cut");
@@ -159,7 +171,7 @@ fn a_recipe_saved_from_a_session_makes_the_same_bytes() {
     session.rename(Some("A \"column\"".to_owned()));
     session.apply(cut("along=z", 0.1), None).expect("a cut");
     session.set(2, "offset", Some(0.3.into()), None).expect("a value");
-    session.apply(StepDraft::new("unfold", "auto").with("kerf", "0.2mm"), None).expect("a step");
+    session.apply(StepDraft::new("unfold", "one").with("kerf", "0.2mm"), None).expect("a step");
     session.set(3, "sheet", Some("300x300".into()), None).expect("a value");
     session.undo();
     session.redo();

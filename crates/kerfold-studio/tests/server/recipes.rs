@@ -59,7 +59,7 @@ fn from_a_solid_to_the_bytes_of_the_command_line() {
     let result = studio.get(&format!("{tab}/result")).json();
     assert_eq!(result["pieces"]["proof"]["overlaps"], 0);
     assert!(result["layout"]["sheets"].as_array().is_some_and(|s| s.len() == 1));
-    step(json!([["unfold", "auto"], ["kerf", "0.2mm"]]));
+    step(json!([["unfold", "one"], ["kerf", "0.2mm"]]));
     let shown = studio.get(&format!("{tab}/sheets/1?file=column.toml&folder=made"));
     assert_eq!(shown.status, 200);
     let moment = told(&studio.get(&format!("{tab}/bloom?seconds=2.5")).body);

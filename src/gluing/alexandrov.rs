@@ -8,7 +8,7 @@
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 use super::GluingError;
 use super::place::flat_of_apex;

@@ -1,10 +1,9 @@
 //! D-forms from outlines: what is asked for, and the body with its pieces on sheets.
 
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
 
 use clap::ValueEnum;
-use serde::{Deserialize, Deserializer};
+use serde::Deserialize;
 
 use super::glue_file::read_glue_file;
 use super::merged_net::without_blank_folds;
@@ -20,7 +19,7 @@ use crate::progress::Progress;
 use crate::select::Selection;
 use crate::sheet::{SheetParams, lay_out_watched};
 use crate::unfold::{MeshSource, UnfoldParams, prove};
-use crate::units::{Angle, Length, counted, parse_number};
+use crate::units::{Angle, counted};
 
 /// What becomes of outlines whose perimeters differ.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Deserialize)]

@@ -70,7 +70,7 @@ impl Shared {
 }
 
 /// Arguments that every verb has.
-const EVERYWHERE: [&str; 4] = ["json", "quiet", "help", "version"];
+const EVERYWHERE: [&str; 5] = ["json", "quiet", "color", "help", "version"];
 
 fn verbs(page: &mut String, command: &Command) {
     *page += "\n## Verbs\n\nEvery verb takes these:\n";

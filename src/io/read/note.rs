@@ -218,7 +218,7 @@ impl ReadNote {
                 vertices {a} and {b}; \
                  if the surface is torn there, --weld 0 closes it"
             ),
-            Self::Mended(mending) => mending.fmt(f),
+            Self::Mended(mending) => fmt::Display::fmt(mending, f),
             Self::NothingToMend => f.write_str("there was nothing to mend"),
             Self::Merged { before, after } => write!(
                 f,

@@ -123,7 +123,7 @@ fn walk(mesh: &Mesh, e: EdgeId, step: impl Fn(HalfEdgeId) -> Option<HalfEdgeId>)
 fn straight_on(mesh: &Mesh, h: HalfEdgeId) -> Option<HalfEdgeId> {
     let around: Vec<HalfEdgeId> = mesh.outgoing(mesh.target(h)).collect();
     let back = around.iter().position(|&out| out == h.twin())?;
-    let half = (around.len() % 2 == 0).then_some(around.len() / 2)?;
+    let half = around.len().is_multiple_of(2).then_some(around.len() / 2)?;
     Some(around[(back + half) % around.len()])
 }
 

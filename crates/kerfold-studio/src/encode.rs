@@ -44,7 +44,7 @@ impl Arrays {
     fn finish(mut self) -> Vec<u8> {
         self.told.insert("arrays".to_owned(), Value::Object(self.list));
         let mut text = Value::Object(self.told).to_string();
-        while text.len() % 4 != 0 {
+        while !text.len().is_multiple_of(4) {
             text.push(' ');
         }
         let mut all = MAGIC.to_vec();

@@ -31,7 +31,7 @@ fn main() -> ExitCode {
 }
 
 async fn run(args: &Args) -> Result<(), StudioError> {
-    let serving = serve(options(args)?, args.port).await?;
+    let serving = serve(options(args).map_err(|error| *error)?, args.port).await?;
     let address = serving.address();
     let mut out = std::io::stdout();
     let _ = writeln!(out, "the studio is open at {address}\nCtrl-C closes it").and(out.flush());
@@ -46,14 +46,14 @@ async fn run(args: &Args) -> Result<(), StudioError> {
     }
 }
 
-fn options(args: &Args) -> Result<StudioOptions, StudioError> {
+fn options(args: &Args) -> Result<StudioOptions, Box<StudioError>> {
     let page = args.page.clone();
     let Some(path) = &args.file else {
         return Ok(StudioOptions { folder: PathBuf::from("."), file: None, page });
     };
-    let missing = |message: &str| StudioError::File {
-        file: path.display().to_string(),
-        message: message.to_owned(),
+    let missing = |message: &str| {
+        let (file, message) = (path.display().to_string(), message.to_owned());
+        Box::new(StudioError::File { file, message })
     };
     if !path.is_file() {
         return Err(missing("there is no such file; check the name and the folder"));

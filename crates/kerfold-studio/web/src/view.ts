@@ -20,7 +20,7 @@ function clear(group: THREE.Object3D) {
   for (const child of [...group.children] as THREE.Mesh[]) {
     group.remove(child);
     child.geometry?.dispose();
-    (child.material as THREE.Material | undefined)?.dispose();
+    // Materials are not disposed of: with the last of a kind its compiled program would go, too.
     clear(child);
   }
 }

@@ -16,11 +16,7 @@ use crate::units::Length;
 /// Make planar panels of a freeform surface, three edges at every node; exit code 1 when some do
 /// not come out well
 #[derive(Debug, clap::Args)]
-#[command(
-    after_help = "Examples:\n  kerfold panelize roof.obj --size 1.2m --rim walls -o panels.obj\n  \
-        kerfold panelize --height \"1.1*sin(x/2.2)+cos(y/2)\" --domain 22mx18m --size 1.2m -o \
-        panels.obj"
-)]
+#[command(after_help = "Example: kerfold panelize roof.obj --size 1.2m --rim walls -o panels.obj")]
 pub(super) struct PanelizeArgs {
     /// The surface: OBJ, PLY, STL or OFF of triangles or polygons; `-` reads OBJ from standard
     /// input
@@ -33,7 +29,7 @@ pub(super) struct PanelizeArgs {
     #[arg(long)]
     weld: Option<Length>,
     /// Instead of a file: the height z as a formula in x and y, from the middle of the rectangle,
-    /// in the unit of its width
+    /// in the unit of its width, such as 2*sin(x/3)+cos(y/2)
     #[arg(long, value_name = "FORMULA", conflicts_with = "input", requires = "domain")]
     height: Option<String>,
     /// The rectangle of `--height`: 22mx18m

@@ -1,13 +1,13 @@
 //! Panelize: a freeform surface becomes planar panels with three members at every node.
 //!
-//! The way of a surface: it is refined ([`refine`], [`delaunay`]) and its curvature looked at with
-//! the eyes of a panel ([`curvature`]); rows are laid along the direction in which it bends least
-//! ([`field`]), their sizes adapted so that they run on ([`scale`]); a lattice along the rows has a
-//! point for each panel ([`lattice`], [`sites`]); regions around these become a mesh of polygons
-//! with valence 3 ([`regions`]); its corners start where tangent planes meet ([`start`]), and all
-//! corners and planes are solved for together ([`solve`]); edges that are in the way are turned
-//! ([`flip`]); the last rounds make planes exact. What was reached is measured by code of its own
-//! ([`prove`], [`report`]).
+//! The way of a surface: it is refined (`refine`, `delaunay`) and its curvature looked at with
+//! the eyes of a panel (`curvature`); rows are laid along the direction in which it bends least
+//! (`field`), their sizes adapted so that they run on (`scale`); a lattice along the rows has a
+//! point for each panel (`lattice`, `sites`); regions around these become a mesh of polygons
+//! with valence 3 (`regions`); its corners start where tangent planes meet (`start`), and all
+//! corners and planes are solved for together (`solve`); edges that are in the way are turned
+//! (`flip`); the last rounds make planes exact. What was reached is measured by code of its own
+//! (`prove`, `report`).
 //!
 //! Sources: Liu, Pottmann, Wallner, Yang, Wang 2006; Pottmann, Liu, Wallner, Bobenko, Wang 2007;
 //! Tang, Sun, Gomes, Wallner, Pottmann 2014 for planar meshes by optimisation; Jakob, Tarini,

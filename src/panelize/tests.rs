@@ -84,11 +84,11 @@ fn the_same_seed_gives_the_same_bits_and_another_one_another_layout() {
 
 #[test]
 fn a_count_and_a_sag_give_a_size() {
-    let mesh = roof(6000.0, 6000.0, 300.0, |x, y| -(x * x + y * y) / 12_000.0);
-    let count = PanelizeParams { count: Some(50), size: None, ..sized(1.0) };
+    let mesh = roof(4500.0, 4500.0, 300.0, |x, y| -(x * x + y * y) / 12_000.0);
+    let count = PanelizeParams { count: Some(30), size: None, ..sized(1.0) };
     let (made, report) = panelize(&mesh, &count, &Silent).expect("panels");
     assert_good(&made, &report);
-    assert!((45..=55).contains(&made.face_count()), "{report:?}");
+    assert!((27..=33).contains(&made.face_count()), "{report:?}");
     // The curvature is 1/6000 mm: a panel of 900 mm leaves the surface by 22.5 mm.
     let sag = PanelizeParams { sag: Some(Length::from_mm(22.5)), size: None, ..sized(1.0) };
     let (_, report) = panelize(&mesh, &sag, &Silent).expect("panels");

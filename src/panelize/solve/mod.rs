@@ -4,8 +4,8 @@
 //! with polyhedral meshes made simple"): where the surface is developable, neighbouring planes
 //! hardly meet in points, while corners that are wanted to lie in planes always do. A plane is
 //! coupled with its own corners only, so it is eliminated face by face, and what is solved for is
-//! the corners alone. The terms stand in [`terms`], what one face adds to the system in
-//! [`element`].
+//! the corners alone. The terms stand in `terms`, what one face adds to the system in
+//! `element`.
 
 mod element;
 mod planes;

@@ -146,7 +146,12 @@ impl Fronts {
     /// Factors the matrix with `shift` added to its diagonal; `None` when that is not positive
     /// definite within rounding.
     pub fn factor(&self, matrix: &BlockMatrix, shift: f64) -> Option<FrontFactor<'_>> {
-        let mut values = matrix.values.clone();
+        self.factor_in_place(matrix.clone(), shift)
+    }
+
+    /// As [`Self::factor`], in the memory of the matrix.
+    pub fn factor_in_place(&self, matrix: BlockMatrix, shift: f64) -> Option<FrontFactor<'_>> {
+        let mut values = matrix.values;
         let mut left: Vec<Option<Vec<f64>>> = vec![None; self.fronts.len()];
         for (i, front) in self.fronts.iter().enumerate() {
             let (rows, columns) = (front.size() * self.width, front.count * self.width);

@@ -178,7 +178,7 @@ fn the_recipe_step_writes_the_same_bytes_as_the_verb() {
     let folder = Folder::new("recipe");
     let recipe = "[[step]]\nsolid = \"dodecahedron\"\nsize = \"120mm\"\n[[step]]\npanels = \
     \"mid\"\nthickness = 4\n\
-                  edges = \"30-140:finger\"\nfinger_width = \"12mm\"\nsolids = [\"obj\"]\nrequire \
+                  edges = \"30-140:finger\"\nfinger_width = \"12mm\"\nsolids = [\"obj\"]\ntitle = \"model\"\nrequire \
                   = [\"valence3\"]\n";
     fs::write(folder.path("recipe.toml"), recipe).expect("a file");
     let ran = kerfold(&["run", &folder.path("recipe.toml"), "-o", &folder.path("run")]);

@@ -29,7 +29,8 @@ const GAP: f64 = 2.5 * FLATNESS;
 ///     <circle cx="20" cy="15" r="3"/></svg>"#;
 /// let (_, pages) = read_artwork(Path::new("lid.svg"), svg.as_bytes())?;
 /// let pieces = pieces_of_artwork(&pages)?;
-/// assert_eq!((pieces.matches("outline").count(), pieces.matches("holes").count()), (1, 1));
+/// let count = |key| pieces.matches(key).count();
+/// assert_eq!((count("\"outline\":"), count("\"holes\":")), (1, 1));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn pieces_of_artwork(pages: &[Artwork]) -> Result<String, String> {

@@ -120,7 +120,7 @@ mod tests {
         let (names, flat) = named(&[0, 1, 2, 3, 0, 4, 5], &points);
         assert_eq!(touching(&names, &flat), None, "the triangle runs the other way");
         let all = points.map(|[x, y]| DVec3::new(x, y, 0.0));
-        let mesh = Mesh::from_faces(all, [[0, 1, 2], [3, 4, 5]]).expect("vertices");
+        let mesh = Mesh::from_faces(all, [[0, 3, 4], [1, 2, 5]]).expect("vertices");
         let [i, j] = diagonal(&mesh, &names, &flat).expect("a diagonal");
         let [mut first, mut second] = parts(&names, i, j);
         first.push(names[j]);

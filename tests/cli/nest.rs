@@ -135,7 +135,7 @@ fn shared_lines_are_cut_once_from_flags_and_recipes_alike() {
     assert!(ran.code == Some(0) && ran.out.contains("600 mm to cut"), "{} {}", ran.out, ran.err);
     assert!(ran.err.contains("200 mm of cuts are shared"), "{}", ran.err);
     let text = "[[step]]\nnest = \"parts.json\"\ncommon_line = \"on\"\nsheet = \"110x110\"\nmargin \
-    = \"5mm\"\npart_files = \"on\"\n";
+    = \"5mm\"\npart_files = \"on\"\ntitle = \"parts\"\n";
     fs::write(&recipe, text).expect("a recipe");
     assert_eq!(run(&["run", &recipe, "-o", &again]).code, Some(0));
     let cuts = |folder: &str, name: &str| {

@@ -31,7 +31,7 @@ const RANDOM_LETTERS: usize = 12;
 /// # Example
 /// ```
 /// let path = std::env::temp_dir().join(format!("kerfold-doc-{}-note.txt", std::process::id()));
-/// kerfold::io::write_file(&path, b"whole, or not at all")?;
+/// kerfold::io::output::write_file(&path, b"whole, or not at all")?;
 /// assert_eq!(std::fs::read(&path)?, b"whole, or not at all");
 /// # std::fs::remove_file(&path)?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -55,7 +55,7 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), IoError> {
 /// # Example
 /// ```
 /// let name = |n| std::env::temp_dir().join(format!("kerfold-doc-{}-{n}.txt", std::process::id()));
-/// kerfold::io::write_files(&[(name(1), b"one".to_vec()), (name(2), b"two".to_vec())])?;
+/// kerfold::io::output::write_files(&[(name(1), b"one".to_vec()), (name(2), b"two".to_vec())])?;
 /// assert_eq!(std::fs::read(name(2))?, b"two");
 /// # std::fs::remove_file(name(1))?;
 /// # std::fs::remove_file(name(2))?;

@@ -129,7 +129,7 @@ impl SimplifyReport {
 /// ```
 /// use kerfold::prelude::*;
 ///
-/// let ball = kerfold::shape::geodesic(10, 100.0);
+/// let ball = kerfold::shape::geodesic(10, 50.0);
 /// let params = SimplifyParams { faces: Some(200), ..SimplifyParams::default() };
 /// let (simple, report) = simplify(&ball, &params, &OpContext::default())?;
 /// assert!(simple.is_closed() && simple.face_count() <= 240);

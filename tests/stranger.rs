@@ -317,7 +317,6 @@ fn every_verb_that_writes_sheets_leaves_what_can_be_seen_and_built() {
     run(here, &["nest", "unfold/pieces.json", "--quantity", "3", "-o", "nest"]);
     run(here, &["dform", "cube", "--size", "120mm", "--rounds", "2", "-o", "dform"]);
     for folder in ["unfold", "edges", "pieces", "panels", "nest", "dform"] {
-        println!("{folder}");
         assert_fit_for_a_stranger(&here.join(folder));
     }
 }

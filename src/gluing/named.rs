@@ -51,7 +51,7 @@ pub fn named_outline(name: &str) -> Result<Outline, GluingError> {
     match kind {
         "circle" => {
             numbers.count(0, "circle")?;
-            smooth(name, |t| DVec2::from_angle(t))
+            smooth(name, DVec2::from_angle)
         }
         "ellipse" => {
             let [a, b] = numbers.sides(1, "ellipse-2x1")?.0;

@@ -80,6 +80,10 @@ pub fn planar_body(glued: &Glued, planes: usize) -> Result<PlanarBody, GluingErr
     })
 }
 
+/// A face on a walk, with the face before and the ruling between, and how far it is from the start,
+/// in radians.
+type Walked = (usize, Option<(usize, usize)>, f64);
+
 /// The faces of a piece as a tree whose edges are rulings with the angles by which they bend.
 struct Sampler<'a> {
     glued: &'a Glued,
@@ -104,9 +108,8 @@ impl<'a> Sampler<'a> {
         self.glued.net.folds[fold].fold_angle.to_radians().max(0.0)
     }
 
-    /// Faces from a start in the order of the walk, with the face before and the ruling between;
-    /// and how far each is from the start, in radians.
-    fn walk(&self, start: usize) -> Vec<(usize, Option<(usize, usize)>, f64)> {
+    /// Faces from a start in the order of the walk.
+    fn walk(&self, start: usize) -> Vec<Walked> {
         let mut order = Vec::new();
         let mut stack = vec![(start, None, 0.0)];
         while let Some((face, before, far)) = stack.pop() {
@@ -128,9 +131,8 @@ impl<'a> Sampler<'a> {
         beside: &mut BTreeSet<(usize, usize)>,
     ) {
         let Some(&any) = self.near.keys().next() else { return };
-        let farthest = |order: &[(usize, Option<(usize, usize)>, f64)]| {
-            order.iter().max_by(|a, b| a.2.total_cmp(&b.2)).map_or(any, |f| f.0)
-        };
+        let farthest =
+            |order: &[Walked]| order.iter().max_by(|a, b| a.2.total_cmp(&b.2)).map_or(any, |f| f.0);
         // One end of the piece: the face farthest from any.
         let order = self.walk(farthest(&self.walk(any)));
         let total: f64 = order.iter().filter_map(|o| o.1).map(|(_, fold)| self.turn(fold)).sum();

@@ -42,7 +42,9 @@ pub fn pieces_of_artwork(pages: &[Artwork]) -> Result<String, String> {
             others.filter(|&(j, other)| j != i && is_inside(&contours[i], other)).count()
         };
         let depths: Vec<usize> = (0..contours.len()).map(depth).collect();
-        for (i, outline) in contours.iter().enumerate().filter(|&(i, _)| depths[i] % 2 == 0) {
+        for (i, outline) in
+            contours.iter().enumerate().filter(|&(i, _)| depths[i].is_multiple_of(2))
+        {
             let is_hole =
                 |&j: &usize| depths[j] == depths[i] + 1 && is_inside(&contours[j], outline);
             let holes: Vec<String> =

@@ -366,5 +366,5 @@ fn flat_piece(outline: &Outline) -> Result<Mesh, MakeError> {
     let n = LIST_POINTS;
     let step = outline.length() / n as f64;
     let points = (0..n).map(|i| outline.at(i as f64 * step).extend(0.0));
-    Mesh::from_faces(points, [0..n]).map_err(MakeError::State)
+    Mesh::from_faces(points, [(0..n).collect::<Vec<_>>()]).map_err(MakeError::State)
 }

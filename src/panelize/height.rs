@@ -103,7 +103,7 @@ pub fn height_field(params: &HeightParams) -> Result<Mesh, PanelizeError> {
 /// Where the points of a row stand along it; odd rows are staggered by half a step.
 fn row_shares(row: usize, columns: usize) -> Vec<f64> {
     let count = columns as f64;
-    if row % 2 == 0 {
+    if row.is_multiple_of(2) {
         return (0..=columns).map(|i| i as f64 / count).collect();
     }
     let inner = (0..columns).map(|i| (i as f64 + 0.5) / count);

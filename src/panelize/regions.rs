@@ -215,7 +215,7 @@ impl Extraction<'_> {
         };
         let mut steps = 0;
         let has_run = !corners.is_empty();
-        while steps == 0 && !has_run || at != start || steps == 0 && has_run && !turns.is_empty() {
+        while at != start || steps == 0 && (!has_run || !turns.is_empty()) {
             let turn = turns.iter().find(|turn| turn.before == at)?;
             corners.push(turn.corner);
             at = turn.after;

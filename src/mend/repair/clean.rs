@@ -166,6 +166,6 @@ pub(in crate::mend) fn on_segments(
         }
         true
     });
-    found.sort_by(|a, b| (a.0, a.1).cmp(&(b.0, b.1)));
+    found.sort_by_key(|&(segment, point, _)| (segment, point));
     found
 }

@@ -128,8 +128,8 @@ impl Glue {
         let mut vertex_of_fan = vec![NONE; self.sides.len()];
         let mut is_taken = vec![false; soup.positions.len()];
         let mut parted = 0;
-        for s in 0..self.sides.len() {
-            let (fan, v) = (fans[s] as usize, self.sides[s].from);
+        for (fan, side) in fans.iter().zip(&self.sides) {
+            let (fan, v) = (*fan as usize, side.from);
             if vertex_of_fan[fan] == NONE {
                 vertex_of_fan[fan] = if std::mem::replace(&mut is_taken[v as usize], true) {
                     parted += 1;

@@ -56,9 +56,9 @@ fn closed_parts(soup: &Soup) -> Vec<Vec<usize>> {
         is_open[faces[0]] |= !runs_against;
     }
     let mut open_roots = vec![false; soup.faces.len()];
-    for f in 0..soup.faces.len() {
+    for (f, is_open) in is_open.iter().enumerate() {
         let r = root(&mut part, f);
-        open_roots[r] |= is_open[f];
+        open_roots[r] |= is_open;
     }
     let mut found: std::collections::BTreeMap<usize, Vec<usize>> = Default::default();
     for f in 0..soup.faces.len() {

@@ -7,8 +7,8 @@
 //! sin θ with s = j / (k + 1), and touches the cylinder. All strips have the width 2 r tan(θ / (2(k
 //! + 1))), all folds the angle θ / (k + 1).
 //!
-//! Keeps: planarity, genus, and valence 3. Changes between ends with three edges: V + 2k, E + 3k, F
-//! + k for each chosen edge. Degenerate cases are refused by name before anything is cut: edges that
+//! Keeps: planarity, genus, and valence 3. Changes between ends with three edges: V + 2k, E + 3k,
+//! F + k for each chosen edge. Degenerate cases are refused by name before anything is cut: edges that
 //! are concave, flat or rims, ends with such an edge, chosen edges that meet, radii that leave
 //! nothing of an edge or a face (`limit`). What was cut is measured by code of its own (`proof`).
 
@@ -127,11 +127,11 @@ fn check_strips(params: &RollParams) -> Result<(), OpError> {
         (Some(n), None) if !(1..=RollParams::MOST_STRIPS).contains(&n) => {
             bad("the number of strips", f64::from(n), "from 1 to 1000")
         }
-        (None, Some(StripSize::Width(width))) if !(width.mm() > 0.0) => {
+        (None, Some(StripSize::Width(width))) if width.mm() <= 0.0 || width.mm().is_nan() => {
             bad("the width of strips in mm", width.mm(), "above 0")
         }
         (None, Some(StripSize::Angle(angle)))
-            if !(angle.degrees() > 0.0 && angle.degrees() < 180.0) =>
+            if angle.degrees() <= 0.0 || angle.degrees() >= 180.0 || angle.degrees().is_nan() =>
         {
             bad("the angle between strips in degrees", angle.degrees(), "above 0 and below 180")
         }

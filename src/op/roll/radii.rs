@@ -38,7 +38,7 @@ impl Radii {
 
 /// Limits are linear in a common radius, so one division solves it.
 fn largest_common(limits: &[Limit], ridges: &[Ridge]) -> Result<Radii, OpError> {
-    let tight = tightest(limits).ok_or_else(|| no_room(&limits[..], ridges))?;
+    let tight = tightest(limits).ok_or_else(|| no_room(limits, ridges))?;
     let radius = SHARE / tight.filled();
     if !(radius.is_finite() && radius > 0.0) {
         return Err(no_room(limits, ridges));

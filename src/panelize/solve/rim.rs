@@ -93,10 +93,8 @@ fn is_straight(surface: &Surface, v: usize, wall: DVec3) -> bool {
         let way = surface.points[u] - surface.points[v];
         way.dot(wall).abs() > STRAIGHT * way.length()
     };
-    let next = surface.rim_next[v];
-    let before = surface.rim_before[v];
-    let is_corner = surface.is_corner[v];
-    (!off(next) || is_corner) && (!off(before) || is_corner) && !(off(next) && off(before))
+    let (next, before) = (off(surface.rim_next[v]), off(surface.rim_before[v]));
+    if surface.is_corner[v] { !(next && before) } else { !next && !before }
 }
 
 /// The direction of the rim at a vertex; at a corner of the rim that of what comes next.

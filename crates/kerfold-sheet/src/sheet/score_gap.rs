@@ -46,7 +46,7 @@ pub(crate) fn near_scores(
         for (i, a) in folds.iter().enumerate() {
             for b in &folds[i + 1..] {
                 let distance = distance(a, b);
-                if a.edge.iter().any(|v| b.edge.contains(v)) || !(distance < limit) {
+                if a.edge.iter().any(|v| b.edge.contains(v)) || distance >= limit {
                     continue;
                 }
                 near.pairs += 1;

@@ -97,7 +97,7 @@ impl<'a> FreeSpace<'a> {
     /// `border` mm to the border of the sheet.
     pub fn place(&self, size: DVec2, border: f64, clear: f64) -> Option<Rectangle> {
         let (first, room) = (DVec2::splat(border), self.size - DVec2::splat(2.0 * border) - size);
-        if !(room.min_element() >= 0.0) {
+        if room.is_nan() || room.min_element() < 0.0 {
             return None;
         }
         let part = |k: usize| 1.0 - k as f64 / (PLACES - 1) as f64;

@@ -37,6 +37,9 @@ const FIELDS: &[(&str, &str, &str, f64)] = &[
 /// Panels and the CPU seconds that they may take.
 const SPEED: &[(u32, f64)] = &[(500, 10.0), (1000, 25.0), (5000, 180.0)];
 
+/// A name, the radius in m at a height, the lowest and highest height, and the size of panels in mm.
+type Band = (&'static str, fn(f64) -> f64, [f64; 2], f64);
+
 fn main() {
     let named: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
     let is_meant = |name: &str| named.is_empty() || named.iter().any(|n| n == name);
@@ -46,7 +49,7 @@ fn main() {
             series(name, &field(formula, domain), size, &RimChoice::Walls, (&mut kept, &mut runs));
         }
     }
-    let bands: [(&str, fn(f64) -> f64, [f64; 2], f64); 2] = [
+    let bands: [Band; 2] = [
         ("tower", |z| 4.5 * (1.0 + z * z / 36.0).sqrt(), [-6.0, 8.0], 1200.0),
         ("catenoid", |z| 3.0 * (z / 3.0).cosh(), [-4.0, 4.0], 1000.0),
     ];

@@ -254,7 +254,7 @@ fn were(count: usize) -> &'static str {
 }
 
 /// A question for whoever reads a model smaller than 10 mm or larger than 50 m without saying its
-/// size: the unit may be wrong. [`read_mesh`] does not ask, since a program knows its units.
+/// size: the unit may be wrong. [`read_mesh`](super::read_mesh) does not ask, since a program knows its units.
 pub fn size_note(mesh: &Mesh, options: &ReadOptions) -> Option<ReadNote> {
     let largest = size(mesh).max_element();
     let is_odd = largest > 0.0 && !ORDINARY_MM.contains(&largest);

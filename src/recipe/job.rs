@@ -359,9 +359,8 @@ impl Job {
         )?;
         let made = fabrication.net.pieces.len();
         let is_meant = choice.is_of_strips() && unfold.pieces == PiecesMode::Auto;
-        // Fewer pieces than promised hold together where the promise let them come apart.
         if let Some(PiecePromise { pieces: promised, is_perfect }) = self.promised
-            && promised < made
+            && promised != made
             && is_meant
             && fabrication.divided == 0
             && (is_perfect || fabrication.is_of_given_folds())

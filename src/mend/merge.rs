@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use glam::DVec3;
 
 use super::flat::{Discs, flat_patches};
-use crate::geom::RoundingBound;
+use crate::geom::{RoundingBound, nearest_on_segment};
 use crate::measure::self_contact;
 use crate::mesh::{
     BuildError, EdgeId, FaceId, FaceMap, HalfEdgeId, Mesh, MeshBuilder, VertexId, VertexMap,
@@ -49,9 +49,9 @@ pub fn merge_flat(mesh: &Mesh, tolerance: f64) -> Result<(Mesh, Merged), BuildEr
             return Ok((result, report));
         }
         // Those regions stay as they were; each round takes out one at least.
-        left_regions += bad.len();
         let is_left = |patch: &[FaceId]| bad.iter().any(|f| patch.binary_search(f).is_ok());
         let (whole, kept): (Vec<_>, Vec<_>) = patches.into_iter().partition(|p| is_left(p));
+        left_regions += whole.len();
         patches = kept;
         patches.extend(whole.into_iter().flatten().map(|f| vec![f]));
         patches.sort_unstable_by_key(|patch| patch[0]);
@@ -229,7 +229,7 @@ fn straightened(mesh: &Mesh, chain: &[VertexId], near: f64) -> Vec<VertexId> {
         stays[far] = true;
         open = vec![(0, far), (far, last)];
         let line = [first, mesh.position(chain[far])];
-        let off = |&i: &usize| distance_to_segment(mesh.position(chain[i]), line);
+        let off = |&i: &usize| distance_to(mesh.position(chain[i]), line);
         let third = (1..last).filter(|&i| i != far).max_by(|a, b| off(a).total_cmp(&off(b)));
         if let Some(third) = third {
             stays[third] = true;
@@ -243,7 +243,7 @@ fn straightened(mesh: &Mesh, chain: &[VertexId], near: f64) -> Vec<VertexId> {
             continue;
         }
         let line = [mesh.position(chain[a]), mesh.position(chain[b])];
-        let off = |i: usize| distance_to_segment(mesh.position(chain[i]), line);
+        let off = |i: usize| distance_to(mesh.position(chain[i]), line);
         let worst = (a + 1..b).max_by(|&i, &j| off(i).total_cmp(&off(j))).unwrap_or(a);
         if off(worst) > near {
             stays[worst] = true;
@@ -258,17 +258,13 @@ fn farthest(mesh: &Mesh, chain: &[VertexId]) -> (VertexId, f64) {
     let line = [chain[0], chain[chain.len() - 1]].map(|v| mesh.position(v));
     let inner = chain[1..chain.len() - 1].iter();
     inner
-        .map(|&v| (v, distance_to_segment(mesh.position(v), line)))
+        .map(|&v| (v, distance_to(mesh.position(v), line)))
         .max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)))
         .unwrap_or((chain[0], 0.0))
 }
 
-fn distance_to_segment(p: DVec3, [a, b]: [DVec3; 2]) -> f64 {
-    let along = b - a;
-    let share = (p - a).dot(along) / along.length_squared();
-    // A segment without length is its point.
-    let share = if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 };
-    p.distance(a + along * share)
+fn distance_to(p: DVec3, line: [DVec3; 2]) -> f64 {
+    nearest_on_segment(p, line).distance(p)
 }
 
 fn build(

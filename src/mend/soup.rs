@@ -122,7 +122,7 @@ impl Soup {
         sides
     }
 
-    /// The largest extent of the vertices that faces use, and the box around them.
+    /// The box around the vertices that faces use; `None` without any.
     pub(super) fn bounds(&self) -> Option<(DVec3, DVec3)> {
         let mut used = self.faces.iter().flat_map(|f| &f.corners);
         let first = self.positions[*used.next()? as usize];

@@ -48,7 +48,9 @@ pub use repair::{RepairParams, RepairReport, repair};
 pub use report::{CutReport, Origins, ShrunkOffset};
 pub use resolve::{ResolveParams, ResolveReport, resolve};
 pub use rind::{GroupThickness, RindParams, RindReport, ShellSource, rind};
-pub use roll::{Roll, RollParams, RollWordError, StripSize, StripWordError, largest_roll};
+pub use roll::{
+    Roll, RollOptions, RollParams, RollWordError, StripSize, StripWordError, largest_roll,
+};
 pub use roll_error::RollError;
 pub use rolled::{Place, RollLimit, RolledEdge};
 pub use sierpinski::{

@@ -25,7 +25,6 @@ mod cell;
 mod collision;
 mod cut;
 mod error;
-mod extent;
 mod finding;
 mod finger;
 mod hole;

@@ -7,14 +7,13 @@ use glam::DVec3;
 
 use super::cut::{EdgeCut, EdgeFallback};
 use super::error::PanelError;
-use super::extent::smallest_box;
 use super::node::Node;
 use super::params::PanelParams;
 use super::plate::{Plate, Plates};
 use super::rule::EdgeKind;
 use super::twins::{Twin, twins};
 use crate::geom::Frame;
-use crate::geom::polygon::signed_area;
+use crate::geom::polygon::{signed_area, smallest_rectangle};
 use crate::measure::{edge_length, planarity};
 use crate::mesh::{EdgeId, FaceMap, HalfEdgeId, Mesh, VertexId};
 use crate::net::PieceId;
@@ -248,7 +247,7 @@ fn panel(mesh: &Mesh, i: usize, plate: &Plate, params: &PanelParams) -> PanelRow
         volume,
         // kg/m³ times mm³.
         mass: params.density_kg_m3() * volume * 1e-9,
-        size: smallest_box(&plate.blank),
+        size: smallest_rectangle(&plate.blank),
         angles: (0..n).map(angle).collect(),
         edges: plate.half_edges.iter().map(|h| h.edge()).collect(),
         planarity: planarity(mesh, plate.face).mm,

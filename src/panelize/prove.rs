@@ -8,8 +8,8 @@ use super::curvature::Quadric;
 use super::regions::{Kind, Panels};
 use super::sites::PANEL_AREA;
 use super::surface::{Links, Surface};
-use crate::geom::polygon::{convex_hull, segments_meet, signed_area};
-use crate::geom::{Frame, Plane};
+use crate::geom::polygon::{segments_meet, signed_area, smallest_rectangle};
+use crate::geom::{Frame, Plane, nearest_on_triangle};
 
 /// What was measured of one panel. Lengths in panel sizes, angles in degrees.
 #[derive(Debug, Clone, Copy)]
@@ -27,7 +27,7 @@ pub(super) struct Measured {
     /// Corners where it is concave.
     pub concave: usize,
     pub diameter: f64,
-    /// The sides of the smallest box around it, the shorter first.
+    /// The sides of the smallest box around it, the longer first.
     pub extent: [f64; 2],
     pub is_rim: bool,
     pub sides: usize,
@@ -77,7 +77,7 @@ fn measure_one(
         deviation: samples.map(off).fold(0.0, f64::max),
         concave: angles.iter().filter(|&&a| a > 180.5).count(),
         diameter: (0..count).map(apart).fold(0.0, f64::max),
-        extent: smallest_box(&flat),
+        extent: smallest_rectangle(&flat),
         is_rim: face.iter().any(|&v| panels.kinds[v] != Kind::Inner),
         sides: count,
     }
@@ -88,23 +88,6 @@ fn flattened(corners: &[DVec3], normal: DVec3, centre: DVec3) -> Vec<DVec2> {
     let Some(plane) = Plane::new(normal, centre) else { return vec![DVec2::ZERO; corners.len()] };
     let frame = Frame::on_plane(&plane);
     corners.iter().map(|&p| frame.flatten(p)).collect()
-}
-
-/// The sides of the box of least area around a panel; one of its sides lies along a side of the
-/// convex hull (Freeman, Shapira 1975).
-fn smallest_box(flat: &[DVec2]) -> [f64; 2] {
-    let hull = convex_hull(flat);
-    let along = |i: usize| {
-        let side = (hull[(i + 1) % hull.len()] - hull[i]).normalize_or(DVec2::X);
-        let spread = |axis: DVec2| {
-            let places = hull.iter().map(|p| p.dot(axis));
-            places.clone().fold(f64::NEG_INFINITY, f64::max) - places.fold(f64::INFINITY, f64::min)
-        };
-        let (a, b) = (spread(side), spread(side.perp()));
-        [a.min(b), a.max(b)]
-    };
-    let boxes = (0..hull.len()).map(along);
-    boxes.min_by(|a, b| (a[0] * a[1]).total_cmp(&(b[0] * b[1]))).unwrap_or([0.0; 2])
 }
 
 /// Whether sides that do not follow each other have nothing in common.
@@ -129,24 +112,9 @@ fn triangles_around(surface: &Surface) -> Links {
 fn distance(surface: &Surface, around: &Links, place: DVec3, hint: usize) -> f64 {
     let v = surface.nearest(place, hint);
     let near = surface.links.of(v).iter().chain([&v]).flat_map(|&u| around.of(u));
-    near.map(|&t| from_triangle(surface.triangles[t].map(|i| surface.points[i]), place))
+    let corners = |t: usize| surface.triangles[t].map(|i| surface.points[i]);
+    near.map(|&t| nearest_on_triangle(place, corners(t)).distance(place))
         .fold(f64::INFINITY, f64::min)
-}
-
-/// The distance of a place from a triangle.
-fn from_triangle([a, b, c]: [DVec3; 3], p: DVec3) -> f64 {
-    let normal = (b - a).cross(c - a);
-    let inside =
-        [[a, b], [b, c], [c, a]].iter().all(|&[u, v]| (v - u).cross(p - u).dot(normal) >= 0.0);
-    if inside && normal != DVec3::ZERO {
-        return (p - a).dot(normal.normalize()).abs();
-    }
-    let from_side = |u: DVec3, v: DVec3| {
-        let way = v - u;
-        let share = ((p - u).dot(way) / way.length_squared()).clamp(0.0, 1.0);
-        p.distance(u + way * share)
-    };
-    from_side(a, b).min(from_side(b, c)).min(from_side(c, a))
 }
 
 /// How far the corner of a plate lies from its node for each thickness: the length of the shortest

@@ -6,7 +6,7 @@ use super::super::OpError;
 use super::super::size::ask;
 use super::Opening;
 use super::offset::Skin;
-use crate::geom::{Frame, triangulate};
+use crate::geom::{Frame, nearest_on_triangle, triangulate};
 use crate::mesh::{FaceId, FaceMap, Mesh};
 use crate::progress::Progress;
 
@@ -73,7 +73,7 @@ fn too_near(
         }
         triangles.around(p, reach, |f, corners| {
             let wanted = thickness[f].abs() * (1.0 - SLACK) - skin.residuals[v] - unevenness[f];
-            is_near[f] |= nearest_on_triangle(p, corners).distance(p) < wanted;
+            is_near[f] |= nearest_on_triangle(p, *corners).distance(p) < wanted;
         });
     }
     Ok(solid.iter().copied().filter(|&f| is_near[f]).collect())
@@ -150,26 +150,4 @@ impl Cells {
         (a.x..=b.x)
             .flat_map(move |x| (a.y..=b.y).flat_map(move |y| (a.z..=b.z).map(move |z| [x, y, z])))
     }
-}
-
-/// The point of a triangle nearest to `p`: the foot of the perpendicular if it lies inside, else
-/// the nearest point of a side.
-fn nearest_on_triangle(p: DVec3, corners: &[DVec3; 3]) -> DVec3 {
-    let [a, b, c] = *corners;
-    let normal = (b - a).cross(c - a);
-    let square = normal.length_squared();
-    let foot = if square > 0.0 { p - normal * ((p - a).dot(normal) / square) } else { p };
-    let sides = [(a, b), (b, c), (c, a)];
-    if square > 0.0 && sides.iter().all(|&(u, v)| (v - u).cross(foot - u).dot(normal) >= 0.0) {
-        return foot;
-    }
-    let on_side = |(u, v): (DVec3, DVec3)| {
-        let along = v - u;
-        let share = (p - u).dot(along) / along.length_squared();
-        if share.is_nan() { u } else { u + along * share.clamp(0.0, 1.0) }
-    };
-    let feet = sides.map(on_side);
-    feet.into_iter()
-        .min_by(|x, y| x.distance_squared(p).total_cmp(&y.distance_squared(p)))
-        .unwrap_or(a)
 }

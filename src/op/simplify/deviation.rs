@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::face_triangles;
-use crate::geom::{AxisBox, BoxTree};
+use crate::geom::{AxisBox, BoxTree, nearest_on_triangle};
 use crate::mesh::{FaceId, Mesh};
 
 /// A triangle of a face.
@@ -41,25 +41,6 @@ fn nearest(pieces: &[Piece], points: &[DVec3]) -> Vec<Option<(usize, f64)>> {
     let tree = BoxTree::new(&boxes);
     points
         .iter()
-        .map(|&p| tree.nearest(p, |i| distance_to_triangle(p, pieces[i].corners)))
+        .map(|&p| tree.nearest(p, |i| nearest_on_triangle(p, pieces[i].corners).distance(p)))
         .collect()
-}
-
-/// The distance of a point from a triangle: to its plane where the point lies above it, else to the
-/// nearest side.
-pub(super) fn distance_to_triangle(p: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
-    let normal = (b - a).cross(c - a);
-    let sides = [(a, b), (b, c), (c, a)];
-    let is_above = |&(from, to): &(DVec3, DVec3)| normal.cross(to - from).dot(p - from) >= 0.0;
-    if normal.length_squared() > 0.0 && sides.iter().all(is_above) {
-        return (p - a).dot(normal).abs() / normal.length();
-    }
-    sides.into_iter().map(|(from, to)| distance_to_segment(p, from, to)).fold(f64::MAX, f64::min)
-}
-
-fn distance_to_segment(p: DVec3, a: DVec3, b: DVec3) -> f64 {
-    let along = b - a;
-    let share = (p - a).dot(along) / along.length_squared();
-    let share = if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 };
-    p.distance(a + along * share)
 }

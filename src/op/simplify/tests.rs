@@ -1,5 +1,5 @@
-use super::deviation::distance_to_triangle;
 use super::*;
+use crate::geom::nearest_on_triangle;
 use crate::measure::volume;
 use crate::mesh::assert_sound;
 use crate::shape;
@@ -97,6 +97,6 @@ fn distances_to_a_triangle_are_those_of_its_parts() {
         (DVec3::new(-3.0, -4.0, 0.0), 5.0),
         (DVec3::new(2.0, 2.0, 0.0), 2.0_f64.sqrt()),
     ] {
-        assert!((distance_to_triangle(p, corners) - distance).abs() < 1e-12, "{p}");
+        assert!((nearest_on_triangle(p, corners).distance(p) - distance).abs() < 1e-12, "{p}");
     }
 }

@@ -143,14 +143,9 @@ impl Fronts {
         }
     }
 
-    /// Factors the matrix with `shift` added to its diagonal; `None` when that is not positive
-    /// definite within rounding.
-    pub fn factor(&self, matrix: &BlockMatrix, shift: f64) -> Option<FrontFactor<'_>> {
-        self.factor_in_place(matrix.clone(), shift)
-    }
-
-    /// As [`Self::factor`], in the memory of the matrix.
-    pub fn factor_in_place(&self, matrix: BlockMatrix, shift: f64) -> Option<FrontFactor<'_>> {
+    /// Factors the matrix with `shift` added to its diagonal, in its own memory; `None` when that is
+    /// not positive definite within rounding.
+    pub fn factor(&self, matrix: BlockMatrix, shift: f64) -> Option<FrontFactor<'_>> {
         let mut values = matrix.values;
         let mut left: Vec<Option<Vec<f64>>> = vec![None; self.fronts.len()];
         for (i, front) in self.fronts.iter().enumerate() {
@@ -409,7 +404,7 @@ mod tests {
             blocks.iter().enumerate().for_each(|(i, block)| fronts.add(&mut matrix, i, block));
             let right: Vec<f64> =
                 (0..places.len() * width).map(|i| (i as f64 * 0.3).cos()).collect();
-            let x = fronts.factor(&matrix, 0.5).expect("positive definite").solve(&right);
+            let x = fronts.factor(matrix.clone(), 0.5).expect("positive definite").solve(&right);
             let mut product: Vec<f64> = x.iter().map(|x| 0.5 * x).collect();
             for (clique, block) in cliques.iter().zip(&blocks) {
                 let unknown = |k: usize| clique[k / width] * width + k % width;
@@ -423,7 +418,7 @@ mod tests {
             for (p, r) in product.iter().zip(&right) {
                 assert!((p - r).abs() < 1e-10, "{p} {r}");
             }
-            assert!(fronts.factor(&matrix, -1.0).is_none(), "not positive definite");
+            assert!(fronts.factor(matrix.clone(), -1.0).is_none(), "not positive definite");
         }
     }
 }

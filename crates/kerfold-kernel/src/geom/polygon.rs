@@ -95,6 +95,28 @@ fn sides(corners: &[DVec2]) -> impl Iterator<Item = [DVec2; 2]> + '_ {
     (0..corners.len()).map(|i| [corners[i], corners[(i + 1) % corners.len()]])
 }
 
+/// Length and width of the rectangle of least area around points, the longer one first; nothing
+/// for no points. One of its
+/// sides lies along a side of the convex hull (Freeman and Shapira 1975).
+pub fn smallest_rectangle(points: &[DVec2]) -> [f64; 2] {
+    let hull = convex_hull(points);
+    let n = hull.len();
+    let mut best = [f64::INFINITY; 2];
+    for i in 0..n {
+        let Some(along) = (hull[(i + 1) % n] - hull[i]).try_normalize() else { continue };
+        let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+        for &p in &hull {
+            let q = DVec2::new((p - hull[i]).dot(along), (p - hull[i]).dot(along.perp()));
+            (low, high) = (low.min(q), high.max(q));
+        }
+        let size = high - low;
+        if size.x * size.y < best[0] * best[1] {
+            best = [size.max_element(), size.min_element()];
+        }
+    }
+    if best[0].is_finite() { best } else { [0.0; 2] }
+}
+
 /// The convex hull, counter-clockwise, without collinear corners (Andrew 1979, monotone chain,
 /// exact signs).
 pub fn convex_hull(points: &[DVec2]) -> Vec<DVec2> {
@@ -158,5 +180,15 @@ mod tests {
         assert!(segments_cross(a, b, DVec2::new(1.0, -1.0), DVec2::new(1.0, 1.0)));
         assert!(!segments_cross(a, b, DVec2::new(1.0, 0.0), DVec2::new(1.0, 1.0)));
         assert!(!segments_cross(a, b, DVec2::new(3.0, -1.0), DVec2::new(3.0, 1.0)));
+    }
+
+    #[test]
+    fn the_smallest_rectangle_of_a_turned_ell() {
+        let turn = DVec2::from_angle(0.7);
+        let ell = [(0.0, 0.0), (50.0, 0.0), (50.0, 20.0), (20.0, 20.0), (20.0, 40.0), (0.0, 40.0)];
+        let turned: Vec<DVec2> = ell.iter().map(|&p| turn.rotate(p.into())).collect();
+        let [length, width] = smallest_rectangle(&turned);
+        assert!((length - 50.0).abs() < 1e-12 && (width - 40.0).abs() < 1e-12, "{length} {width}");
+        assert_eq!(smallest_rectangle(&[]), [0.0; 2]);
     }
 }

@@ -9,14 +9,14 @@
 #![allow(clippy::print_stdout, reason = "a bench prints")]
 
 mod clock;
-
-use std::f64::consts::TAU;
+#[path = "../src/gluing/random_points.rs"]
+mod random_points;
 
 use clock::thread_seconds;
-use glam::DVec2;
 use kerfold::gluing::{Gluing, GluingError, Outline, glue, named_outline};
 use kerfold::progress::Silent;
 use kerfold::random::Rng;
+use random_points::random_points;
 
 /// Points, and what the slowest body may take in seconds.
 const BARS: [(usize, f64); 3] = [(60, 1.0), (240, 1.0), (960, 20.0)];
@@ -88,19 +88,6 @@ fn random_pair(seed: u64) -> (Outline, Outline, f64) {
     (a, b, rng.unit())
 }
 
-/// A smooth convex outline: a support function with a positive radius of curvature.
 fn random_outline(rng: &mut Rng) -> Outline {
-    let waves: Vec<[f64; 3]> =
-        (2..6).map(|k| [f64::from(k), rng.unit(), rng.between(0.0, TAU)]).collect();
-    let total: f64 = waves.iter().map(|[k, a, _]| a * (k * k - 1.0)).sum();
-    let point = |i: usize| {
-        let t = TAU * i as f64 / 16384.0;
-        let (mut h, mut slope) = (1.0, 0.0);
-        for &[k, a, phase] in &waves {
-            h += 0.9 / total * a * (k * t + phase).cos();
-            slope -= 0.9 / total * a * k * (k * t + phase).sin();
-        }
-        50.0 * (h * DVec2::from_angle(t) + slope * DVec2::from_angle(t).perp())
-    };
-    Outline::new("random", &(0..16384).map(point).collect::<Vec<_>>()).expect("an outline")
+    Outline::new("random", &random_points(|| rng.unit(), 16384)).expect("an outline")
 }

@@ -10,7 +10,7 @@ use super::output::{Clean, command_line, model_text};
 use super::run::finish;
 use super::terminal::Terminal;
 use super::{Console, Outcome, seams};
-use crate::io::{ReadMesh, ReadOptions};
+use crate::io::{MeshUnit, ReadMesh, ReadOptions};
 use crate::make::{DformParams, MakeError, OutlineParams, OutlinesError, ShowParams, outline_list};
 use crate::picture::RenderParams;
 use crate::recipe::{Job, Recipe, Step};
@@ -57,11 +57,7 @@ pub(super) struct DformArgs {
 }
 
 pub(super) fn run(args: &DformArgs, console: &Console) -> Result<Outcome, CliError> {
-    if args.outlines.glue.is_some() && args.options.size.is_some() {
-        let what = "a gluing file and --size are given".to_owned();
-        let advice = "name sizes in the file, after @";
-        return Err(MakeError::from(OutlinesError::Options { what, advice }).into());
-    }
+    args.check_options()?;
     if args.list && args.solid.is_some() {
         return list(args, console);
     } else if args.list {
@@ -127,13 +123,46 @@ impl DformArgs {
         stem.unwrap_or_default().to_string_lossy().into_owned()
     }
 
+    /// Refuses options that would do nothing.
+    fn check_options(&self) -> Result<(), CliError> {
+        let refused = |what: &str, advice| {
+            let what = what.to_owned();
+            Err(MakeError::from(OutlinesError::Options { what, advice }).into())
+        };
+        let ReadOptions { units, size, weld, flip, orient, mend, merge_flat } = &self.options;
+        let reads = *units != MeshUnit::default()
+            || weld.is_some()
+            || *flip
+            || *orient
+            || *mend
+            || merge_flat.is_some();
+        if self.solid.is_none() && reads {
+            let advice = "leave out --units, --weld, --mend and their like: outlines are no mesh";
+            return refused("options that read a mesh are given with outlines", advice);
+        }
+        let is_sized = self.outlines.outlines.iter().all(|text| text.contains('@'));
+        if self.solid.is_none() && size.is_some() && is_sized {
+            let advice = "name sizes after @, in a gluing file in the file";
+            return refused("--size is given, and no outline without a size", advice);
+        }
+        if self.list && self.dform != DformParams::default() {
+            return refused("options of carving are given with --list", "leave them out");
+        }
+        match self.outlines.without_outlines() {
+            Some(option) => {
+                let advice = "name outlines or a gluing file, or leave it out";
+                refused(&format!("--{option} is given without outlines"), advice)
+            }
+            None => Ok(()),
+        }
+    }
+
     /// The outlines; `--size` is that of the first which names none.
     fn outlines(&self) -> OutlineParams {
         let mut outlines = self.outlines.clone();
-        if let (Some(size), Some(first)) = (self.options.size, outlines.outlines.first_mut())
-            && !first.contains('@')
-        {
-            *first += &format!("@{}mm", size.mm());
+        let bare = outlines.outlines.iter_mut().find(|text| !text.contains('@'));
+        if let (Some(size), Some(bare)) = (self.options.size, bare) {
+            *bare += &format!("@{}mm", size.mm());
         }
         outlines
     }

@@ -4,12 +4,12 @@ use glam::{DVec2, DVec3};
 
 use super::alexandrov::{Continuation, Effort};
 use super::overlay::{Overlay, SeamPart, overlay};
-use super::place::{place, smallest_box};
+use super::place::place;
 use super::rims::Rims;
 use super::surface::Surface;
 use super::trace::trace;
 use super::{Gluing, GluingError};
-use crate::geom::polygon::bounds;
+use crate::geom::polygon::{bounds, smallest_rectangle};
 use crate::measure::{convexity, edge_length, fold_angle, size};
 use crate::mesh::{HalfEdgeId, HalfEdgeMap, Mesh};
 use crate::net::{
@@ -63,7 +63,7 @@ pub struct GluedFacts {
 pub fn glue(gluing: &Gluing, progress: &dyn Progress) -> Result<Glued, GluingError> {
     let rims = gluing.rims()?;
     if let Some(shape) = rims.mirrored() {
-        return Err(GluingError::FoldsFlat { size: smallest_box(&shape) });
+        return Err(GluingError::FoldsFlat { size: smallest_rectangle(&shape) });
     }
     let (surface, directions) = Surface::new(&rims)?;
     let mut tried = Err(GluingError::Cancelled);

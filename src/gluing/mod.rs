@@ -39,4 +39,6 @@ pub use rims::POINTS_LIMIT;
 pub use seams::{Gluing, Seam, Span};
 
 #[cfg(test)]
+mod random_points;
+#[cfg(test)]
 mod tests;

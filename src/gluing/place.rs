@@ -8,7 +8,7 @@ use super::GluingError;
 use super::pyramid::apex;
 use super::surface::Surface;
 use crate::geom::ldl::solve_symmetric;
-use crate::geom::polygon::{convex_hull, signed_area};
+use crate::geom::polygon::{convex_hull, signed_area, smallest_rectangle};
 use crate::geom::predicate::orient3d;
 use crate::geom::{RoundingBound, fit_plane, sparse};
 use crate::progress::Progress;
@@ -112,7 +112,7 @@ fn flat_shape(surface: &Surface, places: &[DVec3]) -> Option<GluingError> {
     if worst > 1e-9 * size || (surface_area - covered).abs() > 1e-6 * covered {
         return None;
     }
-    Some(GluingError::FoldsFlat { size: smallest_box(&flat) })
+    Some(GluingError::FoldsFlat { size: smallest_rectangle(&flat) })
 }
 
 /// Diagonal of the box.
@@ -120,20 +120,6 @@ pub(super) fn extent(places: &[DVec3]) -> f64 {
     let low = places.iter().fold(DVec3::INFINITY, |a, &b| a.min(b));
     let high = places.iter().fold(DVec3::NEG_INFINITY, |a, &b| a.max(b));
     (high - low).length()
-}
-
-/// Length and width of the smallest of the boxes at whole degrees.
-pub(super) fn smallest_box(flat: &[DVec2]) -> [f64; 2] {
-    let extent = |d: DVec2| {
-        let range = flat.iter().map(|p| p.dot(d));
-        range.clone().fold(f64::NEG_INFINITY, f64::max) - range.fold(f64::INFINITY, f64::min)
-    };
-    let boxes = (0..90).map(|i| {
-        let d = DVec2::from_angle(f64::from(i).to_radians());
-        [extent(d), extent(d.perp())]
-    });
-    let smallest = boxes.min_by(|a, b| (a[0] * a[1]).total_cmp(&(b[0] * b[1])));
-    smallest.map_or([0.0; 2], |[a, b]| [a.max(b), a.min(b)])
 }
 
 /// How far an edge bends inwards beyond rounding, in mm; 0 when it does not.

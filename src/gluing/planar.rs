@@ -10,6 +10,7 @@ use glam::{DVec2, DVec3};
 
 use super::{Glued, GluingError};
 use crate::geom::hull::{HalfSpace, Intersect, Numbers, intersect};
+use crate::geom::nearest_on_segment;
 use crate::geom::polygon::{Location, locate};
 use crate::measure::size;
 use crate::mesh::{EdgeId, FaceId, Mesh};
@@ -199,17 +200,13 @@ fn distance_to_body(mesh: &Mesh, p: DVec3) -> f64 {
         let outline: Vec<DVec2> = corners.iter().map(|&q| flat(q)).collect();
         let beside = if locate(&outline, flat(p)) == Location::Outside {
             let n = corners.len();
-            (0..n).map(|i| to_segment(p, corners[i], corners[(i + 1) % n])).fold(f64::MAX, f64::min)
+            (0..n)
+                .map(|i| nearest_on_segment(p, [corners[i], corners[(i + 1) % n]]).distance(p))
+                .fold(f64::MAX, f64::min)
         } else {
             height
         };
         nearest = nearest.min(beside);
     }
     if is_outside { nearest } else { 0.0 }
-}
-
-fn to_segment(p: DVec3, a: DVec3, b: DVec3) -> f64 {
-    let d = b - a;
-    let t = ((p - a).dot(d) / d.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-    p.distance(a + d * t)
 }

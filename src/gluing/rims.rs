@@ -140,8 +140,14 @@ fn divide(gluing: &Gluing, seam: &Seam, step: f64) -> Division {
         kept.push((la, lb));
     }
     let mut division = Division { a: Vec::new(), b: Vec::new() };
+    // A seam of one or two chords could fold onto itself.
+    let fewest = match kept.len() {
+        2 => 3.0,
+        3 => 2.0,
+        _ => 1.0,
+    };
     for pair in kept.windows(2) {
-        let count = ((pair[1].0 - pair[0].0) / step).round().max(1.0) as usize;
+        let count = ((pair[1].0 - pair[0].0) / step).round().max(fewest) as usize;
         for k in 0..count {
             let part = k as f64 / count as f64;
             division.a.push(pair[0].0 + (pair[1].0 - pair[0].0) * part);
@@ -150,11 +156,6 @@ fn divide(gluing: &Gluing, seam: &Seam, step: f64) -> Division {
     }
     division.a.push(la);
     division.b.push(lb);
-    // A seam of one or two chords could fold onto itself.
-    if division.a.len() < 4 {
-        let thirds = |l: f64| (0..4).map(|k| l * f64::from(k) / 3.0).collect();
-        division = Division { a: thirds(la), b: thirds(lb) };
-    }
     division
 }
 
@@ -274,6 +275,9 @@ impl Rims {
     }
 
     fn check_sphere(&self) -> Result<(), GluingError> {
+        if self.pieces.is_empty() {
+            return Err(GluingError::NoSphere { vertices: 0, edges: 0, pieces: 0, euler: 0 });
+        }
         let mut reached = vec![false; self.pieces.len()];
         let mut stack = vec![0];
         reached[0] = true;

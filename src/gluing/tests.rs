@@ -1,7 +1,6 @@
-use std::f64::consts::TAU;
-
 use glam::DVec2;
 
+use super::random_points::random_points;
 use super::*;
 use crate::measure::convexity;
 use crate::progress::Silent;
@@ -23,21 +22,8 @@ fn pair(a: &str, b: &str, start: f64, points: usize) -> Result<Glued, GluingErro
     glue(&Gluing::pair(a, b, start, points), &Silent)
 }
 
-/// A smooth convex outline: a support function with a positive radius of curvature.
 fn random_outline(rng: &mut Rng) -> Outline {
-    let waves: Vec<[f64; 3]> =
-        (2..6).map(|k| [f64::from(k), rng.unit(), rng.between(0.0, TAU)]).collect();
-    let total: f64 = waves.iter().map(|[k, a, _]| a * (k * k - 1.0)).sum();
-    let point = |i: usize| {
-        let t = TAU * i as f64 / 4096.0;
-        let (mut h, mut slope) = (1.0, 0.0);
-        for &[k, a, phase] in &waves {
-            h += 0.9 / total * a * (k * t + phase).cos();
-            slope -= 0.9 / total * a * k * (k * t + phase).sin();
-        }
-        50.0 * (h * DVec2::from_angle(t) + slope * DVec2::from_angle(t).perp())
-    };
-    Outline::new("random", &(0..4096).map(point).collect::<Vec<_>>()).expect("an outline")
+    Outline::new("random", &random_points(|| rng.unit(), 4096)).expect("an outline")
 }
 
 /// Every corner of a piece lies where the outline, cut into chords, has it.

@@ -10,7 +10,7 @@ use crate::geom::polygon::{Location, locate, signed_area};
 use crate::lint::{ArtPath, Artwork};
 
 /// Ends of lines that are at most so far apart belong together, in mm: what `lint` takes for one.
-const GAP: f64 = 2.5 * FLATNESS;
+pub const GAP: f64 = 2.5 * FLATNESS;
 
 /// The pieces of a drawing as the JSON that `nest` reads. Only lines that are cut count; open ones
 /// are joined where their ends meet.

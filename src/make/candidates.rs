@@ -61,12 +61,18 @@ fn judged(
     if let Some(best) = bound.best {
         let is_known = fold_sum(mesh, &best) >= fold_sum(mesh, &folds) * (1.0 - 1e-9);
         let folds = if is_known { folds } else { best };
-        return Ok((folds, "no two-piece seam has a smaller fold sum".to_owned()));
+        return Ok((
+            folds,
+            format!(
+                "no two-piece seam has a fold sum below {:.2} rad·mm, and one has it",
+                bound.lower
+            ),
+        ));
     }
     let above = 100.0 * (fold_sum(mesh, &folds) / bound.lower - 1.0);
     let note = format!(
-        "no two-piece seam has a fold sum below {:.2} rad·mm: this one is at most {above:.1} % above \
-        the least",
+        "no two-piece seam has a fold sum below {:.2} rad·mm: the best that was found is at \
+        most {above:.1} % above the least",
         bound.lower
     );
     Ok((folds, note))

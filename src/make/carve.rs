@@ -12,8 +12,8 @@ use crate::measure::{concave_edges, edge_length, fold_angle};
 use crate::mesh::{EdgeId, EdgeMap, FaceId, Mesh, VertexId};
 use crate::net::Net;
 use crate::op::{
-    OpContext, OpError, Origins, Roll, RollParams, Scope, TruncateEdgeParams, largest_roll,
-    truncate_edges,
+    OpContext, OpError, Origins, Roll, RollOptions, RollParams, Scope, TruncateEdgeParams,
+    largest_roll, truncate_edges,
 };
 use crate::progress::Progress;
 use crate::seam::{SeamError, fold_sum, piece_count, piece_of_faces, seam_cycles};
@@ -125,8 +125,8 @@ pub(super) fn carve_folds(
                     on the sheet",
                     counted(
                         passed,
-                        "choice of folds with no larger fold sum was",
-                        "choices of folds with no larger fold sum were"
+                        "choice of folds tried before was",
+                        "choices of folds tried before were"
                     )
                 ));
             }
@@ -364,7 +364,8 @@ fn truncation(select: Selection, carving: Carving, is_convex: bool) -> Option<Tr
     Some(match carving {
         Carving::Nothing => return None,
         Carving::Rolled(RollParams { roll, strips, strip }) => {
-            TruncateEdgeParams { strips, strip, ..TruncateEdgeParams::rolled(select, roll) }
+            let rolling = RollOptions { roll: Some(roll), strips, strip };
+            TruncateEdgeParams { rolling, ..TruncateEdgeParams::rolled(select, roll) }
         }
         Carving::Cut { offset, bend, rounds: repeat } => {
             let scope = if is_convex { Scope::Global } else { Scope::Local };

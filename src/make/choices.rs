@@ -7,6 +7,7 @@ use super::carve::{CarvedDform, carve_folds};
 use super::{DformParams, MakeError};
 use crate::mesh::{EdgeId, FaceId, Mesh, MeshBuilder};
 use crate::net::Net;
+use crate::op::RollOptions;
 use crate::picture::{Cell, Colour, Projection, RenderParams, UpAxis, render_strip};
 use crate::progress::Progress;
 use crate::unfold::{MeshSource, Seams, UnfoldParams, unfold};
@@ -64,7 +65,8 @@ fn cell(
     render: &RenderParams,
     progress: &dyn Progress,
 ) -> Result<Cell, MakeError> {
-    let params = DformParams { strips: Some(STRIPS), ..DformParams::default() };
+    let rolling = RollOptions { strips: Some(STRIPS), ..RollOptions::default() };
+    let params = DformParams { rolling, ..DformParams::default() };
     let (carved, sign) =
         match carve_folds(mesh, vec![choice.folds.clone()], (&params, None), progress) {
             Ok(carved) => (carved, ""),

@@ -8,7 +8,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use crate::code::codes;
-use crate::op::{OpError, Roll, RollParams, StripSize};
+use crate::op::{OpError, Roll, RollOptions, RollParams};
 use serde::{Deserialize, Deserializer};
 
 /// Which of the solid's edges become folds, one at every vertex.
@@ -166,21 +166,10 @@ pub struct DformParams {
     #[arg(long, default_value = "hamiltonian", value_name = "CHOICE")]
     #[serde(default)]
     pub matching: MatchingChoice,
-    /// Roll each fold into even strips that touch both faces: a radius (40mm), one for each end
-    /// (40mm,20mm), max for the largest that all can have, or each for the largest of every fold.
-    /// Unless given max, or the largest below it that keeps the pieces whole
-    #[arg(long, value_name = "RADIUS")]
-    #[serde(default)]
-    pub roll: Option<Roll>,
-    /// How many strips a rolled fold gets, 1 to 1000; 9 unless given
-    #[arg(long, value_name = "N")]
-    #[serde(default)]
-    pub strips: Option<u32>,
-    /// The largest strip of a rolled fold instead of their number: a width (6mm) or a fold angle
-    /// (10deg)
-    #[arg(long, value_name = "SIZE")]
-    #[serde(default)]
-    pub strip: Option<StripSize>,
+    /// How the folds are rolled, which they are unless they are cut.
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub rolling: RollOptions,
     /// How often the folds are cut by offset instead of rolled, 0 to 64; each round halves the steps
     /// of the strips, 0 leaves the solid as it is. 4 where an offset or a bend is given
     #[arg(long, value_name = "N")]
@@ -236,19 +225,10 @@ impl DformParams {
             ("offset", self.offset.is_some()),
             ("bend", self.bend != 0.0),
         ];
-        let rolls = [
-            ("roll", self.roll.is_some()),
-            ("strips", self.strips.is_some()),
-            ("strip", self.strip.is_some()),
-        ];
-        let given = |options: [(&'static str, bool); 3]| options.into_iter().find(|o| o.1);
-        match (given(rolls), given(cuts)) {
-            (Some((first, _)), Some((second, _))) => Err(OpError::Exclude { first, second }),
-            (_, None) => Ok(Carving::Rolled(RollParams {
-                roll: self.roll.unwrap_or(Roll::Max),
-                strips: self.strips,
-                strip: self.strip,
-            })),
+        let cut = cuts.into_iter().find(|cut| cut.1);
+        match (self.rolling.given(), cut) {
+            (Some(first), Some((second, _))) => Err(OpError::Exclude { first, second }),
+            (_, None) => Ok(Carving::Rolled(self.rolling.or(Roll::Max))),
             (None, Some(_)) if self.rounds == Some(0) => Ok(Carving::Nothing),
             (None, Some(_)) => Ok(Carving::Cut {
                 offset: self.offset.unwrap_or(DEFAULT_OFFSET),
@@ -260,7 +240,7 @@ impl DformParams {
 
     /// Whether the depth of the carving is left to the program.
     pub(super) fn is_open(&self) -> bool {
-        self.offset.is_none() && matches!(self.roll, None | Some(Roll::Max | Roll::Each))
+        self.offset.is_none() && matches!(self.rolling.roll, None | Some(Roll::Max | Roll::Each))
     }
 }
 
@@ -268,9 +248,7 @@ impl Default for DformParams {
     fn default() -> Self {
         Self {
             matching: MatchingChoice::default(),
-            roll: None,
-            strips: None,
-            strip: None,
+            rolling: RollOptions::default(),
             rounds: None,
             offset: None,
             bend: 0.0,
@@ -378,7 +356,7 @@ mod tests {
     fn the_two_ways_of_carving_do_not_mix() {
         let both = DformParams {
             offset: Some(0.2),
-            roll: Some("max".parse().expect("a roll")),
+            rolling: RollOptions::new(Roll::Max),
             ..DformParams::default()
         };
         let refused = carve_dform(&named("cube"), &both, &Silent);
@@ -434,6 +412,7 @@ mod tests {
             mesh.vertices().map(|v| mesh.position(v)).collect::<Vec<_>>()
         };
         let usual = DformParams { rounds: Some(2), offset: Some(0.2), ..DformParams::default() };
+        let rolled = |rolling| DformParams { rolling, ..DformParams::default() };
         let other = [
             DformParams { matching: MatchingChoice::Row(2), ..usual.clone() },
             DformParams { matching: MatchingChoice::Row(1), ..usual.clone() },
@@ -441,10 +420,10 @@ mod tests {
             DformParams { offset: Some(0.25), ..usual.clone() },
             DformParams { bend: 0.2, ..usual.clone() },
             DformParams { bend: -0.2, ..usual.clone() },
-            DformParams { strips: Some(3), ..DformParams::default() },
-            DformParams { strip: "9deg".parse().ok(), ..DformParams::default() },
-            DformParams { roll: "10mm".parse().ok(), ..DformParams::default() },
-            DformParams { roll: "10mm,5mm".parse().ok(), ..DformParams::default() },
+            rolled(RollOptions { strips: Some(3), ..RollOptions::default() }),
+            rolled(RollOptions { strip: "9deg".parse().ok(), ..RollOptions::default() }),
+            rolled(RollOptions::new("10mm".parse().expect("a radius"))),
+            rolled(RollOptions::new("10mm,5mm".parse().expect("two radii"))),
         ];
         let mut seen = vec![corners(usual)];
         for params in other {

@@ -40,6 +40,9 @@ pub(super) fn read_glue_file(path: &Path, points: usize, slack: f64) -> Result<G
     let text = read_text(path)
         .map_err(|source| OutlinesError::Unreadable { path: path.to_owned(), source })?;
     let file: GlueFile = toml::from_str(&text).map_err(|error| fault(error.to_string()))?;
+    if file.outlines.is_empty() {
+        return Err(fault("it names no outline under [outlines]".to_owned()).into());
+    }
     if file.outlines.len() > MOST_PIECES {
         return Err(fault(format!("more than {MOST_PIECES} outlines")).into());
     }

@@ -53,4 +53,6 @@ pub use planes::{PlanesStep, solid_of_planes};
 pub use report_pictures::report_pictures;
 pub use rim_place::RimPlace;
 pub use seam_choice::SeamChoice;
-pub use show::{AnimationFile, AnimationFileError, AssemblyForm, ShowParams, show_outputs};
+pub use show::{
+    AnimationFile, AnimationFileError, AssemblyForm, ShowParams, flat_places, show_outputs,
+};

@@ -8,6 +8,7 @@ use super::MakeError;
 use super::outlines_error::OutlinesError;
 use crate::gluing::{Outline, named_outline};
 use crate::io::artwork::read_artwork_within;
+use crate::io::order_artwork::GAP;
 use crate::io::read_text;
 use crate::lint::ArtPath;
 use crate::units::Length;
@@ -102,7 +103,7 @@ fn drawn(path: &Path, name: &str) -> Result<Outline, MakeError> {
 /// Whether a line bounds an area: the file says so, or it ends where it begins.
 fn is_closed(path: &ArtPath) -> bool {
     let ends_meet = match (path.points.first(), path.points.last()) {
-        (Some(a), Some(b)) => path.points.len() > 3 && a.distance(*b) <= FLATNESS,
+        (Some(a), Some(b)) => path.points.len() > 3 && a.distance(*b) <= GAP,
         _ => false,
     };
     path.points.len() > 2 && (path.closed || ends_meet)

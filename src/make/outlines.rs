@@ -57,7 +57,7 @@ pub struct OutlineParams {
     #[arg(long, value_name = "PLACE", allow_negative_numbers = true)]
     #[serde(default)]
     pub zip: Option<RimPlace>,
-    /// Chords on the longest rim, 12 to 4000; their corners lie on the outline
+    /// Chords on the longest rim, 12 to 4000; how far their corners leave the outline is a note
     #[arg(long, default_value_t = DEFAULT_POINTS, value_name = "N")]
     #[serde(default = "default_points")]
     pub points: usize,
@@ -161,7 +161,15 @@ pub fn outlined_dform(
 /// The outlines and how they are joined.
 fn gluing(params: &OutlineParams, folder: &Path) -> Result<(Gluing, Vec<String>), MakeError> {
     let options = |what: &str, advice| OutlinesError::Options { what: what.to_owned(), advice };
+    if params.planar.is_some() && params.bending != DEFAULT_BENDING {
+        let advice = "planes fold at every edge: leave out --bending";
+        return Err(options("--bending is given with --planar", advice).into());
+    }
     if let Some(file) = &params.glue {
+        if !params.outlines.is_empty() || params.start.is_some() || params.zip.is_some() {
+            let what = "a gluing file is given with outlines, a start or a zip";
+            return Err(options(what, "leave these out: the file says what is joined").into());
+        }
         let slack = if params.fit == Fit::Scale { SLACK } else { 0.0 };
         let gluing = read_glue_file(&folder.join(file), params.points, slack)?;
         let worst = gluing
@@ -169,7 +177,8 @@ fn gluing(params: &OutlineParams, folder: &Path) -> Result<(Gluing, Vec<String>)
             .iter()
             .map(|s| ((s.a.to - s.a.from) - (s.b.to - s.b.from)).abs())
             .fold(0.0, f64::max);
-        let notes = (worst > 1e-9)
+        let whole = gluing.outlines.iter().map(Outline::length).fold(0.0, f64::max);
+        let notes = (worst > 1e-9 * whole)
             .then(|| format!("sides of seams that differ by up to {worst:.4} mm were made equal"));
         return Ok((gluing, notes.into_iter().collect()));
     }
@@ -318,9 +327,10 @@ pub fn outline_list(
     render: &RenderParams,
     progress: &dyn Progress,
 ) -> Result<(Output, Vec<String>), MakeError> {
-    if params.glue.is_some() || params.planar.is_some() {
-        let what = "a list shows places to start on one or two outlines".to_owned();
-        let advice = "leave --glue and --planar out";
+    let has_place = params.start.is_some() || params.zip.is_some();
+    if params.glue.is_some() || params.planar.is_some() || has_place {
+        let what = "a list shows places all around, on one or two outlines".to_owned();
+        let advice = "leave --glue, --planar, --start and --zip out";
         return Err(OutlinesError::Options { what, advice }.into());
     }
     let is_zip = params.outlines.len() == 1;
@@ -347,9 +357,6 @@ pub fn outline_list(
                 let extent = size(&glued.mesh);
                 cells.push(Cell { mesh: glued.mesh, label: format!("{part}") });
                 format!("{:.1} x {:.1} x {:.1} mm", extent.x, extent.y, extent.z)
-            }
-            Err(error @ (GluingError::FoldsFlat { .. } | GluingError::Angle { .. })) => {
-                error.to_string()
             }
             Err(GluingError::Cancelled) => return Err(GluingError::Cancelled.into()),
             Err(error) => error.to_string(),

@@ -162,8 +162,9 @@ fn corners(mesh: &Mesh) -> impl Fn(usize) -> Option<Vec<DVec3>> {
     |face| Some(mesh.face_positions(FaceId::new(face)))
 }
 
-/// Where the sheets have the pieces, the sheets side by side.
-fn flat_places(layout: &Layout) -> Vec<FlatPlace> {
+/// Where the sheets have the pieces, in mm and radians, the sheets side by side with a tenth of their
+/// width in between: where a film of closing begins.
+pub fn flat_places(layout: &Layout) -> Vec<FlatPlace> {
     let mut left = 0.0;
     let mut places = Vec::new();
     for sheet in &layout.sheets {

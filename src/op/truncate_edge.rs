@@ -10,7 +10,7 @@
 use serde::Deserialize;
 
 use super::cut::Cutter;
-use super::roll::{Roll, RollParams, StripSize, roll_edges};
+use super::roll::{Roll, RollOptions, RollParams, roll_edges};
 use super::truncate::{Element, Growth, Offsets, Settings, edge_point, truncate};
 use super::truncate_vertex::{default_offset, default_repeat};
 use super::{CutReport, Disjoint, OpContext, OpError, Scope};
@@ -48,21 +48,10 @@ pub struct TruncateEdgeParams {
     #[arg(long, value_enum, default_value_t = Disjoint::No, default_missing_value = "yes", num_args = 0..=1, require_equals = true)]
     #[serde(default)]
     pub disjoint: Disjoint,
-    /// Roll each edge into even strips that touch both faces, instead of cutting it by offset: a
-    /// radius (40mm), one for each end (40mm,20mm), max for the largest that all can have, or each
-    /// for the largest of every edge. Reaches only the edge itself, whatever the scope.
-    #[arg(long, value_name = "RADIUS")]
-    #[serde(default)]
-    pub roll: Option<Roll>,
-    /// How many strips a rolled edge gets, 1 to 1000; 9 unless given.
-    #[arg(long, value_name = "N")]
-    #[serde(default)]
-    pub strips: Option<u32>,
-    /// The largest strip of a rolled edge instead of their number: a width (6mm) or a fold angle
-    /// (10deg).
-    #[arg(long, value_name = "SIZE")]
-    #[serde(default)]
-    pub strip: Option<StripSize>,
+    /// Whether to roll the edges instead.
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub rolling: RollOptions,
 }
 
 impl TruncateEdgeParams {
@@ -75,25 +64,20 @@ impl TruncateEdgeParams {
             scope: Scope::default(),
             repeat: default_repeat(),
             disjoint: Disjoint::default(),
-            roll: None,
-            strips: None,
-            strip: None,
+            rolling: RollOptions::default(),
         }
     }
 
     /// Rolls the selected edges into nine strips each.
     pub fn rolled(select: Selection, roll: Roll) -> Self {
-        Self { offset: None, roll: Some(roll), ..Self::new(select, 0.0) }
+        Self { offset: None, rolling: RollOptions::new(roll), ..Self::new(select, 0.0) }
     }
 
     /// How to roll, if that is asked for; what belongs to the other way of cutting is refused.
     fn roll(&self) -> Result<Option<RollParams>, OpError> {
-        let Some(roll) = self.roll else {
-            let given = [("strips", self.strips.is_some()), ("strip", self.strip.is_some())];
-            return match given.into_iter().find(|given| given.1) {
-                Some((what, _)) => Err(OpError::Requires { what, needed: "roll" }),
-                None => Ok(None),
-            };
+        let Some(first) = self.rolling.given() else { return Ok(None) };
+        let Some(roll) = self.rolling.roll else {
+            return Err(OpError::Requires { what: first, needed: "roll" });
         };
         let cuts = [
             ("offset", self.offset.is_some()),
@@ -102,8 +86,8 @@ impl TruncateEdgeParams {
             ("disjoint", self.disjoint == Disjoint::Yes),
         ];
         match cuts.into_iter().find(|given| given.1) {
-            Some((second, _)) => Err(OpError::Exclude { first: "roll", second }),
-            None => Ok(Some(RollParams { roll, strips: self.strips, strip: self.strip })),
+            Some((second, _)) => Err(OpError::Exclude { first, second }),
+            None => Ok(Some(self.rolling.or(roll))),
         }
     }
 }

@@ -149,6 +149,10 @@ fn what_outlines_cannot_be_is_told() {
         (&["circle"], "E886"),
         (&["circle", "ellipse-2x1", "--rounds", "2"], "E886"),
         (&["circle", "circle", "--zip", "0.1"], "E886"),
+        (&["circle@90mm", "circle@90mm", "--size", "50mm"], "E886"),
+        (&["circle", "ellipse-2x1", "--units", "m"], "E886"),
+        (&["circle", "ellipse-2x1", "--planar", "6", "--bending", "3deg"], "E886"),
+        (&["circle", "ellipse-2x1", "--list", "--start", "0.2"], "E886"),
         (&["circle", "circel"], "E871"),
         (&["circle", "missing.svg"], "E887"),
         (&["circle", "ellipse-2x1", "--points", "5"], "E874"),
@@ -181,6 +185,9 @@ fn gluing_files_join_any_number_of_pieces() {
         assert_eq!(ran.code, Some(2), "{text}");
         ran.err
     };
+    fs::write(folder.path("none.toml"), "seams = []\n[outlines]\n").expect("a file");
+    let none = run(&["dform", "--glue", &folder.path("none.toml"), "-o", &out]);
+    assert!(none.code == Some(2) && none.err.contains("E890"), "{}", none.err);
     assert!(seams("\"A = C\"").contains("no outline `C`"));
     assert!(seams("\"A[0..0.5] = B[0..0.5]\"").contains("left open"));
     assert!(seams("\"A[0..0.5] = B[0..0.6]\"").contains("E875"));

@@ -21,7 +21,7 @@ mod ridge;
 #[cfg(test)]
 mod tests;
 
-pub use params::{Roll, RollParams, RollWordError, StripSize, StripWordError};
+pub use params::{Roll, RollOptions, RollParams, RollWordError, StripSize, StripWordError};
 
 use self::limit::Limit;
 use self::proof::Planned;

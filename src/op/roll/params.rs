@@ -137,6 +137,50 @@ impl<'de> Deserialize<'de> for StripSize {
     }
 }
 
+/// Whether and how to roll edges: one definition for `cut edge` and for D-forms.
+#[derive(Debug, Clone, Copy, PartialEq, Default, clap::Args, Deserialize)]
+pub struct RollOptions {
+    /// Roll each edge into even strips that touch both faces, instead of cutting it by offset: a
+    /// radius (40mm), one for each end (40mm,20mm), max for the largest that all can have, or each
+    /// for the largest of every edge. Reaches only the edge itself, whatever the scope. D-forms are
+    /// rolled unless they are cut: max, or the largest below it that keeps the pieces whole.
+    #[arg(long, value_name = "RADIUS")]
+    #[serde(default)]
+    pub roll: Option<Roll>,
+    /// How many strips a rolled edge gets, 1 to 1000; 9 unless given.
+    #[arg(long, value_name = "N")]
+    #[serde(default)]
+    pub strips: Option<u32>,
+    /// The largest strip of a rolled edge instead of their number: a width (6mm) or a fold angle
+    /// (10deg).
+    #[arg(long, value_name = "SIZE")]
+    #[serde(default)]
+    pub strip: Option<StripSize>,
+}
+
+impl RollOptions {
+    /// Nine strips.
+    pub fn new(roll: Roll) -> Self {
+        Self { roll: Some(roll), ..Self::default() }
+    }
+
+    /// The first option that is given, by its name.
+    pub fn given(&self) -> Option<&'static str> {
+        let options = [
+            ("roll", self.roll.is_some()),
+            ("strips", self.strips.is_some()),
+            ("strip", self.strip.is_some()),
+        ];
+        options.into_iter().find(|option| option.1).map(|option| option.0)
+    }
+
+    /// The same with a roll where none is given.
+    pub fn or(self, roll: Roll) -> RollParams {
+        let Self { strips, strip, .. } = self;
+        RollParams { roll: self.roll.unwrap_or(roll), strips, strip }
+    }
+}
+
 /// How edges are rolled.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RollParams {

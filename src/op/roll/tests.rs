@@ -17,6 +17,18 @@ fn params(select: &str, roll: &str) -> TruncateEdgeParams {
     TruncateEdgeParams::rolled(select.parse().expect("a selection"), roll)
 }
 
+/// As [`params`], with so many strips, or of so large a size at most.
+fn in_strips(
+    select: &str,
+    roll: &str,
+    strips: Option<u32>,
+    strip: Option<StripSize>,
+) -> TruncateEdgeParams {
+    let params = params(select, roll);
+    let rolling = RollOptions { strips, strip, ..params.rolling };
+    TruncateEdgeParams { rolling, ..params }
+}
+
 fn rolled(mesh: &Mesh, params: &TruncateEdgeParams) -> Result<(Mesh, CutReport), OpError> {
     truncate_edges(mesh, params, &OpContext::default())
 }
@@ -64,7 +76,7 @@ fn folds_of_every_3_valent_solid_are_rolled() {
     for name in uniform.map(str::to_owned).into_iter().chain(prisms) {
         let solid = named(&name);
         for roll in ["max", "each", "0.5mm"] {
-            let params = TruncateEdgeParams { strips: Some(4), ..params("matching", roll) };
+            let params = in_strips("matching", roll, Some(4), None);
             let (mesh, report) =
                 rolled(&solid, &params).unwrap_or_else(|e| panic!("{name} {roll}: {e}"));
             let k = 4 * report.rolled.len();
@@ -212,7 +224,7 @@ fn each_edge_can_have_its_own_radius() {
 fn strips_are_counted_by_width_and_by_angle() {
     let cube = cube(100.0);
     let strips = |strip: StripSize| {
-        let params = TruncateEdgeParams { strip: Some(strip), ..params("0", "30mm") };
+        let params = in_strips("0", "30mm", None, Some(strip));
         let (_, report) = rolled(&cube, &params).expect("a roll");
         (report.rolled[0].strips, report.rolled[0].width, report.rolled[0].fold_deg)
     };
@@ -230,13 +242,10 @@ fn what_cannot_be_rolled_is_named_before_anything_is_cut() {
     assert!(matches!(refused(&cube, &params("0", "0mm")), RollError::BadRadius { .. }));
     assert!(matches!(refused(&cube, &params("0", "3mm,-1mm")), RollError::BadRadius { .. }));
     for params in [
-        TruncateEdgeParams { strips: Some(0), ..params("0", "1mm") },
-        TruncateEdgeParams { strips: Some(1001), ..params("0", "1mm") },
-        TruncateEdgeParams { strip: Some("0mm".parse().expect("a width")), ..params("0", "1mm") },
-        TruncateEdgeParams {
-            strip: Some("0.001mm".parse().expect("a width")),
-            ..params("0", "30mm")
-        },
+        in_strips("0", "1mm", Some(0), None),
+        in_strips("0", "1mm", Some(1001), None),
+        in_strips("0", "1mm", None, Some("0mm".parse().expect("a width"))),
+        in_strips("0", "30mm", None, Some("0.001mm".parse().expect("a width"))),
     ] {
         assert!(matches!(refused(&cube, &params), RollError::BadStrips { .. }), "{params:?}");
     }
@@ -249,7 +258,8 @@ fn what_cannot_be_rolled_is_named_before_anything_is_cut() {
         let refused = rolled(&cube, &params);
         assert!(matches!(refused, Err(OpError::Exclude { first: "roll", .. })), "{params:?}");
     }
-    let alone = TruncateEdgeParams { roll: None, strips: Some(3), ..params("0", "1mm") };
+    let rolling = RollOptions { strips: Some(3), ..RollOptions::default() };
+    let alone = TruncateEdgeParams { rolling, ..params("0", "1mm") };
     assert!(matches!(rolled(&cube, &alone), Err(OpError::Requires { what: "strips", .. })));
 }
 
@@ -301,8 +311,11 @@ fn rolls_are_read_as_they_are_written() {
     }
     assert!("six".parse::<StripSize>().is_err());
     let read = |text: &str| toml::from_str::<TruncateEdgeParams>(text).expect(text);
-    assert_eq!(read("select = \"0\"\nroll = 40").roll, Some(Roll::Radius(Length::from_mm(40.0))));
+    assert_eq!(
+        read("select = \"0\"\nroll = 40").rolling.roll,
+        Some(Roll::Radius(Length::from_mm(40.0)))
+    );
     let cone = read("select = \"0\"\nroll = [40, \"2cm\"]\nstrip = \"10deg\"");
-    assert_eq!(cone.roll, Some(Roll::Cone([40.0, 20.0].map(Length::from_mm))));
-    assert_eq!(cone.strip, Some(StripSize::Angle(Angle::from_degrees(10.0))));
+    assert_eq!(cone.rolling.roll, Some(Roll::Cone([40.0, 20.0].map(Length::from_mm))));
+    assert_eq!(cone.rolling.strip, Some(StripSize::Angle(Angle::from_degrees(10.0))));
 }

@@ -22,7 +22,7 @@ pub(super) struct PanelizeArgs {
     /// input
     #[arg(value_name = "IN", required_unless_present = "height")]
     input: Option<PathBuf>,
-    /// The unit of the file's numbers: mm, cm, m, in or ft; mm without it
+    /// The unit of the file's numbers: mm, cm, m or in; mm without it
     #[arg(long, value_enum, default_value = "mm", hide_default_value = true)]
     units: MeshUnit,
     /// Join vertices that are at most this far apart

@@ -53,7 +53,7 @@ pub enum PanelizeError {
     TooNarrow {
         /// The panel size in mm.
         size: f64,
-        /// Where.
+        /// Where, in mm.
         place: DVec3,
     },
     /// A linear system could not be solved.
@@ -90,10 +90,20 @@ pub enum PanelizeError {
     NoHeight {
         /// The formula.
         text: String,
-        /// Where.
+        /// Where, in the unit of the rectangle's width.
         x: f64,
-        /// Where.
+        /// Where, in the same unit.
         y: f64,
+    },
+    /// A plane for the rim that no rim is near to.
+    #[error(
+        "plane {} of `--rim plane:…` lies near no rim of the surface, so nothing would stay in it; \
+        give its place with a unit, or leave it out",
+        plane + 1
+    )]
+    NoRimThere {
+        /// Which of the planes, from 0.
+        plane: usize,
     },
     /// Ctrl-C before there was a result.
     #[error("stopped before there were any panels")]
@@ -110,6 +120,7 @@ codes!(error PanelizeError {
     Cancelled = 847,
     Formula = 848,
     NoHeight = 849,
+    NoRimThere = 850,
 });
 
 /// What is wrong with panels that were made all the same.

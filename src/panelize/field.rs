@@ -109,7 +109,7 @@ fn solve(surface: &Surface, quadrics: &[Quadric], wishes: &[(DVec2, f64)]) -> Op
         fronts.add(&mut matrix, surface.edges.len() + v, &[weight, 0.0, 0.0, weight]);
         right[2 * v..2 * v + 2].copy_from_slice(&(wish * weight).to_array());
     }
-    let solved = fronts.factor_in_place(matrix, 1e-12)?.solve(&right);
+    let solved = fronts.factor(matrix, 1e-12)?.solve(&right);
     Some(solved.chunks_exact(2).map(|u| u[1].atan2(u[0]) / 6.0).collect())
 }
 

@@ -30,30 +30,29 @@ struct Turn {
 }
 
 /// Turns edges where that makes the panels around better, and solves for the panels near them.
-/// Returns how many turns were kept.
 pub(super) fn turn_edges(
     state: &mut State,
     scene: Scene<'_>,
     weights: Weights,
     mut is_cancelled: impl FnMut() -> bool,
-) -> usize {
+) {
     let mut tried: Vec<[usize; 2]> = Vec::new();
-    let mut kept = 0;
     for _ in 0..PASSES {
+        if is_cancelled() {
+            break;
+        }
         let turns = turn_some(state, scene, &mut tried);
-        if turns.is_empty() || is_cancelled() {
+        if turns.is_empty() {
             break;
         }
         solve_near(state, scene, weights, &turns);
         let worse: Vec<Turn> = turns
             .into_iter()
-            .inspect(|_| kept += 1)
             .filter(|turn| score(state, &turn.ring) >= turn.score - 0.02)
             .collect();
         if worse.is_empty() {
             continue;
         }
-        kept -= worse.len();
         for turn in &worse {
             let [u, v] = turn.edge;
             // Turned twice, the ends of an edge have changed places.
@@ -65,7 +64,6 @@ pub(super) fn turn_edges(
         state.link();
         solve_near(state, scene, weights, &worse);
     }
-    kept
 }
 
 /// Turns the worst edges that do not share panels.

@@ -44,6 +44,8 @@ const FUNCTIONS: &[Function] = &[
 
 /// Brackets may stand so deep in each other.
 const DEEPEST: usize = 100;
+/// Longer formulas are refused, in bytes: a chain of terms is as deep as it is long.
+const LONGEST: usize = 4000;
 
 impl Formula {
     /// Reads a formula.
@@ -52,6 +54,9 @@ impl Formula {
     /// [`PanelizeError::Formula`] with the column.
     pub(super) fn read(text: &str) -> Result<Self, PanelizeError> {
         let mut reader = Reader { text, at: 0, depth: 0 };
+        if text.len() > LONGEST {
+            return Err(reader.wrong("a shorter formula"));
+        }
         let formula = reader.sum()?;
         reader.blanks();
         if reader.at < text.len() {
@@ -264,5 +269,6 @@ mod tests {
             }
         }
         assert!(Formula::read(&"(".repeat(100_000)).is_err());
+        assert!(Formula::read(&format!("{}x", "x+".repeat(100_000))).is_err());
     }
 }

@@ -30,7 +30,8 @@ impl FromStr for Domain {
         let wrong = || format!("`{text}` is not like 22mx18m");
         let (width, depth) = text.split_once('x').ok_or_else(wrong)?;
         let length = |part: &str| part.trim().parse::<Length>().map_err(|e| e.to_string());
-        let unit = width.trim().trim_start_matches(|c: char| !c.is_alphabetic());
+        let after_number = width.trim().rsplit(|c: char| c.is_ascii_digit() || c == '.').next();
+        let unit = after_number.unwrap_or_default();
         let unit_mm = length(&format!("1{unit}"))?.mm();
         let size_mm = [length(width)?.mm(), length(depth)?.mm()];
         let ratio = size_mm[0] / size_mm[1];
@@ -149,6 +150,19 @@ mod tests {
         assert_eq!((low.x, high.x, low.y, high.y), (-4000.0, 4000.0, -3000.0, 3000.0));
         assert!((low.z - -200.0).abs() < 1e-9 && (high.z - 2200.0).abs() < 1e-9);
         assert!((crate::measure::surface_area(&mesh) / 48e6 - 1.0).abs() < 0.2);
+    }
+
+    #[test]
+    fn the_unit_of_the_formula_is_that_of_the_width() {
+        for (text, unit, width) in [
+            ("22mx18m", 1000.0, 22_000.0),
+            ("2e1mx18m", 1000.0, 20_000.0),
+            ("22e3x18e3", 1.0, 22_000.0),
+            ("24\"x18\"", 25.4, 24.0 * 25.4),
+        ] {
+            let domain: Domain = text.parse().expect(text);
+            assert_eq!((domain.unit_mm, domain.size_mm[0]), (unit, width), "{text}");
+        }
     }
 
     #[test]

@@ -50,7 +50,7 @@ use self::prove::{Measured, measure};
 use self::refine::Triangles;
 use self::regions::Panels;
 use self::scale::scale_field;
-use self::solve::{Limits, RimRule, Run, Scene, State, Weights};
+use self::solve::{Limits, RimRule, Run, Scene, State, Weights, rim_plane_without_rim};
 use self::start::start;
 use self::surface::{MOST_TRIANGLES, SPACING, Surface, triangles_of};
 use crate::geom::Plane;
@@ -148,7 +148,11 @@ impl Model {
             RimChoice::Free => RimRule::Curve,
             RimChoice::Walls => RimRule::Walls,
             RimChoice::Planes(_) => {
-                RimRule::Planes(params.rim_planes(origin, size).unwrap_or_default())
+                let planes = params.rim_planes(origin, size).unwrap_or_default();
+                if let Some(plane) = rim_plane_without_rim(&surface, &planes) {
+                    return Err(PanelizeError::NoRimThere { plane });
+                }
+                RimRule::Planes(planes)
             }
         };
         let limits = Limits {
@@ -166,7 +170,6 @@ impl Model {
             quadrics: &self.quadrics,
             limits: &self.limits,
             rule: &self.rule,
-            fixed: &[],
         }
     }
 
@@ -184,6 +187,9 @@ impl Model {
         let mut best: Option<(f64, Solved)> = None;
         let mut failed = None;
         for attempt in 0..ATTEMPTS {
+            if best.is_none() && progress.is_cancelled() {
+                return Err(PanelizeError::Cancelled);
+            }
             // Seeds far apart, so that those of neighbouring runs do not repeat.
             let seed = params.seed.wrapping_add(attempt * 1_000_003);
             let solved = match layout(&self.surface, &self.quadrics, &self.field, &self.scale, seed)
@@ -204,7 +210,11 @@ impl Model {
                 break;
             }
         }
-        best.map(|(_, solved)| solved).ok_or_else(|| {
+        let solved = best.map(|(_, solved)| Solved {
+            was_stopped: solved.was_stopped || progress.is_cancelled(),
+            ..solved
+        });
+        solved.ok_or_else(|| {
             let place = failed.map_or(DVec3::ZERO, |v| self.surface.points[v]);
             PanelizeError::TooNarrow { size: self.size, place: self.place(place) }
         })

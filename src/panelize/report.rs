@@ -5,7 +5,6 @@ use glam::DVec3;
 use super::curvature::Quadric;
 use super::prove::node_reach;
 use super::regions::Kind;
-use super::size::SHARE;
 use super::{EXACT, Model, PanelizeFinding, PanelizeParams, Solved};
 use crate::check::short;
 use crate::code::Coded;
@@ -15,6 +14,8 @@ use crate::code::Coded;
 const MOST_OFF: f64 = 0.2;
 /// Plates may reach so many thicknesses from their node.
 const FARTHEST_NODE: f64 = 1.5;
+/// The sag counts where it is largest but for this share of the surface.
+const SHARE: f64 = 0.99;
 /// So many places of one kind are named.
 const NAMED: usize = 6;
 
@@ -264,8 +265,9 @@ fn findings(model: &Model, solved: &Solved, params: &PanelizeParams) -> Vec<Plac
 }
 
 /// Whether a box fits a sheet, either way around; both with the shorter side first.
+/// The panel by its longer side first, the sheet by its shorter.
 fn fits(panel: [f64; 2], sheet: [f64; 2]) -> bool {
-    panel[0] <= sheet[0] && panel[1] <= sheet[1]
+    panel[0] <= sheet[1] && panel[1] <= sheet[0]
 }
 
 pub(super) fn far_nodes(model: &Model, solved: &Solved) -> Vec<Place> {

@@ -68,7 +68,7 @@ fn solve(surface: &Surface, quadrics: &[Quadric], field: &RowField) -> Option<Ve
     for (v, area) in surface.areas.iter().enumerate() {
         fronts.add(&mut matrix, surface.triangles.len() + v, &[area * 1e-4]);
     }
-    Some(fronts.factor_in_place(matrix, 1e-12)?.solve(&right))
+    Some(fronts.factor(matrix, 1e-12)?.solve(&right))
 }
 
 impl Triangle {

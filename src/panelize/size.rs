@@ -2,14 +2,12 @@
 
 use super::curvature::quadrics;
 use super::refine::Triangles;
+use super::report::sag;
 use super::sites::PANEL_AREA;
-use super::surface::Surface;
 use super::{PanelizeError, PanelizeParams, fine_surface};
 
 /// Rounds of finding the size for a sag: curvature is seen at the scale of the panels.
 const ROUNDS: usize = 4;
-/// The sag counts where it is largest but for this share of the surface.
-pub(super) const SHARE: f64 = 0.99;
 
 impl Triangles {
     /// The area, in squared units of the points.
@@ -31,22 +29,15 @@ pub(super) fn panel_size(given: &Triangles, params: &PanelizeParams) -> Result<f
     }
 }
 
-/// The size at which a flat panel leaves the surface by `sag` where it bends most: k L²/6 = sag.
-fn size_of_sag(given: &Triangles, sag: f64, start: f64) -> Result<f64, PanelizeError> {
+/// The size at which a flat panel leaves the surface by `wanted` mm where it bends most: k L²/6 = sag.
+fn size_of_sag(given: &Triangles, wanted: f64, start: f64) -> Result<f64, PanelizeError> {
     // Of a flat surface any size will do.
     let largest = start * 10.0;
     let mut size = start;
     for _ in 0..ROUNDS {
         let surface = fine_surface(given, size, glam::DVec3::ZERO)?;
-        let seen = surface_sag(&surface) * size;
-        size = (size * (sag / seen.max(f64::MIN_POSITIVE)).sqrt()).min(largest);
+        let seen = sag(&quadrics(&surface)) * size;
+        size = (size * (wanted / seen.max(f64::MIN_POSITIVE)).sqrt()).min(largest);
     }
     Ok(size)
-}
-
-/// The sag of panels, in panel sizes, where the surface bends most.
-fn surface_sag(surface: &Surface) -> f64 {
-    let mut sags: Vec<f64> = quadrics(surface).iter().map(|q| q.sag()).collect();
-    sags.sort_by(f64::total_cmp);
-    sags[((sags.len() - 1) as f64 * SHARE) as usize]
 }

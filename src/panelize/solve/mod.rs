@@ -16,7 +16,7 @@ use glam::DVec3;
 
 use self::element::Element;
 pub(super) use self::planes::FacePlane;
-pub(super) use self::rim::{RimRow, RimRule};
+pub(super) use self::rim::{RimRow, RimRule, rim_plane_without_rim};
 pub(super) use self::terms::{Limits, Weights};
 use super::curvature::{Height, Quadric};
 use super::regions::{Kind, Panels};
@@ -37,8 +37,6 @@ pub(super) struct Scene<'a> {
     pub quadrics: &'a [Quadric],
     pub limits: &'a Limits,
     pub rule: &'a RimRule,
-    /// For each face the plane that the user gave it.
-    pub fixed: &'a [Option<FacePlane>],
 }
 
 /// The panels with their planes, and what is known of them between rounds.
@@ -126,10 +124,7 @@ impl State {
                 let centre = self.panels.centre(f);
                 let hint = self.panels.hints[self.panels.faces[f][0]];
                 let up = self.height(scene, centre, hint).normal;
-                match scene.fixed.get(f).copied().flatten() {
-                    Some(plane) => plane.facing(up),
-                    None => FacePlane::fit(&self.panels, f, up),
-                }
+                FacePlane::fit(&self.panels, f, up)
             })
             .collect();
     }
@@ -178,7 +173,7 @@ impl State {
             };
             let largest = steps.iter().map(|s| s.abs().max_element()).fold(0.0, f64::max);
             if largest < 2.0 * LONGEST_STEP || attempt == SHIFTS {
-                self.step(unknowns, &elements, &steps, scene);
+                self.step(unknowns, &elements, &steps);
                 return;
             }
             self.shift = (self.shift * 10.0).max(1e-4);
@@ -200,30 +195,22 @@ impl State {
                 (0..3).for_each(|a| right[3 * node + a] -= element.slope[3 * i + a]);
             }
         }
-        let factor: FrontFactor<'_> = unknowns.fronts.factor(&matrix, self.shift)?;
+        let factor: FrontFactor<'_> = unknowns.fronts.factor(matrix, self.shift)?;
         let solved = factor.solve(&right);
         let steps: Vec<DVec3> = solved.chunks_exact(3).map(DVec3::from_slice).collect();
         steps.iter().all(|s| s.is_finite()).then_some(steps)
     }
 
     /// Moves corners and planes, none of them too far.
-    fn step(
-        &mut self,
-        unknowns: &Unknowns,
-        elements: &[Element],
-        steps: &[DVec3],
-        scene: Scene<'_>,
-    ) {
+    fn step(&mut self, unknowns: &Unknowns, elements: &[Element], steps: &[DVec3]) {
         for (&f, element) in unknowns.faces.iter().zip(elements) {
             let moved: Vec<DVec3> = self.panels.faces[f]
                 .iter()
                 .map(|&v| unknowns.node[v])
                 .map(|node| if node == NONE { DVec3::ZERO } else { steps[node] })
                 .collect();
-            if scene.fixed.get(f).copied().flatten().is_none() {
-                let step = element.plane_step(&moved).clamp_length_max(LONGEST_STEP);
-                self.planes[f] = self.planes[f].stepped(step);
-            }
+            let step = element.plane_step(&moved).clamp_length_max(LONGEST_STEP);
+            self.planes[f] = self.planes[f].stepped(step);
         }
         for (&v, step) in unknowns.corners.iter().zip(steps) {
             self.panels.points[v] += step.clamp_length_max(LONGEST_STEP);
@@ -275,9 +262,9 @@ impl State {
         for _ in 0..rounds {
             let rim = RimRow::all(scene, &self.panels);
             let mut elements: Vec<Element> =
-                unknowns.faces.iter().map(|&f| self.polish_element(scene, f, &rim)).collect();
+                unknowns.faces.iter().map(|&f| self.polish_element(f, &rim)).collect();
             let Some(steps) = self.solve(&unknowns, &mut elements) else { break };
-            self.step(&unknowns, &elements, &steps, scene);
+            self.step(&unknowns, &elements, &steps);
             let lack = self.lack(scene);
             if best.as_ref().is_none_or(|(least, _)| lack < *least) {
                 best = Some((lack, self.clone()));

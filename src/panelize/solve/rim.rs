@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::super::regions::{Kind, Panels};
-use super::super::surface::Surface;
+use super::super::surface::{NONE, SPACING, Surface};
 use super::Scene;
 
 /// What becomes of the rim.
@@ -29,6 +29,21 @@ pub(in super::super) struct RimRow {
 
 /// The direction of a rim turns by less than this between vertices of a straight stretch.
 const STRAIGHT: f64 = 1e-4;
+/// A plane holds vertices of the rim that are so near, in steps of the fine surface.
+const NEAR_RIM: f64 = 0.3;
+
+/// The first of the planes, counted from 0, that no vertex of the rim is near to.
+pub(in super::super) fn rim_plane_without_rim(
+    surface: &Surface,
+    planes: &[(DVec3, DVec3)],
+) -> Option<usize> {
+    let rim = || (0..surface.points.len()).filter(|&v| surface.rim_next[v] != NONE);
+    let is_near = |&(normal, through): &(DVec3, DVec3)| {
+        let off = |v: usize| (surface.points[v] - through).dot(normal).abs();
+        rim().any(|v| off(v) < NEAR_RIM * SPACING)
+    };
+    planes.iter().position(|plane| !is_near(plane))
+}
 
 impl RimRow {
     /// How far a place is from the plane.
@@ -68,7 +83,7 @@ impl RimRow {
         let point = scene.surface.points[v];
         if let RimRule::Planes(planes) = scene.rule {
             let near = |&&(normal, through): &&(DVec3, DVec3)| {
-                (point - through).dot(normal).abs() < 0.3 * super::super::surface::SPACING
+                (point - through).dot(normal).abs() < NEAR_RIM * SPACING
                     && direction.dot(normal).abs() < 0.2
             };
             if let Some(&(normal, point)) = planes.iter().find(near) {

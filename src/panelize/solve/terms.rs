@@ -170,7 +170,7 @@ impl State {
     ) -> Element {
         let view = View::new(self, f);
         let mut element = Element::new(view.len());
-        self.planarity(scene, &view, weights.planarity, &mut element);
+        self.planarity(&view, weights.planarity, &mut element);
         self.closeness(scene, &view, weights, &mut element);
         self.star_shape(&view, scene.limits, weights.star, &mut element);
         self.edges(&view, scene.limits, weights.edge, &mut element);
@@ -191,10 +191,10 @@ impl State {
     }
 
     /// Planarity and hard rims alone.
-    pub(super) fn polish_element(&self, scene: Scene<'_>, f: usize, rim: &[RimRow]) -> Element {
+    pub(super) fn polish_element(&self, f: usize, rim: &[RimRow]) -> Element {
         let view = View::new(self, f);
         let mut element = Element::new(view.len());
-        self.planarity(scene, &view, 1.0, &mut element);
+        self.planarity(&view, 1.0, &mut element);
         for i in self.owned(&view) {
             for row in rows_of(rim, view.corners[i]).iter().filter(|row| row.is_hard) {
                 element.by(i, row.normal).residual(row.distance(view.places[i]), 1.0);
@@ -208,18 +208,14 @@ impl State {
         (0..view.len()).filter(|&i| self.fans[view.corners[i]][0] == view.face).collect()
     }
 
-    /// Corners lie in the plane: (x − c) · n. The plane's unknowns are its tilts and its way; a
-    /// plane that the user gave has none.
-    fn planarity(&self, scene: Scene<'_>, view: &View, weight: f64, element: &mut Element) {
+    /// Corners lie in the plane: (x − c) · n. The plane's unknowns are its tilts and its way.
+    fn planarity(&self, view: &View, weight: f64, element: &mut Element) {
         let plane = self.planes[view.face];
         let [first, second] = plane.axes();
-        let is_fixed = scene.fixed.get(view.face).copied().flatten().is_some();
         for (i, &place) in view.places.iter().enumerate() {
             let way = place - plane.point;
             element.by(i, plane.normal);
-            if !is_fixed {
-                element.by_plane(0, way.dot(first)).by_plane(1, way.dot(second)).by_plane(2, -1.0);
-            }
+            element.by_plane(0, way.dot(first)).by_plane(1, way.dot(second)).by_plane(2, -1.0);
             element.residual(way.dot(plane.normal), weight);
         }
     }
@@ -249,11 +245,9 @@ impl State {
             }
             element.residual(far, weights.far);
         }
-        if scene.fixed.get(view.face).copied().flatten().is_none() {
-            let off = self.planes[view.face].normal - height.normal;
-            for (unknown, axis) in self.planes[view.face].axes().into_iter().enumerate() {
-                element.by_plane(unknown, 1.0).residual(off.dot(axis), weights.tangent);
-            }
+        let off = self.planes[view.face].normal - height.normal;
+        for (unknown, axis) in self.planes[view.face].axes().into_iter().enumerate() {
+            element.by_plane(unknown, 1.0).residual(off.dot(axis), weights.tangent);
         }
     }
 

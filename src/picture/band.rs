@@ -20,7 +20,7 @@ const ROUNDING: f64 = 0.02;
 /// No facet.
 const NONE: u32 = u32::MAX;
 /// Strength of hidden lines in x-rays.
-const HIDDEN: f32 = 0.35;
+pub(super) const HIDDEN: f32 = 0.35;
 /// Directions in which shadows are looked for: every 30°, written out so that they are the same on
 /// every machine.
 const DIRECTIONS: [[f64; 2]; 12] = [

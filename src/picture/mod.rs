@@ -99,6 +99,12 @@ pub enum PictureError {
         /// Number of triangles of its faces.
         triangles: usize,
     },
+    /// Several views or a soft shadow on a picture of areas and lines.
+    #[error(
+        "several views and soft shadows are for pictures of pixels; write a PNG, or leave out \
+        `views` and `shadow`"
+    )]
+    OnlyPixels,
     /// The sheet has no size.
     #[error(
         "a sheet of {width_mm} mm by {height_mm} mm cannot be drawn; both must be positive numbers"
@@ -133,6 +139,7 @@ codes!(error PictureError {
     SheetWithoutSize = 825,
     StrokeNotFinite = 826,
     TooManyFaces = 829,
+    OnlyPixels = 830,
 });
 
 impl Picture {

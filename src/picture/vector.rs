@@ -8,13 +8,14 @@ use std::fmt::Write as _;
 
 use glam::{DVec2, DVec3};
 
-use super::band::Band;
+use super::band::{Band, HIDDEN};
 use super::bsp::{Patch, painted};
 use super::camera::Camera;
 use super::frame::window;
 use super::marks::Marks;
 use super::model::colours;
 use super::paint;
+use super::params::Shadow;
 use super::scene::{Ink, Scene};
 use super::through::aimed;
 use super::{PictureError, RenderParams};
@@ -51,12 +52,15 @@ struct VectorLine {
 ///
 /// # Errors
 /// As [`super::render_model`], and [`PictureError::TooManyFaces`] above [`MAX_VECTOR_FACES`]
-/// triangles.
+/// triangles, [`PictureError::OnlyPixels`] for several views or a soft shadow.
 pub fn render_vector(
     mesh: &Mesh,
     params: &RenderParams,
     marks: &Marks,
 ) -> Result<VectorPicture, PictureError> {
+    if !params.views.is_empty() || params.shadow == Shadow::Soft {
+        return Err(PictureError::OnlyPixels);
+    }
     let params = &aimed(mesh, params)?;
     let (width, height) = params.pixels();
     super::blank(width, height)?;
@@ -107,7 +111,10 @@ fn patches(mesh: &Mesh, camera: &Camera, scene: &Scene) -> Vec<Patch<[u8; 3]>> {
         let frame = Frame::on_plane(&plane);
         let flat: Vec<DVec2> = corners.iter().map(|&p| frame.flatten(p)).collect();
         let patch = |t: [usize; 3]| Patch { points: t.map(|i| corners[i]).to_vec(), look };
-        patches.extend(triangulate(&flat).into_iter().map(patch));
+        // A triangle without area covers nothing and divides nothing.
+        let has_area =
+            |[a, b, c]: &[usize; 3]| (flat[*b] - flat[*a]).perp_dot(flat[*c] - flat[*a]) != 0.0;
+        patches.extend(triangulate(&flat).into_iter().filter(has_area).map(patch));
     }
     patches
 }
@@ -125,7 +132,7 @@ fn lines(scene: &Scene, band: &Band<'_>) -> Vec<VectorLine> {
         };
         if scene.is_x_ray {
             let whole = line.ends.map(DVec3::truncate).to_vec();
-            add(whole, 0.35 * f64::from(line.strength));
+            add(whole, f64::from(HIDDEN * line.strength));
         }
         for part in band.visible_parts(line) {
             add(part.to_vec(), line.strength.into());
@@ -136,7 +143,7 @@ fn lines(scene: &Scene, band: &Band<'_>) -> Vec<VectorLine> {
 
 /// A text as lines around its middle, with a pale rim.
 fn letters(text: &str, middle: DVec2, height: f64) -> Vec<VectorLine> {
-    let Ok(word) = crate::sheet::lettering(text, height) else { return Vec::new() };
+    let Ok(word) = crate::sheet::plain_lettering(text, height) else { return Vec::new() };
     let shift = middle - word.low.midpoint(word.high) * DVec2::new(1.0, -1.0);
     let line = |colour, width: f64| {
         let put = move |s: &Vec<DVec2>| VectorLine {
@@ -202,7 +209,7 @@ impl VectorPicture {
     pub fn to_pdf(&self, command: &str) -> Vec<u8> {
         let mut content = format!("1 0 0 -1 0 {} cm 1 J 1 j\n", short(self.height));
         let colour = |[r, g, b]: [u8; 3]| [r, g, b].map(|c| short(f64::from(c) / 255.0)).join(" ");
-        let see = |share: f64| format!("/G{} gs", (10.0 * share).round().clamp(1.0, 10.0));
+        let see = |share: f64| format!("/G{} gs", (20.0 * share).round().clamp(1.0, 20.0));
         let _ = writeln!(
             content,
             "{} rg 0 0 {} {} re f",
@@ -220,7 +227,7 @@ impl VectorPicture {
             let see = see(line.strength);
             let _ = writeln!(content, "{see} {look} RG {width} w {}S", steps(&line.points));
         }
-        content += "/G10 gs\n";
+        content += "/G20 gs\n";
         for (at, radius, look) in &self.dots {
             // A point drawn with a round pen.
             let (look, width) = (colour(*look), short(2.0 * radius));
@@ -261,11 +268,11 @@ fn plain(text: &str) -> String {
     shown.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
-/// A PDF of one page; strengths from 0.1 to 1 are `/G1` to `/G10`.
+/// A PDF of one page; strengths from 0.05 to 1 are `/G1` to `/G20`.
 fn pdf([width, height]: [f64; 2], content: &str, command: &str) -> Vec<u8> {
-    let states: String = (1..=10)
+    let states: String = (1..=20)
         .map(|i| {
-            let share = short(f64::from(i) / 10.0);
+            let share = short(f64::from(i) / 20.0);
             format!("/G{i} << /CA {share} /ca {share} >> ")
         })
         .collect();
@@ -343,6 +350,20 @@ mod tests {
             .count();
         // Only along outlines.
         assert!(differ < 240 * 180 / 50, "{differ}");
+    }
+
+    #[test]
+    fn several_views_and_shadows_are_refused() {
+        let cube = crate::shape::cube(10.0);
+        let views = RenderParams {
+            views: vec!["front".parse().expect("a view"); 2],
+            ..RenderParams::default()
+        };
+        let shadow = RenderParams { shadow: Shadow::Soft, ..RenderParams::default() };
+        for params in [views, shadow] {
+            let refused = render_vector(&cube, &params, &Marks::default());
+            assert_eq!(refused.err(), Some(PictureError::OnlyPixels));
+        }
     }
 
     #[test]

@@ -119,10 +119,9 @@ fn dashes(a: DVec2, b: DVec2) -> Vec<Shape> {
         .collect()
 }
 
-/// A cross in every hole, and its diameter and place from the first corner.
+/// A cross in every hole, and its diameter and place from the left end of the bottom side, in mm.
 fn holes(plate: &Plate, place: &Place) -> Vec<Shape> {
     let mut shapes = Vec::new();
-    let origin = plate.begins.first().map(|&i| plate.front[i]).unwrap_or_default();
     for hole in &plate.holes {
         let centre = place.at(hole.centre);
         let reach = hole.radius / place.scale + 1.0;
@@ -130,7 +129,7 @@ fn holes(plate: &Plate, place: &Place) -> Vec<Shape> {
             shapes.push(Shape::line(Pen::Dimension, [centre - arm * reach, centre + arm * reach]));
         }
         if plate.holes.len() <= PLACED_HOLES {
-            let from = place.turn.rotate(hole.centre - origin);
+            let from = place.turn.rotate(hole.centre - place.origin);
             let [x, y] = from.to_array().map(tenths);
             let text = format!("Ø{} X{x} Y{y}", tenths(2.0 * hole.radius));
             let at = centre + DVec2::new(reach + 0.5, 0.5);

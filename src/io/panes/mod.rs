@@ -50,6 +50,8 @@ pub struct Pane {
 /// Where a pane lies on its page.
 struct Place {
     turn: DVec2,
+    /// The left end of the bottom side, in mm of the plate: holes are measured from it.
+    origin: DVec2,
     middle: DVec2,
     scale: f64,
 }
@@ -72,7 +74,7 @@ impl Place {
             PAGE - DVec2::new(2.0 * BORDER, 2.0 * BORDER + BLOCK) - DVec2::splat(2.0 * AROUND);
         let least = ((high - low) / room).max_element();
         let scale = SCALES.into_iter().find(|&s| s >= least).unwrap_or_else(|| least.ceil());
-        Self { turn, middle: low.midpoint(high), scale }
+        Self { turn, origin: longest[0], middle: low.midpoint(high), scale }
     }
 
     /// A flat point of the pane on the page.

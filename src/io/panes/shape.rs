@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::sheet::lettering;
+use crate::sheet::plain_lettering;
 
 /// What a line stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -71,7 +71,7 @@ impl Shape {
 pub(super) fn words(text: &str, middle: DVec2, along: DVec2, height: f64) -> Vec<Shape> {
     let is_upside_down = along.x < -1e-9 || (along.x.abs() <= 1e-9 && along.y < 0.0);
     let along = if is_upside_down { -along } else { along };
-    let Ok(letters) = lettering(text, height) else { return Vec::new() };
+    let Ok(letters) = plain_lettering(text, height) else { return Vec::new() };
     let centre = DVec2::new((letters.low.x + letters.high.x) / 2.0, height / 2.0);
     let put = |p: DVec2| middle + along.rotate(p - centre);
     let strokes = letters.strokes.into_iter();
@@ -80,7 +80,7 @@ pub(super) fn words(text: &str, middle: DVec2, along: DVec2, height: f64) -> Vec
 
 /// Letters from a point on to the right.
 pub(super) fn words_from(text: &str, at: DVec2, height: f64) -> Vec<Shape> {
-    let Ok(letters) = lettering(text, height) else { return Vec::new() };
+    let Ok(letters) = plain_lettering(text, height) else { return Vec::new() };
     let strokes = letters.strokes.into_iter();
     let line = |s: Vec<DVec2>| s.into_iter().map(|p| p + at).collect::<Vec<_>>();
     strokes.map(|s| Shape::line(Pen::Text, line(s))).collect()

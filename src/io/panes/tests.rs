@@ -2,7 +2,7 @@ use super::*;
 use crate::panel::{PanelParams, plates, schedule};
 use crate::progress::Silent;
 use crate::shape::cube;
-use crate::sheet::lettering;
+use crate::sheet::plain_lettering;
 use crate::units::Length;
 
 fn drawn(params: &PanelParams) -> (Vec<Pane>, Plates) {
@@ -24,7 +24,7 @@ fn has(pane: &Pane, text: &str) -> bool {
         })
         .collect();
     heights.iter().any(|&height| {
-        let letters = lettering(text, height).expect("letters").strokes;
+        let letters = plain_lettering(text, height).expect("letters").strokes;
         texts.windows(letters.len()).any(|window| {
             // Lengths and distances from the first point are kept by every turn.
             window.iter().zip(&letters).all(|(found, wanted)| {

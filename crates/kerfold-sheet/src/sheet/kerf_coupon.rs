@@ -11,9 +11,9 @@ use glam::DVec2;
 
 use super::drawing::{Drawing, MarkKind, Stroke};
 use super::error::SheetError;
-use super::info::lettered;
+use super::info::{lettered, moved};
 use super::layout::{Sheet, SheetId};
-use super::letter::lettering;
+use super::letter::{lettering, plain_lettering};
 
 /// Free border of the coupon, in mm.
 const BORDER: f64 = 5.0;
@@ -68,7 +68,7 @@ pub fn kerf_coupon(thickness: f64, title: &str) -> Result<Drawing, SheetError> {
     let blocks = if has_comb { BLOCKS } else { STRIPS };
     let bar = DVec2::new(blocks.0 as f64 * blocks.1, blocks.2);
     let explained = [how_to_push(thickness), how_to_fit()];
-    let lengths = explained.iter().map(|words| Ok(lettering(words, WORDS[0])?.high.x));
+    let lengths = explained.iter().map(|words| Ok(plain_lettering(words, WORDS[0])?.high.x));
     let words = lengths.collect::<Result<Vec<f64>, SheetError>>()?.into_iter().fold(0.0, f64::max);
     // The comb and the words for it, the bar and the words for it, the title.
     let below = if has_comb { comb.y + WORDS[1] + BORDER } else { 0.0 };
@@ -114,11 +114,7 @@ fn how_to_fit() -> String {
 }
 
 fn explain(drawing: &mut Drawing, id: &str, words: &str, at: DVec2) -> Result<(), SheetError> {
-    let moved = |points: Vec<DVec2>| Stroke {
-        points: points.into_iter().map(|p| p + at).collect(),
-        closed: false,
-    };
-    let strokes = lettering(words, WORDS[0])?.strokes.into_iter().map(moved).collect();
+    let strokes = moved(plain_lettering(words, WORDS[0])?.strokes, at).collect();
     drawing.add(MarkKind::SeamNumber, id.to_owned(), None, strokes);
     Ok(())
 }
@@ -202,11 +198,7 @@ fn write(
     words: &str,
     at: DVec2,
 ) -> Result<(), SheetError> {
-    let moved = |points: Vec<DVec2>| Stroke {
-        points: points.into_iter().map(|p| p + at).collect(),
-        closed: false,
-    };
-    let strokes = lettering(words, LETTERS)?.strokes.into_iter().map(moved).collect();
+    let strokes = moved(lettering(words, LETTERS)?.strokes, at).collect();
     drawing.add(kind, id.to_owned(), None, strokes);
     Ok(())
 }

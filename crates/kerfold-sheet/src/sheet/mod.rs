@@ -55,7 +55,9 @@ pub use kerf::CutShape;
 pub use kerf_coupon::{cuts_of_bar, has_comb, kerf_coupon};
 pub use lay_out::{SheetSet, fits, lay_out, lay_out_watched};
 pub use layout::{Layout, NearScores, Placed, Sheet, SheetFinding, SheetId, SheetReport};
-pub use letter::{Angles, CAPITAL, Labels, LetterParams, Lettering, glyph, lettering};
+pub use letter::{
+    Angles, CAPITAL, Labels, LetterParams, Lettering, glyph, lettering, plain_lettering,
+};
 pub use material::{Hex, Material, MaterialColours, Speeds};
 pub use nest::{
     CommonLine, Corners, DefectList, GroupList, Guillotine, NestParams, Rotation, RotationList,

@@ -16,7 +16,7 @@ use super::error::SheetError;
 use super::files::Reference;
 use super::kerf::CutShape;
 use super::layout::{Layout, Sheet, SheetReport};
-use super::letter::{lettering, sheet_letter};
+use super::letter::{plain_lettering, sheet_letter};
 use super::nest::StockSheet;
 use super::params::SheetParams;
 use super::verify::edges;
@@ -28,8 +28,10 @@ pub(super) use self::legend::lettered;
 /// Sides of the reference square that are tried, in mm.
 const REFERENCE_SIDES: [f64; 4] = [100.0, 50.0, 20.0, 10.0];
 
-/// Least height of letters on the info layer, in mm.
+/// Least height of letters beside the parts, in mm.
 const LEAST_LETTER: f64 = 1.5;
+/// The same in a margin.
+const LEAST_IN_MARGIN: f64 = 1.0;
 
 /// From one line of the legend to the next, in heights of its letters.
 const PITCH: f64 = 1.8;
@@ -178,7 +180,7 @@ impl Page<'_> {
         let heights = [largest, 0.7 * largest, 0.5 * largest, in_margin.min(0.5 * largest)];
         let sideways = (b - a).normalize_or_zero().perp();
         for height in heights.into_iter().filter(|&h| h >= LEAST_LETTER.min(0.5 * largest)) {
-            let text = lettering(words, height)?;
+            let text = plain_lettering(words, height)?;
             let half = (text.high - text.low) / 2.0;
             let reach = half.dot(sideways.abs()) + 0.3 * height;
             for step in 0..=STEPS {
@@ -204,7 +206,7 @@ impl Page<'_> {
             let Some([low, high]) = self.free.place(size, border, self.clear) else { continue };
             let words = format!("{side} MM");
             let height = (side / 20.0).max(LEAST_LETTER);
-            let text = lettering(&words, height)?;
+            let text = plain_lettering(&words, height)?;
             let mut strokes = vec![rectangle([low, high])];
             strokes.extend(moved(text.strokes, low + DVec2::splat(side / 20.0)));
             self.drawing.add(MarkKind::Reference, "reference".to_owned(), None, strokes);
@@ -217,12 +219,12 @@ impl Page<'_> {
     /// A bar of known length in the upper or lower margin, with its length behind it.
     fn reference_bar(&mut self) -> Result<bool, SheetError> {
         let (depth, height) = (0.4 * self.margin, SHARE_OF_MARGIN * self.margin);
-        if height < 1.0 {
+        if height < LEAST_IN_MARGIN {
             return Ok(false);
         }
         let size = DVec2::new(self.drawing.width, self.drawing.height);
         for length in REFERENCE_SIDES {
-            let text = lettering(&format!("{length} MM"), height)?;
+            let text = plain_lettering(&format!("{length} MM"), height)?;
             let whole = length + 0.5 * self.margin + text.high.x;
             let right = size.x - self.margin - whole;
             for y in [size.y - 0.5 * self.margin, 0.5 * self.margin] {
@@ -246,7 +248,7 @@ impl Page<'_> {
     fn legend(&mut self, lines: &[Line]) -> Result<bool, SheetError> {
         for share in [1.0, 0.75, 0.5] {
             let height = share * self.letter;
-            let sizes = lines.iter().map(|l| Ok(lettering(&l.words, height)?.high.x));
+            let sizes = lines.iter().map(|l| Ok(plain_lettering(&l.words, height)?.high.x));
             let widths = sizes.collect::<Result<Vec<f64>, SheetError>>()?;
             let width = widths.into_iter().fold(0.0, f64::max);
             let size = DVec2::new(width, PITCH * height * lines.len() as f64);
@@ -269,7 +271,7 @@ impl Page<'_> {
     /// The lines of the legend one after the other in the lower and the upper margin.
     fn legend_in_margin(&mut self, lines: &[Line]) -> Result<bool, SheetError> {
         let height = (SHARE_OF_MARGIN * self.margin).min(self.letter);
-        if height < LEAST_LETTER.min(SHARE_OF_MARGIN * 2.0) {
+        if height < LEAST_IN_MARGIN {
             return Ok(false);
         }
         let [width, top] = [self.drawing.width, self.drawing.height];
@@ -277,7 +279,7 @@ impl Page<'_> {
         let mut next = [self.margin; 2];
         let mut is_whole = true;
         for (i, line) in lines.iter().enumerate() {
-            let text = lettering(&line.words, height)?;
+            let text = plain_lettering(&line.words, height)?;
             let fits = |&row: &usize| {
                 let low = DVec2::new(next[row], rows[row] - 0.5 * height + text.low.y);
                 let high = DVec2::new(next[row] + text.high.x, rows[row] + 0.5 * height);
@@ -303,7 +305,7 @@ impl Page<'_> {
         at: DVec2,
     ) -> Result<(), SheetError> {
         let what = if line.is_of_colours { "legend-colours" } else { "legend" };
-        let strokes = moved(lettering(&line.words, height)?.strokes, at).collect();
+        let strokes = moved(plain_lettering(&line.words, height)?.strokes, at).collect();
         self.note(&format!("{what}-{}", i + 1), strokes);
         Ok(())
     }
@@ -315,7 +317,7 @@ impl Page<'_> {
         height: f64,
         place: Rectangle,
     ) -> Result<(), SheetError> {
-        let text = lettering(words, height)?;
+        let text = plain_lettering(words, height)?;
         let strokes = moved(text.strokes, place[0] - text.low).collect();
         self.note(id, strokes);
         self.free.take(place);
@@ -335,7 +337,7 @@ fn rectangle([low, high]: Rectangle) -> Stroke {
     closed(vec![low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)])
 }
 
-fn moved(strokes: Vec<Vec<DVec2>>, by: DVec2) -> impl Iterator<Item = Stroke> {
+pub(super) fn moved(strokes: Vec<Vec<DVec2>>, by: DVec2) -> impl Iterator<Item = Stroke> {
     let stroke = move |points: Vec<DVec2>| Stroke {
         points: points.into_iter().map(|p| p + by).collect(),
         closed: false,

@@ -102,6 +102,25 @@ pub fn glyph(character: char) -> Option<Vec<Vec<DVec2>>> {
 /// # Ok::<(), kerfold_sheet::sheet::SheetError>(())
 /// ```
 pub fn lettering(text: &str, height: f64) -> Result<Lettering, SheetError> {
+    letters(text, height, true)
+}
+
+/// As [`lettering`], without lines under 6 and 9: for words that nobody reads upside down.
+///
+/// # Errors
+/// As [`lettering`].
+///
+/// # Example
+/// ```
+/// let size = kerfold_sheet::sheet::plain_lettering("600 X 400 MM", 5.0)?;
+/// assert_eq!(size.low.y, 0.0);
+/// # Ok::<(), kerfold_sheet::sheet::SheetError>(())
+/// ```
+pub fn plain_lettering(text: &str, height: f64) -> Result<Lettering, SheetError> {
+    letters(text, height, false)
+}
+
+fn letters(text: &str, height: f64, is_underlined: bool) -> Result<Lettering, SheetError> {
     let unit = height / CAPITAL;
     let mut strokes = Vec::new();
     for (i, character) in text.chars().enumerate() {
@@ -112,7 +131,7 @@ pub fn lettering(text: &str, height: f64) -> Result<Lettering, SheetError> {
             strokes.push(points.into_iter().map(|p| (origin + p) * unit).collect())
         };
         glyph.into_iter().for_each(&mut add);
-        if matches!(character, '6' | '9') {
+        if is_underlined && matches!(character, '6' | '9') {
             add(vec![DVec2::new(0.0, -1.5), DVec2::new(4.0, -1.5)]);
         }
     }

@@ -6,7 +6,7 @@ mod obstacle;
 mod params;
 mod piece;
 
-pub use glyph::{CAPITAL, Lettering, glyph, lettering};
+pub use glyph::{CAPITAL, Lettering, glyph, lettering, plain_lettering};
 pub(super) use label::sheet_letter;
 pub use params::{Angles, Labels, LetterParams};
 pub(super) use piece::PieceLettering;

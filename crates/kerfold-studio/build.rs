@@ -18,8 +18,8 @@ fn main() {
     for source in SOURCES {
         println!("cargo::rerun-if-changed=web/{source}");
     }
-    println!("cargo::rerun-if-env-changed=KERFOLD_STUDIO_PAGE");
     // A page that somebody has built before: packagers that build without a network.
+    println!("cargo::rerun-if-env-changed=KERFOLD_STUDIO_PAGE");
     println!("cargo::rerun-if-changed=build.rs");
     let dist = match env::var_os("KERFOLD_STUDIO_PAGE") {
         Some(folder) => {

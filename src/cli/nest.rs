@@ -51,6 +51,7 @@ pub(super) fn run(args: &NestArgs, console: &Console) -> Result<Outcome, CliErro
         let layout = &fabrication.sheets.layout;
         let told = json!({
             "command": command, "written": written, "notes": notes,
+            "findings": fabrication.findings(),
             "pieces": fabrication.net.pieces.len(),
             "sheets": layout.sheets.len(), "density": layout.density,
             "cut_length": layout.cut_length,
@@ -59,9 +60,10 @@ pub(super) fn run(args: &NestArgs, console: &Console) -> Result<Outcome, CliErro
         console.result(&format!("{told:#}\n"))?;
     } else {
         console.notes(&notes);
-        console.result(&text(&fabrication))?;
+        let found: String = fabrication.findings().iter().map(|f| format!("{f}\n")).collect();
+        console.result(&(text(&fabrication) + &found))?;
     }
-    Ok(Outcome::Clean)
+    Ok(if fabrication.findings().is_empty() { Outcome::Clean } else { Outcome::Findings })
 }
 
 fn text(fabrication: &Fabrication) -> String {

@@ -113,10 +113,9 @@ fn nested(
     console: &Console,
 ) -> Result<Outcome, CliError> {
     if console.json {
-        let fabrication = summary_json(fabrication, sheet);
         let told = json!({
             "command": command, "name": name, "written": written, "notes": job.notes,
-            "fabrication": fabrication,
+            "fabrication": summary_json(fabrication, sheet),
         });
         console.result(&format!("{told:#}\n"))?;
     } else {
@@ -125,7 +124,7 @@ fn nested(
         let paths: String = written.iter().map(|path| format!("wrote {path}\n")).collect();
         console.result(&format!("{name}{}{paths}", summary_text(fabrication, sheet)))?;
     }
-    Ok(Outcome::Clean)
+    Ok(if fabrication.findings().is_empty() { Outcome::Clean } else { Outcome::Findings })
 }
 
 /// `size=200mm`.

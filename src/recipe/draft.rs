@@ -6,7 +6,8 @@ use std::fmt::Write;
 use serde::{Deserialize, Serialize};
 use toml::de::{DeTable, DeValue};
 
-use super::error::RecipeError;
+use super::error::{Position, RecipeError};
+use super::parameters::Parameters;
 use super::{Recipe, Step};
 
 /// A value of a key: a text, a number, a switch, or a list of these.
@@ -72,6 +73,30 @@ impl StepDraft {
         // They come last, so that lines stay as they are.
         let mut recipe = Recipe::parse(&(self.text() + &parameters_text(parameters)))?;
         recipe.steps.pop().ok_or(RecipeError::NoSteps)
+    }
+
+    /// The same with parameters in their places, as reading it sees the values.
+    ///
+    /// # Errors
+    /// [`RecipeError::BadValue`] for a parameter that does not exist or cannot stand there; the
+    /// line of the place is that of [`Self::text`].
+    pub fn filled(&self, parameters: &[(String, Value)]) -> Result<Self, RecipeError> {
+        let mut known = Parameters::default();
+        for (name, value) in parameters {
+            let text = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+            known.add(name.clone(), text);
+        }
+        let fill = |(i, (key, value)): (usize, &(String, Value))| {
+            let at = Position { line: i + 2, column: 1 };
+            let bad = |message| RecipeError::BadValue { at, message };
+            let text = value.to_string();
+            let text = known.fill(&text).map_err(bad)?;
+            let mut table: toml::Table = toml::from_str(&format!("value = {text}"))
+                .map_err(|error| bad(error.message().to_owned()))?;
+            Ok((key.clone(), table.remove("value").unwrap_or_else(|| value.clone())))
+        };
+        let entries = self.entries.iter().enumerate().map(fill);
+        Ok(Self { entries: entries.collect::<Result<_, RecipeError>>()? })
     }
 
     /// The key that stands in a line of [`Self::text`].

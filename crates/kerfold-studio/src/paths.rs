@@ -24,18 +24,24 @@ pub(crate) fn inside(root: &Path, name: &str) -> Result<PathBuf, StudioError> {
     if real.starts_with(root) { Ok(full) } else { Err(outside()) }
 }
 
-/// Refuses a step that names a file outside the folder. Every text is looked at, whatever key it
-/// belongs to, so that no new key can be forgotten.
-pub(crate) fn check_step(root: &Path, step: &StepDraft) -> Result<(), StudioError> {
-    step.entries().iter().try_for_each(|(_, value)| check_value(root, value))
+/// Refuses a step that names a file outside the folder, by itself or by parameters of its recipe.
+/// Every text is looked at as reading it sees it, whatever key it belongs to, so that no new key can
+/// be forgotten.
+pub(crate) fn check_step(
+    root: &Path,
+    step: &StepDraft,
+    parameters: &[(String, Value)],
+) -> Result<(), StudioError> {
+    let filled = step.filled(parameters)?;
+    filled.entries().iter().try_for_each(|(_, value)| check_value(root, value))
 }
 
 /// As [`check_step`] for all steps.
 pub(crate) fn check_recipe(root: &Path, recipe: &RecipeDraft) -> Result<(), StudioError> {
-    recipe.steps.iter().try_for_each(|step| check_step(root, step))
+    recipe.steps.iter().try_for_each(|step| check_step(root, step, &recipe.parameters))
 }
 
-pub(crate) fn check_value(root: &Path, value: &Value) -> Result<(), StudioError> {
+fn check_value(root: &Path, value: &Value) -> Result<(), StudioError> {
     match value {
         Value::String(text) => {
             let path = Path::new(text);
@@ -71,11 +77,29 @@ mod tests {
         }
         let step = |text: &str| StepDraft::new("cut", "edge").with("select", text);
         for good in ["all", "sides=5", "along=z:5deg", "1/3", "3,7,10-14", "-x", "0.3"] {
-            assert!(check_step(&root, &step(good)).is_ok(), "{good}");
+            assert!(check_step(&root, &step(good), &[]).is_ok(), "{good}");
         }
-        assert!(check_step(&root, &step("/etc/passwd")).is_err());
+        assert!(check_step(&root, &step("/etc/passwd"), &[]).is_err());
         let list = Value::Array(vec![Value::from("../x.obj")]);
-        assert!(check_step(&root, &StepDraft::new("nest", list)).is_err());
+        assert!(check_step(&root, &StepDraft::new("nest", list), &[]).is_err());
+    }
+
+    #[test]
+    fn parameters_lead_nowhere_else_either() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let root = folder.path().canonicalize().expect("a path");
+        let given = |name: &str, value: &str| vec![(name.to_owned(), Value::from(value))];
+        let read = |path: &str| StepDraft::new("read", path);
+        for (path, name, value) in [
+            ("{f}", "f", "/etc/passwd"),
+            ("{e}/etc/passwd", "e", ""),
+            ("{p}{p}/model.obj", "p", "."),
+        ] {
+            let refused = check_step(&root, &read(path), &given(name, value));
+            assert!(matches!(refused, Err(StudioError::Outside { .. })), "{path} {value}");
+        }
+        assert!(check_step(&root, &read("{f}.obj"), &given("f", "model")).is_ok());
+        assert!(check_step(&root, &read("{g}.obj"), &given("f", "model")).is_err(), "no such one");
     }
 
     #[cfg(unix)]

@@ -14,6 +14,11 @@ pub fn json_schema() -> Value {
         "type": "object",
         "properties": {
             "name": { "type": "string", "description": "What the recipe makes." },
+            "parameters": {
+                "type": "object",
+                "description": "Names and values that steps use as \"{size}\".",
+                "additionalProperties": { "type": ["string", "number"] },
+            },
             "step": { "type": "array", "items": { "anyOf": steps } },
         },
         "required": ["step"],

@@ -1,5 +1,9 @@
 //! What a file holds, mended before it is a mesh.
 
+use std::collections::{HashMap, HashSet};
+
+use glam::DVec3;
+
 use super::raw::{GroupRun, RawMesh};
 use super::{ReadNote, ReadOptions};
 use crate::mend::{RepairParams, Repairs, Soup, SoupFace, orient, repair};
@@ -18,10 +22,47 @@ pub(super) fn mend(raw: &mut RawMesh, options: &ReadOptions, params: Option<&Rep
         };
         take_back(raw, soup);
         note(raw, &repairs);
+        keep_seams(raw);
     }
     if options.flip {
         raw.change_faces(|face| face.reverse());
     }
+}
+
+/// Seams go with vertices that were welded. A mark on what is no side of a face any more is left out:
+/// it is a mark, and no reason to refuse the surface.
+fn keep_seams(raw: &mut RawMesh) {
+    let mut sides = HashSet::new();
+    let mut vertex_at = HashMap::new();
+    for f in 0..raw.ends.len() {
+        let face = raw.face(f);
+        for (i, &v) in face.iter().enumerate() {
+            sides.insert(pair([v, face[(i + 1) % face.len()]]));
+            vertex_at.entry(key(raw.positions[v as usize])).or_insert(v);
+        }
+    }
+    let count = raw.seams.len();
+    raw.seams.retain_mut(|seam| {
+        if !sides.contains(&pair(seam.ends)) {
+            let place =
+                |v: u32| raw.positions.get(v as usize).and_then(|&p| vertex_at.get(&key(p)));
+            seam.ends = seam.ends.map(|v| place(v).copied().unwrap_or(v));
+        }
+        sides.contains(&pair(seam.ends))
+    });
+    let lost = count - raw.seams.len();
+    if lost > 0 {
+        raw.notes.push(ReadNote::LostSeams { count: lost });
+    }
+}
+
+fn pair([a, b]: [u32; 2]) -> [u32; 2] {
+    [a.min(b), a.max(b)]
+}
+
+/// A position as a key; adding zero makes −0 and 0 one.
+fn key(position: DVec3) -> [u64; 3] {
+    position.to_array().map(|x| (x + 0.0).to_bits())
 }
 
 fn note(raw: &mut RawMesh, repairs: &Repairs) {

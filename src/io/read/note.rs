@@ -94,6 +94,11 @@ pub enum ReadNote {
     },
     /// Faces were mended, since that was asked for.
     Mended(Mending),
+    /// Seams were marked where mending left no edge.
+    LostSeams {
+        /// How many.
+        count: usize,
+    },
     /// There was nothing to mend.
     NothingToMend,
     /// Faces that lie flat beside each other became one.
@@ -193,6 +198,7 @@ impl fmt::Display for ReadNote {
             ),
             Self::CoincidentRims { .. }
             | Self::Mended(_)
+            | Self::LostSeams { .. }
             | Self::NothingToMend
             | Self::Merged { .. }
             | Self::OtherUnit { .. }
@@ -219,6 +225,12 @@ impl ReadNote {
                  if the surface is torn there, --weld 0 closes it"
             ),
             Self::Mended(mending) => fmt::Display::fmt(mending, f),
+            Self::LostSeams { count } => write!(
+                f,
+                "{} on no edge of the mended surface and {} left out",
+                counted(*count, "seam was marked", "seams were marked"),
+                were(*count)
+            ),
             Self::NothingToMend => f.write_str("there was nothing to mend"),
             Self::Merged { before, after } => write!(
                 f,

@@ -143,3 +143,16 @@ fn vertices_that_are_split_or_unused_are_noted_and_seams_find_them() {
     let seam = read.mesh.edges().find(|&e| read.mesh.is_seam(e)).expect("a seam");
     assert!(read.mesh.edge_vertices(seam).contains(&VertexId::new(4)));
 }
+
+#[test]
+fn repair_takes_seams_along_and_leaves_out_those_without_an_edge() {
+    // Corner 2 is there twice, and a seam is marked on its second copy; another lies on no edge.
+    let text = CUBE.replace("f 1 3 4 2", "v 1 0 0\nf 1 3 4 9") + "g seam\nl 9 4\nl 1 8\n";
+    let path = Path::new("cube.obj");
+    let params = crate::mend::RepairParams::default();
+    let read = repair_mesh_bytes(path, text.as_bytes(), &ReadOptions::default(), &params);
+    let read = read.expect("a mark is no reason to refuse");
+    assert!(read.mesh.is_closed());
+    assert_eq!(read.mesh.edges().filter(|&e| read.mesh.is_seam(e)).count(), 1);
+    assert!(read.notes.contains(&ReadNote::LostSeams { count: 1 }), "{:?}", read.notes);
+}

@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use super::request::{FILE_LIMIT, body, length};
 use crate::{Studio, StudioError, paths};
 
-/// Endings of files that the studio can begin with.
+/// Endings of files that the studio takes and lists.
 const KNOWN: [&str; 8] = ["toml", "obj", "ply", "stl", "off", "csv", "svg", "dxf"];
 /// Files that are listed at most.
 const MOST: usize = 500;

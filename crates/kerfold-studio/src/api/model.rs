@@ -83,7 +83,7 @@ pub(crate) async fn preview(at: At, Json(asked): Json<Preview>) -> Result<Respon
 }
 
 fn check(session: &Session, step: &StepDraft) -> Result<()> {
-    crate::paths::check_step(session.folder(), step)
+    crate::paths::check_step(session.folder(), step, &session.recipe().parameters)
 }
 
 #[derive(Deserialize)]

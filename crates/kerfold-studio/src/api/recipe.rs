@@ -112,8 +112,10 @@ pub(crate) async fn apply(
     at: At,
     Json(asked): Json<Apply>,
 ) -> Result {
-    paths::check_step(studio.root(), &asked.step)?;
-    at.tab.session().apply(asked.step, asked.at)?;
+    let mut session = at.tab.session();
+    paths::check_step(studio.root(), &asked.step, &session.recipe().parameters)?;
+    session.apply(asked.step, asked.at)?;
+    drop(session);
     Ok(changed(&at.tab))
 }
 
@@ -139,10 +141,16 @@ pub(crate) async fn set(
     at: At,
     Json(asked): Json<Set>,
 ) -> Result {
-    if let Some(value) = &asked.value {
-        paths::check_value(studio.root(), value)?;
+    let (number, mut session) = (at.number()?, at.tab.session());
+    let recipe = session.recipe();
+    // A step that does not exist is refused by the session, with its number.
+    if let Some(step) = recipe.steps.get(number) {
+        let mut step = step.clone();
+        step.set(&asked.key, asked.value.clone());
+        paths::check_step(studio.root(), &step, &recipe.parameters)?;
     }
-    at.tab.session().set(at.number()?, &asked.key, asked.value, asked.gesture)?;
+    session.set(number, &asked.key, asked.value, asked.gesture)?;
+    drop(session);
     Ok(changed(&at.tab))
 }
 

@@ -4,18 +4,18 @@ use std::sync::Arc;
 
 use axum::http::header::CONTENT_TYPE;
 use axum::response::{IntoResponse, Json as Answer, Response};
-use glam::{DVec2, DVec3};
-use kerfold::bloom::{Bloom, END, FlatPlace};
+use glam::DVec3;
+use kerfold::bloom::{Bloom, END};
 use kerfold::geom::triangulate;
 use kerfold::io::panels_json::panels_json;
 use kerfold::io::pieces_json::write_pieces_json;
 use kerfold::io::report::json::check_json;
 use kerfold::io::sheet::files::sheet_bytes;
 use kerfold::io::sheet::layout::write_layout_json;
-use kerfold::make::{Fabrication, MakeError};
+use kerfold::make::{Fabrication, MakeError, flat_places};
 use kerfold::mesh::FaceId;
 use kerfold::recipe::Job;
-use kerfold::sheet::{Layout, SheetFormat, SheetParams};
+use kerfold::sheet::{SheetFormat, SheetParams};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -140,19 +140,4 @@ pub(crate) async fn bloom(at: At, Asked(moment): Asked<Moment>) -> Result<Respon
     })
     .await?;
     Ok(binary(bytes))
-}
-
-/// Where the sheets have the pieces, the sheets side by side.
-fn flat_places(layout: &Layout) -> Vec<FlatPlace> {
-    let mut left = 0.0;
-    let mut places = Vec::new();
-    for sheet in &layout.sheets {
-        places.extend(sheet.placed.iter().map(|placed| FlatPlace {
-            piece: placed.piece,
-            rotation: placed.rotation.to_radians(),
-            shift: DVec2::new(left + placed.x, placed.y),
-        }));
-        left += 1.1 * sheet.width;
-    }
-    places
 }

@@ -9,8 +9,9 @@ use super::{Console, Outcome};
 use crate::io::ReadOptions;
 use crate::make::solid_of_planes;
 use crate::mesh::Mesh;
-use crate::op::{HullParams, HullReport, HullStep, OpContext, hull};
+use crate::op::{HullParams, HullReport, HullStep, OpContext, OpError, hull};
 use crate::picture::{RenderParams, render_model};
+use crate::progress::Progress;
 
 /// Make the convex hull of a mesh, its dual (one plane through each corner of the hull), or the
 /// solid that half-spaces bound
@@ -47,12 +48,18 @@ pub(super) fn run(args: &HullArgs, console: &Console) -> Result<Outcome, CliErro
     notes.extend(report.notes());
     // Drawn before anything is written, so that a picture that fails leaves no file.
     let stem = args.output.file_stem().unwrap_or_default().to_string_lossy();
-    let picture = |step: &HullStep| -> Result<(PathBuf, Vec<u8>), CliError> {
+    let progress = Terminal::new(console.quiet);
+    let picture = |(i, step): (usize, &HullStep)| -> Result<(PathBuf, Vec<u8>), CliError> {
+        // Thousands of steps may be asked for, and each takes a blink.
+        progress.report("pictures", i, report.steps.len());
+        if progress.is_cancelled() {
+            return Err(OpError::Cancelled.into());
+        }
         let path = args.output.with_file_name(step.file_name(&stem));
         Ok((path, render_model(&step.mesh, &RenderParams::default())?.to_png()))
     };
     let pictures: Vec<(PathBuf, Vec<u8>)> =
-        report.steps.iter().map(picture).collect::<Result<_, _>>()?;
+        report.steps.iter().enumerate().map(picture).collect::<Result<_, _>>()?;
     if pictures.is_empty() {
         console.write_model(&args.output, &mesh, None, &notes)?;
         return Ok(Outcome::Clean);

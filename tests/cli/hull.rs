@@ -64,3 +64,20 @@ fn hulls_of_groups_are_the_same_when_their_file_is_read_again() {
     }
     assert_eq!(shape(&once), shape(&twice));
 }
+
+/// A number of parts beyond all use is refused before any cut is made; a convex solid is one part
+/// however many are allowed.
+#[test]
+fn parts_beyond_all_use_are_refused_at_once() {
+    let folder = Folder::new("parts");
+    let [model, output] = ["solid.obj", "parts.obj"].map(|name| folder.path(name));
+    let made = run(&["solid", "geodesic-4", "--size", "100", "-o", &model]);
+    assert_eq!(made.code, Some(0), "{}", made.err);
+    let refused = run(&["hull", &model, "--parts", "4000000000", "-o", &output]);
+    assert_eq!(refused.code, Some(2), "{}", refused.err);
+    let says = |text: &str| refused.err.contains(text);
+    assert!(says("E313") && says("1 to 1024 parts"), "{}", refused.err);
+    assert!(!Path::new(&output).exists());
+    let convex = run(&["hull", &model, "--parts", "3", "-o", &output]);
+    assert_eq!(convex.code, Some(0), "{}", convex.err);
+}

@@ -215,4 +215,19 @@ mod tests {
         };
         assert_eq!(none.stock.checked().expect("no sheet is fine"), None);
     }
+
+    #[test]
+    fn sheets_of_far_too_many_pages_are_refused_before_any_work() {
+        let on_paper = |width: f64, height: f64| {
+            let mut params = SheetParams::default();
+            params.stock.sheet = SheetSize::of_mm(width, height);
+            params.files.tile = Some(crate::sheet::Paper::A4);
+            params.check_sheets()
+        };
+        assert_eq!(on_paper(21_000.0, 29_700.0), Ok(()), "100 × 100 pages are the most");
+        let Err(SheetError::TooManyTiles { pages, most, .. }) = on_paper(21_001.0, 29_700.0) else {
+            panic!("more pages are refused")
+        };
+        assert_eq!((pages, most), (10_100.0, MOST_TILES));
+    }
 }

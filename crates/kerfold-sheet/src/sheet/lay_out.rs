@@ -145,7 +145,8 @@ pub fn lay_out_watched(
     report.widened_pieces = widened;
     report.lost_holes = shapes.iter().map(|s| s.lost_holes).sum();
     report.closed_notches = shapes.iter().map(|s| s.closed_notches).sum();
-    report.narrow_holes = bare.pieces.iter().map(|p| narrow_holes(p, params)).sum();
+    report.narrow_holes =
+        bare.pieces.iter().zip(&shapes).map(|(p, s)| narrow_holes(p, s, params)).sum();
     report.widened_notches = shapes.iter().map(|s| s.widened_notches).sum();
     report.narrow_spacing = params.stock.made_of.as_ref().and_then(|material| {
         let [left, web] = [params.stock.spacing.mm() - params.stock.kerf.mm(), material.web.mm()];
@@ -174,20 +175,30 @@ const LEAST_WEB: f64 = 1.0;
 const LEAST_HOLE: f64 = 1.5;
 
 /// How many holes of a piece are narrower than the thickness wants, or nearer to another contour of
-/// it than a web should be.
-fn narrow_holes(piece: &Piece, params: &SheetParams) -> usize {
+/// it than a web should be. A notch whose mouth is narrower than the kerf leaves a hole, too.
+fn narrow_holes(piece: &Piece, shape: &CutShape, params: &SheetParams) -> usize {
     let of_material = params.stock.made_of.as_ref().map(|m| m.thickness);
     let thickness = params.joint.thickness.or(of_material).map_or(0.0, Length::mm);
+    let own = narrow_among(&piece.outline, &piece.holes, (0.0, thickness));
+    if shape.closed_notches == 0 {
+        return own;
+    }
+    own.max(narrow_among(&shape.outline, &shape.holes, (params.stock.kerf.mm(), thickness)))
+}
+
+/// The same for contours along which a cut of a width in mm is made in material of a thickness.
+fn narrow_among(outline: &[DVec2], holes: &[Vec<DVec2>], (kerf, thickness): (f64, f64)) -> usize {
     let is_narrow = |hole: &[DVec2]| {
         let least = smallest_box(hole);
-        least.width.min(least.height) < LEAST_HOLE * thickness
+        least.width.min(least.height) + kerf < LEAST_HOLE * thickness
     };
-    let is_near = |hole: &Vec<DVec2>| {
-        let others = std::iter::once(&piece.outline).chain(&piece.holes);
-        let mut others = others.filter(|&other| !std::ptr::eq(other, hole));
-        others.any(|other| contour_distance(hole, other) < LEAST_WEB)
+    let is_near = |i: usize| {
+        let others = holes.iter().enumerate().filter(|&(j, _)| j != i).map(|(_, hole)| &hole[..]);
+        std::iter::once(outline)
+            .chain(others)
+            .any(|other| contour_distance(&holes[i], other) - kerf < LEAST_WEB)
     };
-    piece.holes.iter().filter(|hole| is_narrow(hole) || is_near(hole)).count()
+    (0..holes.len()).filter(|&i| is_narrow(&holes[i]) || is_near(i)).count()
 }
 
 /// Whether all pieces that the parameters name are there.

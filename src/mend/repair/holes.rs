@@ -1,6 +1,6 @@
 //! Small holes, closed by one flat face or by triangles.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use glam::DVec2;
 
@@ -86,20 +86,37 @@ fn lids(
     let flat: Vec<DVec2> = places.iter().map(|&p| frame.flatten(p)).collect();
     let triangles = triangulate(&flat);
     let area = |t: &[usize; 3]| signed_area(&t.map(|i| flat[i]));
+    // What is narrower than `near` is an empty face, which would go again.
+    let is_wide = |t: &[usize; 3]| {
+        let sides = [0, 1, 2].map(|i| flat[t[i]].distance(flat[t[(i + 1) % 3]]));
+        2.0 * area(t) > near * sides.into_iter().fold(0.0, f64::max)
+    };
     let whole = signed_area(&flat);
     let sum: f64 = triangles.iter().map(|t| area(t).abs()).sum();
-    let is_simple = triangles.iter().all(|t| area(t) > 0.0) && sum <= whole * (1.0 + 1e-9);
+    let is_simple = triangles.iter().all(is_wide) && sum <= whole * (1.0 + 1e-9);
     if !is_simple {
         return None;
     }
     if places.iter().all(|&p| plane.signed_distance(p).abs() <= near) {
         return Some(vec![hole.to_vec()]);
     }
+    let lids = || triangles.iter().map(|t| t.map(|i| hole[i]).to_vec()).collect();
+    fill_hole(&triangles, hole, known).then(lids)
+}
+
+/// Whether triangles fill a hole once: each of its sides belongs to one of them, and every other edge
+/// is new and belongs to two that run against each other there.
+fn fill_hole(triangles: &[[usize; 3]], hole: &[u32], known: &HashMap<[u32; 2], ()>) -> bool {
     let n = hole.len();
-    let is_side = |a: usize, b: usize| (a + 1) % n == b || (b + 1) % n == a;
-    let is_new = |a: usize, b: usize| {
-        is_side(a, b) || !known.contains_key(&[hole[a].min(hole[b]), hole[a].max(hole[b])])
-    };
-    let fits = triangles.iter().all(|t| (0..3).all(|i| is_new(t[i], t[(i + 1) % 3])));
-    fits.then(|| triangles.iter().map(|t| t.map(|i| hole[i]).to_vec()).collect())
+    let runs: Vec<[usize; 2]> =
+        triangles.iter().flat_map(|t| [0, 1, 2].map(|i| [t[i], t[(i + 1) % 3]])).collect();
+    let all: HashSet<[usize; 2]> = runs.iter().copied().collect();
+    let is_side = |[a, b]: [usize; 2]| (a + 1) % n == b;
+    let is_new =
+        |[a, b]: [usize; 2]| !known.contains_key(&[hole[a].min(hole[b]), hole[a].max(hole[b])]);
+    all.len() == runs.len()
+        && runs.iter().all(|&[a, b]| match is_side([a, b]) {
+            true => !all.contains(&[b, a]),
+            false => all.contains(&[b, a]) && !is_side([b, a]) && is_new([a, b]),
+        })
 }

@@ -180,6 +180,37 @@ fn the_needle_on_a_side_goes_and_nothing_stays_open() {
     assert_eq!(done(&repairs), [(Repair::Empty, 1), (Repair::Junctions, 1)]);
 }
 
+/// A face that touches itself, and holes with corners in a row: lids that would be empty or lie twice
+/// at an edge are none, and the hole stays, which is said.
+#[test]
+fn holes_that_triangles_do_not_fill_once_stay_open() {
+    let cases: [(&[[i8; 3]], &[&[u32]]); 2] = [
+        (
+            &[[1, 2, 0], [1, 0, 0], [1, 1, 1], [0, 2, 0], [2, 2, 0], [0, 1, 1], [1, 1, 0]],
+            &[&[4, 3, 2, 0, 6]],
+        ),
+        (
+            &[
+                [0, 0, 1],
+                [0, 1, 2],
+                [0, 0, 0],
+                [0, 2, 1],
+                [1, 1, 2],
+                [1, 1, 1],
+                [2, 0, 1],
+                [0, 0, 2],
+            ],
+            &[&[3, 4, 4, 1], &[2, 3, 6, 2, 5, 3], &[5, 5, 1], &[6, 2, 7, 0, 1]],
+        ),
+    ];
+    for (points, faces) in cases {
+        let places = points.iter().map(|p| DVec3::from_array(p.map(f64::from))).collect();
+        let params = RepairParams { close_holes: Some(Length::from_mm(9.0)) };
+        let (_, repairs) = mended(soup(places, faces), &params);
+        assert!(done(&repairs).iter().any(|(what, _)| *what == Repair::LeftHoles), "{points:?}");
+    }
+}
+
 mod random {
     use proptest::prelude::*;
 

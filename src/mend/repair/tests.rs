@@ -184,7 +184,8 @@ fn the_needle_on_a_side_goes_and_nothing_stays_open() {
 /// at an edge are none, and the hole stays, which is said.
 #[test]
 fn holes_that_triangles_do_not_fill_once_stay_open() {
-    let cases: [(&[[i8; 3]], &[&[u32]]); 2] = [
+    type Case<'a> = (&'a [[i8; 3]], &'a [&'a [u32]]);
+    let cases: [Case; 2] = [
         (
             &[[1, 2, 0], [1, 0, 0], [1, 1, 1], [0, 2, 0], [2, 2, 0], [0, 1, 1], [1, 1, 0]],
             &[&[4, 3, 2, 0, 6]],

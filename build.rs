@@ -1,14 +1,15 @@
-//! Lists the bundled recipes and the meshes that they read, so that the installed program carries
+//! Lists the bundled recipes and the meshes and outlines that they read, so that the installed program carries
 //! them.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
-const FOLDERS: [(&str, &str); 3] = [
+const FOLDERS: [(&str, &str); 4] = [
     ("fixtures/recipes", "toml"),
     ("fixtures/recipes/gallery", "toml"),
     ("fixtures/meshes", "obj"),
+    ("fixtures/outlines", "svg"),
 ];
 
 fn main() -> io::Result<()> {

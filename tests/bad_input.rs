@@ -28,6 +28,12 @@ const TABLE: &[(&str, &str, &[&str])] = &[
         &["only 516 bytes", "export the model again"],
     ),
     (
+        "heights-gap.csv",
+        ":4: column 3 is ``, not a number",
+        &["first row is x and first column y", "rows x, y, z"],
+    ),
+    ("heights-twice.csv", ":5: x = 1, y = 0 stood in line 3 already", &["a whole grid"]),
+    (
         "huge-count-ascii.ply",
         ": the header announces 4294967295 of `vertex`",
         &["28 bytes", "header is wrong"],

@@ -104,6 +104,10 @@ fn seeds(target: &str) -> Vec<Vec<u8>> {
         "points" => {
             vec![b"# axis\n1,2,3\n-4 0.5,6e1\n".into(), b"v 1 2 3\nv 4 5 6\nl 2 1\n".into()]
         }
+        "heights" => vec![
+            b"y\\x,0,1,2\n0,1,1,1\n1,1,2,1\n".into(),
+            b"x;y;z\n0;0;1,5\n1;0;2\n0;1;1\n1;1;0\n".into(),
+        ],
         "seams" => vec![b"0 1 # a seam\n2 3\n".into(), b"v 0 0 0\nl 1 2 4\nl -1 -2\n".into()],
         "pieces" => vec![PIECES.into()],
         "order" => vec![

@@ -73,8 +73,8 @@ const ROOMS: &[Room] = &[
         TOP,
         "op",
         &[
-            "memory", "geom", "units", "mesh", "measure", "mend", "select", "check", "panelize",
-            "progress",
+            "memory", "geom", "units", "random", "mesh", "measure", "mend", "select", "check",
+            "panelize", "progress",
         ],
     ),
     room(
@@ -104,7 +104,8 @@ const ROOMS: &[Room] = &[
         "make",
         &[
             "geom", "units", "progress", "mesh", "net", "measure", "shape", "seam", "select",
-            "check", "op", "unfold", "panel", "gluing", "sheet", "lint", "bloom", "io", "picture",
+            "check", "panelize", "op", "unfold", "panel", "gluing", "sheet", "lint", "bloom", "io",
+            "picture",
         ],
     ),
     room(
@@ -184,7 +185,7 @@ const DOORS: &[(&str, &[&str])] = &[
 /// What parameter structs anywhere may take from clap. The rule: whatever builds or runs a command
 /// line stays in `src/cli`.
 const CLAP_EVERYWHERE: &[&str] = &["Args", "ValueEnum", "value_parser", "builder"];
-/// The recipe reader asks the parameter structs for their field names, and the schema for all that
+/// The recipe reader asks the parameter structs for their field names, schema and shell for all that
 /// they say of them, so that recipe, forms and command line cannot part.
 const CLAP_COMMANDS: &[&str] = &[
     "src/cli/",
@@ -192,6 +193,7 @@ const CLAP_COMMANDS: &[&str] = &[
     "src/recipe/keys.rs",
     "src/recipe/fields.rs",
     "src/recipe/schema.rs",
+    "src/recipe/shell.rs",
 ];
 
 /// The rule: half-edge links are written in one file, so that every mesh stays manifold by

@@ -37,7 +37,6 @@ fn metadata() -> serde_json::Value {
             "metadata",
             "--format-version",
             "1",
-            "--offline",
             "--locked",
             "--filter-platform",
             host,

@@ -143,7 +143,7 @@ fn the_files_of_the_table_are_those_that_are_written() {
     let steps = "[[step]]\nsolid = \"cube\"\n\n[[step]]\nhull = \"dual\"\nsteps = \
     \"1,all\"\n\n[[step]]\ncut = \"vertex\"\nselect = \"all\"\noffset = \
     0.2\n\n[[step]]\ncheck = \"glass\"\n\n\
-                 [[step]]\nrender = \"iso\"\nwidth = 64\nbefore = \"on\"\n\n[[step]]\nunfold = \"auto\"\n";
+                 [[step]]\nrender = \"iso\"\nwidth = 64\nbefore = \"on\"\nstory = [\"cut\", \"model\", \"sheets\"]\n\n[[step]]\nunfold = \"auto\"\n";
     fs::write(&recipe, steps).expect("a recipe");
     run(&["run", &recipe, "-o", &path("made")]);
 

@@ -208,6 +208,21 @@ fn assert_nothing_on_parts(folder: &Path) {
     }
 }
 
+/// Numbers and names that lie on a score line are cut through when it is folded.
+fn assert_letters_keep_clear_of_scores(folder: &Path) {
+    for path in files(folder, "svg").iter().filter(|p| is_sheet(p)) {
+        let (lines, _) = lines_of(path);
+        let of = |layer: &str| -> Vec<[DVec2; 2]> {
+            lines.iter().filter(|l| l.layer == layer).flat_map(segments).collect()
+        };
+        let scores = of("score");
+        for [a, b] in of("engrave") {
+            let is_met = scores.iter().any(|&[c, d]| segments_meet(a, b, c, d));
+            assert!(!is_met, "{}: {a} {b} crosses a score line", path.display());
+        }
+    }
+}
+
 /// Whether strokes are a text, turned and scaled anyhow, but not mirrored. The machine's order may
 /// have turned the whole of it around.
 fn spells(strokes: &[(Vec<DVec2>, bool)], text: &str) -> bool {
@@ -287,6 +302,7 @@ fn assert_fit_for_a_stranger(folder: &Path) {
     }
     assert_seen(folder);
     assert_nothing_on_parts(folder);
+    assert_letters_keep_clear_of_scores(folder);
     assert_assembly_is_on_sheets(folder);
 }
 
@@ -316,7 +332,9 @@ fn every_verb_that_writes_sheets_leaves_what_can_be_seen_and_built() {
     run(here, &["panels", "solid.obj", "--thickness", "3mm", "-o", "panels"]);
     run(here, &["nest", "unfold/pieces.json", "--quantity", "3", "-o", "nest"]);
     run(here, &["dform", "cube", "--size", "120mm", "--rounds", "2", "-o", "dform"]);
-    for folder in ["unfold", "edges", "pieces", "panels", "nest", "dform"] {
+    let narrow = ["--roll", "max", "--strips", "15", "--angles", "on", "-o", "strips"];
+    run(here, &[&["dform", "dodecahedron", "--size", "180mm"], &narrow[..]].concat());
+    for folder in ["unfold", "edges", "pieces", "panels", "nest", "dform", "strips"] {
         assert_fit_for_a_stranger(&here.join(folder));
     }
 }

@@ -30,6 +30,7 @@ pub type Target = (&'static str, fn(&[u8]));
 pub const READERS: &[Target] = &[
     ("obj", obj),
     ("off", off),
+    ("heights", heights),
     ("ply", ply),
     ("stl", stl),
     ("planes", planes),
@@ -52,6 +53,11 @@ pub fn obj(bytes: &[u8]) {
 /// Object File Format.
 pub fn off(bytes: &[u8]) {
     mesh_file("x.off", bytes);
+}
+
+/// Heights over a grid, as CSV.
+pub fn heights(bytes: &[u8]) {
+    mesh_file("x.csv", bytes);
 }
 
 /// Stanford PLY.

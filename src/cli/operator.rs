@@ -35,7 +35,7 @@ pub(super) fn run<T: Args + Operate>(
     // Said at once, before work that may be long; as JSON it comes with the result alone.
     let preview = if console.json { Vec::new() } else { args.params.preview(&read.mesh) };
     console.notes(&preview);
-    let made = operate(&args.params, Path::new(""), &read.mesh, &context)?;
+    let made = operate(&args.params, (Path::new(""), read.scale), &read.mesh, &context)?;
     let notes = read.notes.iter().map(ToString::to_string).chain(made.notes);
     let notes: Vec<String> = notes.filter(|note| !preview.contains(note)).collect();
     console.write_model(&args.output, &made.mesh, made.made.as_ref(), &notes)?;

@@ -13,6 +13,7 @@ use crate::io::output::{OutputFolder, write_file, write_files};
 use crate::io::{IoError, MeshFormat, WriteOptions, file_note, mesh_bytes};
 use crate::measure::size;
 use crate::mesh::Mesh;
+use crate::recipe::shell_text;
 use crate::select::NewElements;
 use crate::units::counted;
 
@@ -220,13 +221,9 @@ pub(super) fn short(value: f64) -> String {
 /// The command line as files carry it: the program by its name alone, arguments quoted where a
 /// shell would need it.
 pub(super) fn command_line() -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./,=:+@%".contains(c);
-    let arguments = std::env::args_os().skip(1).map(|argument| {
-        let argument = argument.to_string_lossy().into_owned();
-        let is_plain = !argument.is_empty() && argument.chars().all(plain);
-        if is_plain { argument } else { format!("'{}'", argument.replace('\'', r"'\''")) }
-    });
-    std::iter::once("kerfold".to_owned()).chain(arguments).collect::<Vec<_>>().join(" ")
+    let arguments =
+        std::env::args_os().skip(1).map(|argument| argument.to_string_lossy().into_owned());
+    shell_text(&std::iter::once("kerfold".to_owned()).chain(arguments).collect::<Vec<_>>())
 }
 
 /// Prints to standard output.

@@ -10,9 +10,8 @@ use super::panels::{panels_json, panels_text};
 use super::terminal::Terminal;
 use super::unfold::{summary_json, summary_text};
 use super::{Console, Outcome};
-use crate::gallery::{BundledFile, bundled};
-use crate::io::output::TemporaryFolder;
-use crate::io::{IoError, decode_text};
+use crate::gallery::{bundled_recipe, unpacked};
+use crate::io::decode_text;
 use crate::make::Fabrication;
 use crate::recipe::{Job, Recipe, job_outputs};
 use crate::sheet::SheetParams;
@@ -36,7 +35,7 @@ pub(super) struct RunArgs {
 }
 
 pub(super) fn run(args: &RunArgs, console: &Console) -> Result<Outcome, CliError> {
-    let bundled = bundled_text(&args.recipe);
+    let bundled = bundled_recipe(&args.recipe);
     let text = bundled.map_or_else(|| read_text(&args.recipe), |file| Ok(file.text.to_owned()))?;
     let recipe = Recipe::parse_with(&text, &args.set).map_err(|error| CliError::Recipe {
         path: args.recipe.clone(),
@@ -133,34 +132,6 @@ fn setting(text: &str) -> Result<(String, String), String> {
         .split_once('=')
         .ok_or_else(|| format!("`{text}` sets nothing; write it like size=200mm"))?;
     Ok((name.trim().to_owned(), value.trim().to_owned()))
-}
-
-/// The bundled recipe of a name, where there is no file of that name.
-fn bundled_text(name: &Path) -> Option<BundledFile> {
-    if name.exists() {
-        return None;
-    }
-    let wanted = name.to_str().filter(|name| !name.contains(['/', '\\']))?;
-    let wanted = format!("/{}.toml", wanted.strip_suffix(".toml").unwrap_or(wanted));
-    bundled().find(|file| file.path.starts_with("recipes/") && file.path.ends_with(&wanted))
-}
-
-/// All bundled files in a folder that goes again, and the folder of one of them.
-fn unpacked(recipe: BundledFile) -> Result<(TemporaryFolder, PathBuf), CliError> {
-    let folder = TemporaryFolder::new().map_err(CliError::from)?;
-    let mut files = Vec::new();
-    for file in bundled() {
-        files.push((folder.path().join(file.path), file.text.as_bytes().to_vec()));
-    }
-    for (path, bytes) in &files {
-        let parent = path.parent().unwrap_or(folder.path());
-        std::fs::create_dir_all(parent)
-            .and_then(|()| std::fs::write(path, bytes))
-            .map_err(|source| IoError::Unwritable { path: path.clone(), source })?;
-    }
-    let own = folder.path().join(recipe.path);
-    let own = own.parent().unwrap_or(folder.path()).to_owned();
-    Ok((folder, own))
 }
 
 fn read_text(path: &Path) -> Result<String, CliError> {

@@ -12,7 +12,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-pub use self::bundle::{BundledFile, bundled};
+pub use self::bundle::{BundledFile, bundled, bundled_recipe, unpacked};
 pub use self::page::{gallery_html, gallery_markdown};
 use crate::code::{Code, Coded};
 use crate::make::{MakeError, Output};
@@ -46,9 +46,18 @@ pub struct Exhibit {
     pub model: Option<ModelFacts>,
     /// Number of pieces, and of sheets, once something was unfolded, panelled or nested.
     pub pieces: Option<(usize, usize)>,
+    /// The picture of the page: the story where the recipe tells one, else the model, else the
+    /// first sheet.
+    pub picture: &'static str,
     /// What the check found: one message each; empty when the recipe asked for none.
     pub findings: Vec<String>,
 }
+
+/// The pictures of a recipe, the one that tells most first.
+const PICTURES: [&str; 3] = [STORY, "model.png", "sheet-01.png"];
+
+/// Several pictures side by side.
+const STORY: &str = "story.png";
 
 /// Facts of a model.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -137,8 +146,10 @@ pub fn exhibit(
         .as_ref()
         .map(|(f, _)| f)
         .or(job.panelled.as_ref().map(|(p, _)| &p.fabrication));
+    let has = |picture: &&str| outputs.iter().any(|(name, _)| name == picture);
     let exhibit = Exhibit {
         name: name(),
+        picture: PICTURES.into_iter().find(has).unwrap_or(PICTURES[1]),
         title: parsed.name.unwrap_or_else(name),
         story: story(&recipe.text),
         recipe: recipe.text.clone(),

@@ -12,16 +12,18 @@ body{font:15px/1.45 system-ui,sans-serif;margin:2rem auto;max-width:1400px;paddi
 h1{font-weight:600}h2{margin-top:2.5rem;font-weight:600;border-bottom:1px solid #ddd}
 main{display:grid;grid-template-columns:repeat(auto-fill,minmax(300px,1fr));gap:1.5rem}
 article{background:#fff;border:1px solid #e3e0da;border-radius:6px;overflow:hidden}
+.story{grid-column:1/-1}
 article img{width:100%;display:block;border-bottom:1px solid #eee}
 article div{padding:.7rem .9rem}h3{margin:0 0 .3rem;font-size:1rem}
 p{margin:.3rem 0}.facts{font-variant-numeric:tabular-nums;color:#555}.fail{color:#a03024}
 pre{overflow:auto;background:#f5f3ef;padding:.6rem;font-size:12px}summary{cursor:pointer;color:#555}";
 
 /// Groups by the beginnings of the names, in the order of the page; the last takes the rest.
-const GROUPS: [(&str, &str); 4] = [
+const GROUPS: [(&str, &str); 5] = [
     ("gonen-", "Modeling planar 3-valence meshes (Gonen 2007)"),
     ("srinivasan-", "Modeling high-genus surfaces (Srinivasan 2004)"),
     ("sierpinski-fig-", "Sierpinski polyhedra (Srinivasan and Akleman 2004)"),
+    ("panelized-", "Freeform surfaces in planar panels"),
     ("", "More"),
 ];
 
@@ -59,10 +61,12 @@ pub fn gallery_html(exhibits: &[Exhibit], failures: &[String], command: &str) ->
 
 fn card(page: &mut String, e: &Exhibit) {
     let (name, title) = (escaped(&e.name), escaped(&e.title));
-    let picture = if e.model.is_some() { "model.png" } else { "sheet-01.png" };
+    let picture = e.picture;
+    // A story is read from left to right, so it has the whole width.
+    let wide = if picture == super::STORY { " class=\"story\"" } else { "" };
     let _ = writeln!(
         page,
-        "<article id=\"{name}\"><a href=\"{name}/{picture}\"><img src=\"{name}/{picture}\" \
+        "<article{wide} id=\"{name}\"><a href=\"{name}/{picture}\"><img src=\"{name}/{picture}\" \
         alt=\"{title}\" \
          loading=\"lazy\"/></a>\n<div><h3>{title}</h3>"
     );

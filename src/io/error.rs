@@ -64,7 +64,8 @@ pub enum IoError {
     },
     /// Neither the name nor the content shows the format.
     #[error(
-        "{}: unknown mesh format; use a name that ends in .obj, .ply, .stl or .off",
+        "{}: unknown mesh format; use a name that ends in .obj, .ply, .stl or .off (or .csv for a grid \
+        of heights that is read)",
         path.display()
     )]
     UnknownFormat {
@@ -530,6 +531,15 @@ pub enum ContentFault {
         /// How the file begins.
         text: String,
     },
+    /// Heights that cannot be read, or that make no whole grid.
+    #[error(
+        "{what}; heights are a table whose first row is x and first column y, or rows x, y, z of \
+        the places of a whole grid"
+    )]
+    BrokenGrid {
+        /// What is wrong.
+        what: String,
+    },
 }
 
 codes!(error ContentFault {
@@ -547,6 +557,7 @@ codes!(error ContentFault {
     BadTriangle = 142,
     TriangleNotFinite = 143,
     NotThisFormat = 144,
+    BrokenGrid = 145,
 });
 
 /// A fault with its line; the path is added by the caller.

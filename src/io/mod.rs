@@ -30,9 +30,9 @@ pub use format::MeshFormat;
 pub(crate) use number::xml as escaped;
 pub use read::artwork;
 pub use read::{
-    MeshUnit, ReadMesh, ReadNote, ReadOptions, decode_text, read_mesh, read_mesh_bytes,
-    read_points, read_points_bytes, read_seams, read_seams_bytes, read_text, repair_mesh_bytes,
-    size_note,
+    MeshUnit, ReadMesh, ReadNote, ReadOptions, decode_text, read_curves, read_curves_bytes,
+    read_mesh, read_mesh_bytes, read_points, read_points_bytes, read_seams, read_seams_bytes,
+    read_text, repair_mesh_bytes, size_note,
 };
 pub use write::glb;
 pub use write::plates;

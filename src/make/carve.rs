@@ -40,6 +40,8 @@ pub struct CarvedDform {
     /// All folds: the strips, those that stay sharp, and where cuts met what lies within a piece.
     /// One at every vertex, but where cuts met.
     pub folds: Vec<EdgeId>,
+    /// The folds as they were chosen, of the mesh before.
+    pub chosen: Vec<EdgeId>,
     /// What the user should know.
     pub notes: Vec<String>,
 }
@@ -48,7 +50,8 @@ impl CarvedDform {
     /// The mesh as it is, with its folds.
     pub(super) fn uncarved(mesh: &Mesh, folds: &[EdgeId]) -> Self {
         let made = NewElements { strip: folds.to_vec(), ..NewElements::default() };
-        Self { mesh: mesh.clone(), made, folds: folds.to_vec(), notes: Vec::new() }
+        let (folds, chosen) = (folds.to_vec(), folds.to_vec());
+        Self { mesh: mesh.clone(), made, folds, chosen, notes: Vec::new() }
     }
 
     /// With notes on how it was chosen before its own.
@@ -344,6 +347,7 @@ fn carve(
     let (carved, report) = truncate_edges(mesh, &cut, &OpContext { made: None, progress })?;
     notes.extend(report.notes("edge"));
     let between = edges_within_pieces(mesh, folds, &carved, &report.origins);
+    let chosen = folds.to_vec();
     let mut folds = report.made.strip.clone();
     if !sharp.is_empty() {
         notes.push(format!(
@@ -356,7 +360,7 @@ fn carve(
     folds.extend(joining);
     folds.sort_unstable();
     folds.dedup();
-    Ok(CarvedDform { mesh: carved, made: report.made, folds, notes })
+    Ok(CarvedDform { mesh: carved, made: report.made, folds, chosen, notes })
 }
 
 /// The step `cut edge` that carves.

@@ -94,6 +94,14 @@ pub enum MakeError {
         /// How many folds there are.
         folds: usize,
     },
+    /// A story shows what the recipe does not make.
+    #[error("the story shows `{frame}`, and {why}")]
+    NoFrame {
+        /// What it shows.
+        frame: &'static str,
+        /// What is missing, and what to do.
+        why: &'static str,
+    },
     /// The picture could not be drawn.
     #[error(transparent)]
     Picture(#[from] PictureError),
@@ -104,6 +112,7 @@ codes!(error MakeError {
     SecondMesh = 712,
     State = 713,
     RigidFolds = 714,
+    NoFrame = 715,
 } through {
     Io.0,
     Planes.0,

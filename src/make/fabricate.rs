@@ -11,7 +11,7 @@ use super::flat_folds;
 use super::seam_choice::SeamChoice;
 use crate::io::order_json;
 use crate::mesh::{EdgeId, FaceMap, Mesh};
-use crate::net::{Net, PieceId, Seam};
+use crate::net::{Fold, Net, PieceId, Seam};
 use crate::progress::Progress;
 use crate::select::{Context, NewElements, Selection};
 use crate::sheet::{FoldWay, SheetError, SheetParams, SheetSet, lay_out_watched};
@@ -146,12 +146,7 @@ pub fn fabricate(
     let mut divided = 0;
     loop {
         let net = unfold(mesh, &seams, &params, source, progress)?;
-        if let Some(material) = rigid
-            && net.folds.iter().any(|fold| fold.fold_angle.to_radians().abs() > FLAT)
-        {
-            let (material, folds) = (material.title.clone(), net.folds.len());
-            return Err(MakeError::RigidFolds { material, folds });
-        }
+        refuse_rigid_folds(&net, sheet)?;
         match lay_out_watched(&net, sheet, progress) {
             Ok(sheets) => {
                 check_folded(&net, &keep)?;
@@ -179,6 +174,34 @@ pub fn fabricate(
             }
             Err(error) => return Err(error.into()),
         }
+    }
+}
+
+/// The pieces of a fabrication on other sheets, as they are: none is divided.
+///
+/// # Errors
+/// What laying out can refuse; [`SheetError::PiecesTooLarge`] for pieces that no sheet can hold.
+pub fn lay_out_again(
+    made: &Fabrication,
+    sheet: &SheetParams,
+    progress: &dyn Progress,
+) -> Result<Fabrication, MakeError> {
+    sheet.check_sheets()?;
+    refuse_rigid_folds(&made.net, sheet)?;
+    let sheets = lay_out_watched(&made.net, &with_hinges(sheet), progress)?;
+    Ok(Fabrication { sheets, ..made.clone() })
+}
+
+/// Nothing that bends is cut from a material that does not fold, unless it is said how.
+fn refuse_rigid_folds(net: &Net, sheet: &SheetParams) -> Result<(), MakeError> {
+    let rigid = sheet.stock.made_of.as_ref().filter(|m| m.rigid && sheet.score.fold.is_none());
+    let bends = |fold: &Fold| fold.fold_angle.to_radians().abs() > FLAT;
+    match rigid {
+        Some(material) if net.folds.iter().any(bends) => {
+            let (material, folds) = (material.title.clone(), net.folds.len());
+            Err(MakeError::RigidFolds { material, folds })
+        }
+        _ => Ok(()),
     }
 }
 

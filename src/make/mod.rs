@@ -15,6 +15,7 @@ mod error;
 mod fabricate;
 mod flat_folds;
 mod glue_file;
+mod heights;
 mod materials;
 mod merged_net;
 mod nest;
@@ -37,7 +38,8 @@ pub use carve::{CarvedDform, carve_dform, carve_dform_for_sheet};
 pub use choices::{FoldChoice, MOST_CHOICES, choices_picture};
 pub use dform::{DformError, DformParams, MatchingChoice, MatchingChoiceError};
 pub use error::MakeError;
-pub use fabricate::{FabricateParams, FabricateSettings, Fabrication, fabricate};
+pub use fabricate::{FabricateParams, FabricateSettings, Fabrication, fabricate, lay_out_again};
+pub use heights::height_mesh;
 pub use materials::{MaterialError, material, with_material};
 pub use nest::{NestStep, nest_files};
 pub use nest_error::NestError;
@@ -47,12 +49,13 @@ pub use outlines_error::OutlinesError;
 pub use outputs::{Output, fabrication_outputs, sheet_picture};
 pub use panel_error::PanelOptionError;
 pub use panels::{PaneFile, PanelFiles, PanelJob, Panelled, SolidFile, panel_model, panel_outputs};
-pub use picture::PointOut;
-pub(crate) use picture::{before_and_sections, in_pieces, x_ray};
+pub use picture::{Moment, PointOut};
+pub(crate) use picture::{in_pieces, x_ray};
 pub use planes::{PlanesStep, solid_of_planes};
 pub use report_pictures::report_pictures;
 pub use rim_place::RimPlace;
 pub use seam_choice::SeamChoice;
 pub use show::{
-    AnimationFile, AnimationFileError, AssemblyForm, ShowParams, flat_places, show_outputs,
+    AnimationFile, AnimationFileError, AssemblyForm, ShowParams, flat_mesh, flat_places,
+    show_outputs,
 };

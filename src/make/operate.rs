@@ -3,25 +3,26 @@
 use std::path::Path;
 
 use super::MakeError;
-use crate::io::read_points;
+use crate::io::read_curves;
 use crate::mesh::{EdgeId, Mesh, VertexMap};
 use crate::op::{OpContext, Operate, OperatorOutput};
 use crate::seam::piece_count;
 use crate::select::NewElements;
 
 /// Reads the file of points that the parameters name, if any, relative to `folder`, and carries the
-/// operator out.
+/// operator out. `scale` is the factor from the numbers of the model's file to millimetres, which
+/// curves that were drawn on it share.
 ///
 /// # Errors
 /// [`MakeError::Io`] for the file, [`MakeError::Op`] for the operator.
 pub fn operate(
     params: &dyn Operate,
-    folder: &Path,
+    (folder, scale): (&Path, f64),
     mesh: &Mesh,
     context: &OpContext<'_>,
 ) -> Result<OperatorOutput, MakeError> {
     let with_points = match params.points_file() {
-        Some(file) => params.with_points(read_points(&folder.join(file))?),
+        Some(file) => params.with_points(read_curves(&folder.join(file))?, scale),
         None => None,
     };
     Ok(with_points.as_deref().unwrap_or(params).operate(mesh, context)?)

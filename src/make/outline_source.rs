@@ -101,7 +101,7 @@ fn drawn(path: &Path, name: &str) -> Result<Outline, MakeError> {
 }
 
 /// Whether a line bounds an area: the file says so, or it ends where it begins.
-fn is_closed(path: &ArtPath) -> bool {
+pub(super) fn is_closed(path: &ArtPath) -> bool {
     let ends_meet = match (path.points.first(), path.points.last()) {
         (Some(a), Some(b)) => path.points.len() > 3 && a.distance(*b) <= GAP,
         _ => false,

@@ -209,14 +209,27 @@ fn layout_notes(report: &SheetReport) -> impl Iterator<Item = String> {
 
 /// Folds that are scored too near to each other, and what to do.
 fn near_text(near: &NearScores) -> String {
-    let pairs = counted(near.pairs, "pair of folds is", "pairs of folds are");
     let short = |mm: f64| (mm * 100.0).round() / 100.0;
-    let (least, limit) = (short(near.least), short(near.limit));
+    let limit = short(near.limit);
+    let pairs = (near.pairs > 0).then(|| {
+        let pairs = counted(near.pairs, "pair of folds is", "pairs of folds are");
+        format!("{pairs} scored nearer than {limit} mm, the nearest {} mm", short(near.least))
+    });
+    let fans = (near.fans.pairs > 0).then(|| {
+        let pairs = counted(near.fans.pairs, "pair of folds leaves", "pairs of folds leave");
+        format!(
+            "{pairs} one corner and {} nearer than {limit} mm for more than {} mm, up to {} mm",
+            if near.fans.pairs == 1 { "runs" } else { "run" },
+            short(near.fans.reach),
+            short(near.fans.longest)
+        )
+    });
+    let both: Vec<String> = pairs.into_iter().chain(fans).collect();
     format!(
-        "{pairs} scored nearer than {limit} mm, the nearest {least} mm, on {}; fewer rounds, a larger \
-        model or --hinge {}mm give it room",
+        "{}, on {}; fewer rounds, a larger model or --hinge {}mm give it room",
+        both.join("; "),
         piece_list(&near.pieces),
-        short(2.0 * limit)
+        short(2.0 * near.limit)
     )
 }
 

@@ -1,11 +1,15 @@
 //! Pictures that explain: elements pointed out, a slicing plane and what it takes, what a step was
 //! about to cut.
 
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
 use serde::Deserialize;
 
 use super::{Fabrication, MakeError};
-use crate::mesh::{FaceId, Mesh};
-use crate::op::{Keep, OpContext, OpError, SliceParams, slice};
+use crate::geom::{Frame, polygon};
+use crate::mesh::{EdgeId, FaceId, Mesh, VertexId};
+use crate::op::{ChosenElements, Keep, OpContext, OpError, SliceParams, slice};
 use crate::picture::{Colour, Ids, Marks, RenderParams, Surface};
 use crate::select::{Context, NewElements, Selection};
 use crate::units::{Direction, Point};
@@ -95,13 +99,13 @@ fn taken_apart(
     let mut points = Vec::new();
     let mut polygons: Vec<Vec<usize>> = Vec::new();
     let mut red = Vec::new();
-    for (part, shift) in [(kept, glam::DVec3::ZERO), (taken, away)] {
+    for (part, shift) in [(kept, DVec3::ZERO), (taken, away)] {
         let Some(mut part) = part else { continue };
         part.compact();
         let first = points.len();
         points.extend(part.vertices().map(|v| part.position(v) + shift));
         for f in part.faces() {
-            if shift != glam::DVec3::ZERO {
+            if shift != DVec3::ZERO {
                 red.push(FaceId::new(polygons.len()));
             }
             polygons.push(part.face_vertices(f).map(|v| first + v.index()).collect());
@@ -114,26 +118,101 @@ fn taken_apart(
     }
 }
 
-/// The model as it was before a step, seen through, with the sections along which the step cut it.
-pub(crate) fn before_and_sections(
-    before: &Mesh,
-    after: &Mesh,
-    made: Option<&NewElements>,
-) -> Option<(Mesh, Marks)> {
-    let mut before = before.clone();
-    before.compact();
-    let mut points: Vec<_> = before.vertices().map(|v| before.position(v)).collect();
-    let mut polygons: Vec<Vec<usize>> =
-        before.faces().map(|f| before.face_vertices(f).map(|v| v.index()).collect()).collect();
-    let mut red = Vec::new();
-    for &f in made.map_or(&[][..], |made| &made.faces) {
-        let first = points.len();
-        points.extend(after.face_positions(f));
-        red.push(FaceId::new(polygons.len()));
-        polygons.push((first..points.len()).collect());
+/// A step of a recipe with the mesh before and after it.
+#[derive(Debug, Clone)]
+pub struct Moment {
+    /// How the step begins: `cut vertex`, `planarize`, ….
+    pub verb: &'static str,
+    /// The mesh before.
+    pub before: Arc<Mesh>,
+    /// What it was told to cut, open or join.
+    pub chosen: ChosenElements,
+    /// The mesh after.
+    pub after: Arc<Mesh>,
+    /// What it made.
+    pub made: Option<NewElements>,
+}
+
+impl Moment {
+    /// Whether the step cuts, opens or joins something that can be pointed out.
+    pub fn is_pointed(&self) -> bool {
+        self.is_cut() || !self.chosen.is_empty()
     }
-    let both = Mesh::from_faces(points, polygons).ok()?;
-    Some((both, Marks { faces: red, ..Marks::default() }))
+
+    /// Whether the step cuts by planes.
+    fn is_cut(&self) -> bool {
+        self.verb.starts_with("cut")
+    }
+
+    /// The model before the step: what is cut, opened or joined in red; of a cut also its sections,
+    /// and its plane where there is only one.
+    pub(crate) fn about_to(&self) -> (Mesh, Marks) {
+        let mut before = Mesh::clone(&self.before);
+        let map = before.compact();
+        let ChosenElements { vertices, edges, faces } = &self.chosen;
+        let mut marks = Marks {
+            vertices: vertices.iter().filter_map(|&v| map.vertex(v)).collect(),
+            edges: edges.iter().filter_map(|&e| map.edge(e)).collect(),
+            faces: faces.iter().filter_map(|&f| map.face(f)).collect(),
+            ..Marks::default()
+        };
+        let made = self.made.as_ref().filter(|_| self.is_cut());
+        let Some(made) = made.filter(|made| (1..=MOST_SECTIONS).contains(&made.faces.len())) else {
+            return (before, marks);
+        };
+        let mut points: Vec<DVec3> = before.vertices().map(|v| before.position(v)).collect();
+        let mut polygons: Vec<Vec<usize>> =
+            before.faces().map(|f| before.face_vertices(f).map(|v| v.index()).collect()).collect();
+        for &f in &made.faces {
+            let first = points.len();
+            points.extend(self.after.face_positions(f));
+            marks.sections.push(FaceId::new(polygons.len()));
+            polygons.push((first..points.len()).collect());
+        }
+        if let Some(corners) = plane_patch(&self.after, &made.faces) {
+            let first = points.len();
+            points.extend(corners);
+            marks.planes.push(FaceId::new(polygons.len()));
+            polygons.push((first..points.len()).collect());
+        }
+        match Mesh::from_faces(points, polygons) {
+            // Vertices and faces keep their numbers; edges may not.
+            Ok(both) => {
+                let ends = |e: EdgeId| before.edge_vertices(e);
+                marks.edges =
+                    marks.edges.iter().filter_map(|&e| edge_between(&both, ends(e))).collect();
+                (both, marks)
+            }
+            Err(_) => (before, Marks::default()),
+        }
+    }
+}
+
+fn edge_between(mesh: &Mesh, [a, b]: [VertexId; 2]) -> Option<EdgeId> {
+    mesh.outgoing(a).find(|&h| mesh.target(h) == b).map(|h| h.edge())
+}
+
+/// Where a step cuts more sections, they hide each other.
+const MOST_SECTIONS: usize = 24;
+
+/// How far the picture of a plane goes beyond its sections, relative to these.
+const BEYOND: f64 = 0.25;
+
+/// The corners of a rectangle around sections that lie in one plane; `None` where they do not.
+fn plane_patch(mesh: &Mesh, sections: &[FaceId]) -> Option<[DVec3; 4]> {
+    let plane = mesh.plane(*sections.first()?)?;
+    let frame = Frame::on_plane(&plane);
+    let points: Vec<DVec3> = sections.iter().flat_map(|&f| mesh.face_positions(f)).collect();
+    let flat: Vec<DVec2> = points.iter().map(|&p| frame.flatten(p)).collect();
+    let (low, high) = polygon::bounds(&flat)?;
+    // Pictures need no exact planes: what is off by less than a thousandth is not seen.
+    let reach = 1e-3 * low.distance(high);
+    if points.iter().any(|&p| plane.signed_distance(p).abs() > reach) {
+        return None;
+    }
+    let (middle, half) = (low.midpoint(high), (high - low) / 2.0 + BEYOND * low.distance(high));
+    let corner = |x: f64, y: f64| frame.lift(middle + half * DVec2::new(x, y));
+    Some([corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)])
 }
 
 /// The mesh with its pieces as groups, so that they have the colours of groups.

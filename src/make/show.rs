@@ -178,6 +178,22 @@ pub fn flat_places(layout: &Layout) -> Vec<FlatPlace> {
     places
 }
 
+/// The pieces as they lie on the sheets, side by side, as a mesh in the plane z = 0: each face in
+/// the group of its piece, with the groups of `names` in their order.
+///
+/// # Errors
+/// [`MakeError::State`] for a net that is not one of a mesh.
+pub fn flat_mesh(fabrication: &Fabrication, names: &[String]) -> Result<Mesh, MakeError> {
+    let net = &fabrication.net;
+    let places = flat_places(&fabrication.sheets.layout);
+    let bloom = Bloom::new(net, &places, |_| None);
+    let group = |leaf: &Leaf| {
+        let id = net.pieces[leaf.piece].id.to_string();
+        names.iter().position(|name| *name == id)
+    };
+    state_mesh(bloom.tree(), &bloom.at(0.0), |_| false, names, group).map_err(MakeError::State)
+}
+
 /// The animation as a strip of pictures, a colour for every piece.
 fn strip_of(bloom: &Bloom<'_>, render: &RenderParams) -> Result<Vec<u8>, MakeError> {
     let names: Vec<String> = bloom.tree().net().pieces.iter().map(|p| p.id.to_string()).collect();

@@ -45,7 +45,7 @@ pub use merge::{MergeParams, MergeReport, merge};
 pub use operate::{Operate, OperatorOutput};
 pub use planarize::{FarMove, Needle, PlanarizeParams, PlanarizeReport, RimRule, planarize};
 pub use repair::{RepairParams, RepairReport, repair};
-pub use report::{CutReport, Origins, ShrunkOffset};
+pub use report::{ChosenElements, CutReport, Origins, ShrunkOffset};
 pub use resolve::{ResolveParams, ResolveReport, resolve};
 pub use rind::{GroupThickness, RindParams, RindReport, ShellSource, rind};
 pub use roll::{

@@ -7,14 +7,15 @@ use std::path::Path;
 use glam::DVec3;
 
 use super::{
-    CutReport, HandleAxis, HandleParams, HullParams, MengerParams, MergeParams, OpContext, OpError,
-    PlanarizeParams, RepairParams, ResolveParams, RindParams, SierpinskiParams, SimplifyParams,
-    SliceParams, SubdivideParams, TruncateEdgeParams, TruncateFaceParams, TruncateVertexParams,
-    handle, hull, menger, merge, planarize, repair, resolve, rind, sierpinski, sierpinski_preview,
-    simplify, slice, subdivide, truncate_edges, truncate_faces, truncate_vertices,
+    ChosenElements, CutReport, HandleAxis, HandleParams, HullParams, MengerParams, MergeParams,
+    OpContext, OpError, PlanarizeParams, RepairParams, ResolveParams, RindParams, SierpinskiParams,
+    SimplifyParams, SliceParams, SubdivideParams, TruncateEdgeParams, TruncateFaceParams,
+    TruncateVertexParams, handle, hull, menger, merge, planarize, repair, resolve, rind,
+    sierpinski, sierpinski_preview, simplify, slice, subdivide, truncate_edges, truncate_faces,
+    truncate_vertices,
 };
-use crate::mesh::{EdgeId, Mesh};
-use crate::panelize::{PanelizeParams, panelize};
+use crate::mesh::Mesh;
+use crate::panelize::{Align, PanelizeParams, panelize};
 use crate::select::NewElements;
 
 /// What an operator made of a mesh.
@@ -27,8 +28,8 @@ pub struct OperatorOutput {
     pub made: Option<NewElements>,
     /// What the user should know, in words.
     pub notes: Vec<String>,
-    /// For cuts of edges those edges, of the mesh before: the folds, should it become a D-form.
-    pub cut_edges: Vec<EdgeId>,
+    /// What it was told to cut, open or join, of the mesh before.
+    pub chosen: ChosenElements,
     /// Whether the operator reached what was asked for; if not, the notes say what is missing, and
     /// the command line ends with 1.
     pub is_clean: bool,
@@ -37,7 +38,7 @@ pub struct OperatorOutput {
 impl OperatorOutput {
     /// Reached, and nothing said about what was made.
     fn new(mesh: Mesh, notes: Vec<String>) -> Self {
-        Self { mesh, made: None, notes, cut_edges: Vec::new(), is_clean: true }
+        Self { mesh, made: None, notes, chosen: ChosenElements::default(), is_clean: true }
     }
 }
 
@@ -73,8 +74,10 @@ pub trait Operate: fmt::Debug + Send + Sync {
         None
     }
 
-    /// The same parameters with the points of their file in its place; `None` when they take none.
-    fn with_points(&self, _points: Vec<DVec3>) -> Option<Box<dyn Operate>> {
+    /// The same parameters with the lines of points of their file in its place; `None` when they
+    /// take none. `_scale` is the factor from the numbers of the model's file to millimetres, for
+    /// curves that were drawn on it.
+    fn with_points(&self, _curves: Vec<Vec<DVec3>>, _scale: f64) -> Option<Box<dyn Operate>> {
         None
     }
 }
@@ -85,8 +88,8 @@ macro_rules! cuts {
             fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
                 let (mesh, report) = $operator(mesh, self, context)?;
                 let notes = report.notes($element);
-                let CutReport { made, cut_edges, .. } = report;
-                Ok(OperatorOutput { cut_edges, made: Some(made), ..OperatorOutput::new(mesh, notes) })
+                let CutReport { made, chosen, .. } = report;
+                Ok(OperatorOutput { chosen, made: Some(made), ..OperatorOutput::new(mesh, notes) })
             }
 
             fn cut(&self, mesh: &Mesh, context: &OpContext<'_>) -> Option<Result<(Mesh, CutReport), OpError>> {
@@ -154,6 +157,18 @@ impl Operate for PanelizeParams {
         let is_clean = report.is_clean();
         Ok(OperatorOutput { is_clean, ..OperatorOutput::new(mesh, report.notes()) })
     }
+
+    fn points_file(&self) -> Option<&Path> {
+        match &self.align {
+            Align::File(path) => Some(path),
+            _ => None,
+        }
+    }
+
+    fn with_points(&self, mut curves: Vec<Vec<DVec3>>, scale: f64) -> Option<Box<dyn Operate>> {
+        curves.iter_mut().flatten().for_each(|p| *p *= scale);
+        Some(Box::new(Self { align: Align::Curves(curves), ..self.clone() }))
+    }
 }
 
 impl Operate for SubdivideParams {
@@ -176,8 +191,10 @@ impl Operate for SierpinskiParams {
 
 impl Operate for RindParams {
     fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
+        let faces = self.opened(mesh, context)?;
         let (mesh, report) = rind(mesh, self, context)?;
         Ok(OperatorOutput {
+            chosen: ChosenElements { faces, ..ChosenElements::default() },
             is_clean: report.crossing.is_empty() && report.pairs.is_empty(),
             made: Some(report.made.clone()),
             ..OperatorOutput::new(mesh, report.notes())
@@ -197,8 +214,10 @@ impl Operate for MengerParams {
 
 impl Operate for HandleParams {
     fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
+        let faces = self.faces().filter(|&f| mesh.has_face(f)).collect();
         let (mesh, report) = handle(mesh, self, context)?;
         Ok(OperatorOutput {
+            chosen: ChosenElements { faces, ..ChosenElements::default() },
             is_clean: report.crossing.is_empty() && report.pairs.is_empty(),
             made: Some(report.made.clone()),
             ..OperatorOutput::new(mesh, report.notes())
@@ -212,7 +231,7 @@ impl Operate for HandleParams {
         }
     }
 
-    fn with_points(&self, points: Vec<DVec3>) -> Option<Box<dyn Operate>> {
-        Some(Box::new(Self { axis: Some(HandleAxis::Points(points)), ..self.clone() }))
+    fn with_points(&self, curves: Vec<Vec<DVec3>>, _scale: f64) -> Option<Box<dyn Operate>> {
+        Some(Box::new(Self { axis: Some(HandleAxis::Points(curves.concat())), ..self.clone() }))
     }
 }

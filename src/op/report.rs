@@ -64,6 +64,29 @@ pub(super) fn crossing_note(pairs: &[CrossingPair], code: Code) -> Option<String
     })
 }
 
+/// The elements that an operator was told to work on, by their numbers in the mesh before.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct ChosenElements {
+    /// Vertices that are cut off.
+    pub vertices: Vec<VertexId>,
+    /// Edges that are cut off: the folds, should it become a D-form.
+    pub edges: Vec<EdgeId>,
+    /// Faces that are cut off, opened or joined.
+    pub faces: Vec<FaceId>,
+}
+
+impl ChosenElements {
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.vertices.len() + self.edges.len() + self.faces.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
 /// What a chain of cuts did. Ids of things that were made are those of the resulting mesh.
 #[derive(Debug, Clone, Default)]
 pub struct CutReport {
@@ -93,8 +116,8 @@ pub struct CutReport {
     pub components: usize,
     /// Whether an offset above 1 was used, beyond the far ends of the edges.
     pub is_beyond_far_ends: bool,
-    /// The edges that were chosen to be cut off, of the mesh before; empty for other cuts.
-    pub cut_edges: Vec<EdgeId>,
+    /// The elements that were chosen to be cut off; none for a plane.
+    pub chosen: ChosenElements,
     /// The edges that were rolled, ascending.
     pub rolled: Vec<RolledEdge>,
     /// What limits their radius, where the largest was asked for.
@@ -102,6 +125,11 @@ pub struct CutReport {
 }
 
 impl CutReport {
+    /// The same, of a cut of these edges.
+    pub(super) fn of_edges(self, edges: Vec<EdgeId>) -> Self {
+        Self { chosen: ChosenElements { edges, ..ChosenElements::default() }, ..self }
+    }
+
     /// What the user should know, in words; `element` is what was cut: vertex, edge, face or plane.
     pub fn notes(&self, element: &str) -> Vec<String> {
         let mut notes = roll_notes(&self.rolled, self.roll_limit.as_ref());

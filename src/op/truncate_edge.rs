@@ -124,7 +124,7 @@ pub fn truncate_edges(
     let chosen = params.select.edges(&context.select(mesh))?;
     if let Some(roll) = roll {
         let (mesh, report) = roll_edges(mesh, &chosen, &roll, context)?;
-        return Ok((mesh, CutReport { cut_edges: chosen, ..report }));
+        return Ok((mesh, report.of_edges(chosen)));
     }
     let offset = params.offset.unwrap_or(default_offset());
     let TruncateEdgeParams { scope, repeat, disjoint, .. } = *params;
@@ -141,7 +141,7 @@ pub fn truncate_edges(
             edges.iter().map(|&e| element(cutter, e, offsets.of(e.index()), params.bend)).collect()
         },
     )?;
-    Ok((mesh, CutReport { cut_edges: chosen, ..report }))
+    Ok((mesh, report.of_edges(chosen)))
 }
 
 fn element(cutter: &Cutter, e: EdgeId, t: f64, bend: f64) -> Result<Element, OpError> {

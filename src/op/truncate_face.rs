@@ -10,7 +10,7 @@ use serde::Deserialize;
 use super::cut::Cutter;
 use super::truncate::{Element, Growth, Offsets, Settings, edge_point, truncate};
 use super::truncate_vertex::{default_offset, default_repeat};
-use super::{CutReport, Disjoint, OpContext, OpError, Scope};
+use super::{ChosenElements, CutReport, Disjoint, OpContext, OpError, Scope};
 use crate::geom::Plane;
 use crate::mesh::{FaceId, Mesh, VertexId};
 use crate::select::{NewElements, Selection};
@@ -84,7 +84,7 @@ pub fn truncate_faces(
     let first = chosen.iter().map(|&f| mesh.sides(f)).sum();
     let growth = Growth { first, multiplies: 1.0 };
     let settings = Settings { offset, scope, repeat, disjoint, growth };
-    truncate(
+    let (mesh, report) = truncate(
         mesh,
         &settings,
         context,
@@ -92,7 +92,9 @@ pub fn truncate_faces(
             let faces = made.map_or(&chosen, |made| &made.faces);
             faces.iter().map(|&f| element(cutter.mesh(), f, offsets.of(f.index()))).collect()
         },
-    )
+    )?;
+    let chosen = ChosenElements { faces: chosen, ..ChosenElements::default() };
+    Ok((mesh, CutReport { chosen, ..report }))
 }
 
 fn element(mesh: &Mesh, f: FaceId, t: f64) -> Result<Element, OpError> {

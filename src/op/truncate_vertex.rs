@@ -19,7 +19,7 @@ use serde::Deserialize;
 
 use super::cut::Cutter;
 use super::truncate::{Element, Growth, Offsets, Settings, edge_point, truncate};
-use super::{CutReport, Disjoint, OpContext, OpError, Scope};
+use super::{ChosenElements, CutReport, Disjoint, OpContext, OpError, Scope};
 use crate::geom::Plane;
 use crate::mesh::{Mesh, VertexId};
 use crate::select::{NewElements, Selection};
@@ -104,7 +104,7 @@ pub fn truncate_vertices(
     let first = chosen.iter().map(|&v| mesh.valence(v)).sum();
     let growth = Growth { first, multiplies: 3.0 };
     let settings = Settings { offset, scope, repeat, disjoint, growth };
-    truncate(
+    let (mesh, report) = truncate(
         mesh,
         &settings,
         context,
@@ -112,7 +112,9 @@ pub fn truncate_vertices(
             let vertices = made.map_or(&chosen, |made| &made.vertices);
             vertices.iter().map(|&v| element(cutter.mesh(), v, offsets.of(v.index()))).collect()
         },
-    )
+    )?;
+    let chosen = ChosenElements { vertices: chosen, ..ChosenElements::default() };
+    Ok((mesh, CutReport { chosen, ..report }))
 }
 
 fn element(mesh: &Mesh, v: VertexId, t: f64) -> Result<Element, OpError> {

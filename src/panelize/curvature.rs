@@ -97,6 +97,21 @@ pub(super) fn quadrics(surface: &Surface) -> Vec<Quadric> {
         .collect()
 }
 
+/// How high the quadric at each vertex lies above it, along its normal: small where the surface is
+/// smooth at the scale of a panel.
+pub(super) fn offsets(surface: &Surface) -> Vec<f64> {
+    let used = used_in_fits(surface);
+    let mut seen = vec![usize::MAX; surface.points.len()];
+    let mut near = Vec::new();
+    (0..surface.points.len())
+        .map(|v| {
+            around(surface, v, &mut seen, &mut near);
+            let near = near.iter().copied().filter(|&u| used[u] || u == v);
+            fit_quadric(samples(surface, v, near))[0]
+        })
+        .collect()
+}
+
 /// Vertices that fits use: all on rims, else every so-manieth, in a pattern without direction.
 fn used_in_fits(surface: &Surface) -> Vec<bool> {
     let mean_area = surface.area() / surface.points.len() as f64;
@@ -126,19 +141,30 @@ fn around(surface: &Surface, v: usize, seen: &mut [usize], near: &mut Vec<usize>
     }
 }
 
+/// Some vertices around one as heights over its tangent plane, those that face the same way.
+fn samples(
+    surface: &Surface,
+    v: usize,
+    near: impl Iterator<Item = usize>,
+) -> impl Iterator<Item = HeightSample> {
+    let (origin, normal) = (surface.points[v], surface.normals[v]);
+    let first = normal.any_orthonormal_vector();
+    let second = normal.cross(first);
+    let faces_alike = move |&u: &usize| surface.normals[u].dot(normal) > 0.3;
+    near.filter(faces_alike).map(move |u| {
+        let r = surface.points[u] - origin;
+        let (x, y) = (r.dot(first) / SPREAD, r.dot(second) / SPREAD);
+        let weight = (-(x * x + y * y) / 2.0).exp();
+        HeightSample { x, y, height: r.dot(normal), weight }
+    })
+}
+
 /// The weighted least-squares quadric of some vertices around one.
 fn fit(surface: &Surface, v: usize, near: impl Iterator<Item = usize>) -> Quadric {
     let (origin, normal) = (surface.points[v], surface.normals[v]);
     let first = normal.any_orthonormal_vector();
     let second = normal.cross(first);
-    let sample = |u: usize| {
-        let r = surface.points[u] - origin;
-        let (x, y) = (r.dot(first) / SPREAD, r.dot(second) / SPREAD);
-        let weight = (-(x * x + y * y) / 2.0).exp();
-        HeightSample { x, y, height: r.dot(normal), weight }
-    };
-    let faces_alike = |&u: &usize| surface.normals[u].dot(normal) > 0.3;
-    let [_, x, y, xx, xy, yy] = fit_quadric(near.filter(faces_alike).map(sample));
+    let [_, x, y, xx, xy, yy] = fit_quadric(samples(surface, v, near));
     let tilted = (normal - (first * x + second * y) / SPREAD).normalize();
     let axis = (first - tilted * first.dot(tilted)).normalize();
     Quadric {

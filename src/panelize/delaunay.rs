@@ -4,9 +4,11 @@
 //! Lawson's flips (1977) by the sum of opposite angles (Bobenko, Springborn 2007). An edge across
 //! which the surface folds is only turned when that hardly moves the surface.
 
+use std::collections::BTreeSet;
+
 use glam::DVec3;
 
-use super::refine::Triangles;
+use super::refine::{Triangles, edge};
 use super::surface::NONE;
 
 /// Turning an edge may move the surface by at most this, in panel sizes.
@@ -18,6 +20,7 @@ const TURNS_PER_EDGE: usize = 20;
 struct Flips<'a> {
     points: &'a [DVec3],
     corners: &'a mut [[usize; 3]],
+    creases: &'a BTreeSet<[usize; 2]>,
     twins: Vec<usize>,
 }
 
@@ -26,8 +29,8 @@ impl Triangles {
     /// surface stays where it is.
     pub(super) fn make_delaunay(&mut self) {
         let twins = twins(&self.corners);
-        let Self { points, corners } = self;
-        let mut flips = Flips { points, corners, twins };
+        let Self { points, corners, creases } = self;
+        let mut flips = Flips { points, corners, creases, twins };
         let mut open: Vec<usize> = (0..flips.twins.len()).collect();
         let mut left = TURNS_PER_EDGE * open.len();
         while let Some(h) = open.pop() {
@@ -76,6 +79,9 @@ impl Flips<'_> {
             return false;
         }
         let ids = [self.origin(h), self.origin(next(h)), self.apex(h), self.apex(twin)];
+        if self.creases.contains(&edge(ids[0], ids[1])) {
+            return false;
+        }
         let [a, b, c, d] = ids.map(|v| self.points[v]);
         let (x, y) = ((a - c).cross(b - c), (b - d).cross(a - d));
         let cot = |p: DVec3, q: DVec3| p.dot(q) / p.cross(q).length();
@@ -150,7 +156,7 @@ mod tests {
             DVec3::new(angle.cos(), angle.sin(), 0.0)
         });
         let corners = (1..count as usize - 1).map(|i| [0, i, i + 1]).collect();
-        let mut mesh = Triangles { points: rim.collect(), corners };
+        let mut mesh = Triangles { points: rim.collect(), corners, ..Triangles::default() };
         let area = |mesh: &Triangles| -> f64 {
             let places = mesh.corners.iter().map(|t| t.map(|i| mesh.points[i]));
             places.map(|[a, b, c]| (b - a).cross(c - a).z / 2.0).sum()

@@ -1,5 +1,7 @@
 //! What a caller of `panelize` can mend, and what it finds wrong with its result.
 
+use std::path::PathBuf;
+
 use glam::DVec3;
 
 use crate::code::codes;
@@ -31,7 +33,7 @@ pub enum PanelizeError {
     },
     /// The surface would need too many triangles.
     #[error(
-        "panels of {size} mm on this surface (about {count} of them) need more than {limit} \
+        "panels of {size:.1} mm on this surface (about {count} of them) need more than {limit} \
         triangles; take larger panels, or a coarser mesh if the file is finer than a sixth of a \
         panel"
     )]
@@ -45,7 +47,7 @@ pub enum PanelizeError {
     },
     /// Panels cannot be laid out.
     #[error(
-        "no panels of {size} mm can be laid out around ({:.1}, {:.1}, {:.1}): the surface is \
+        "no panels of {size:.1} mm can be laid out around ({:.1}, {:.1}, {:.1}): the surface is \
         narrower than two panels there, or has a hole smaller than a panel; take smaller panels, \
         or close the hole",
         place.x, place.y, place.z
@@ -95,6 +97,40 @@ pub enum PanelizeError {
         /// Where, in the same unit.
         y: f64,
     },
+    /// The area below a height field cannot be used.
+    #[error(
+        "the domain of the height cannot be used: {what}; take a rectangle like 22mx18m, or a \
+        drawing of closed lines that do not cross, holes inside"
+    )]
+    BadDomain {
+        /// What is wrong with it.
+        what: String,
+    },
+    /// A drawn curve away from the surface.
+    #[error(
+        "curve {} of `--align` {}, so no row can follow it; draw it on the surface, in the unit of \
+        its file, or leave it out",
+        curve + 1,
+        if distance_mm.is_finite() {
+            format!("comes no nearer to the surface than {distance_mm:.1} mm, with panels of {size:.1} mm")
+        } else {
+            "has no length".to_owned()
+        }
+    )]
+    NoCurveThere {
+        /// Which of the curves, from 0.
+        curve: usize,
+        /// How far it is from the surface, in mm; infinite for a curve without length.
+        distance_mm: f64,
+        /// The panel size in mm.
+        size: f64,
+    },
+    /// Curves are still the name of a file.
+    #[error("the curves of {} have to be read before panels are made along them", path.display())]
+    CurvesUnread {
+        /// The file.
+        path: PathBuf,
+    },
     /// A plane for the rim that no rim is near to.
     #[error(
         "plane {} of `--rim plane:…` lies near no rim of the surface, so nothing would stay in it; \
@@ -104,6 +140,54 @@ pub enum PanelizeError {
     NoRimThere {
         /// Which of the planes, from 0.
         plane: usize,
+    },
+    /// Two options that exclude each other.
+    #[error("{one} and {other} do not go together; leave one of them out")]
+    Together {
+        /// An option.
+        one: &'static str,
+        /// Another one.
+        other: &'static str,
+    },
+    /// No surface of revolution: some of it lies beside the curve that turns about the axis.
+    #[error(
+        "the surface does not turn about an axis along {axis}: ({:.1}, {:.1}, {:.1}) is {off:.1} mm \
+        off the curve that turns about it best, and {most:.1} mm are allowed; name its axis, as in \
+        `--layout rings:axis=z`, or leave `--layout` out",
+        place.x, place.y, place.z
+    )]
+    NotRound {
+        /// The axis.
+        axis: &'static str,
+        /// By how much, in mm.
+        off: f64,
+        /// What is allowed, in mm.
+        most: f64,
+        /// Where, in mm.
+        place: DVec3,
+    },
+    /// No surface of revolution: it does not go all around once.
+    #[error(
+        "the surface does not turn about an axis along {axis}: seen from the axis at {degrees:.0}° \
+        there are {count} curves where there should be one; rings need one surface that goes all \
+        around: name its axis, as in `--layout rings:axis=z`, or leave `--layout` out"
+    )]
+    NoTurn {
+        /// The axis.
+        axis: &'static str,
+        /// At which angle about the axis.
+        degrees: f64,
+        /// How many curves there are.
+        count: usize,
+    },
+    /// No rings can be planned.
+    #[error(
+        "no rings of panels of {size} mm fit this surface: it takes at least two rings, and five \
+        panels in each; take smaller panels"
+    )]
+    NoRings {
+        /// The panel size in mm.
+        size: f64,
     },
     /// Ctrl-C before there was a result.
     #[error("stopped before there were any panels")]
@@ -121,6 +205,13 @@ codes!(error PanelizeError {
     Formula = 848,
     NoHeight = 849,
     NoRimThere = 850,
+    Together = 851,
+    NotRound = 852,
+    NoTurn = 853,
+    NoRings = 854,
+    BadDomain = 856,
+    NoCurveThere = 857,
+    CurvesUnread = 858,
 });
 
 /// What is wrong with panels that were made all the same.
@@ -145,6 +236,14 @@ pub enum PanelizeFinding {
     FarNode,
     /// The work was stopped early.
     Stopped,
+    /// No edges of panels follow a crease that is to be kept.
+    CreaseLost,
+    /// More than three panels meet at a vertex, since more than three creases do.
+    FullNode,
+    /// Panels of one ring are not congruent.
+    UnevenRing,
+    /// The panels are not as many as were asked for.
+    OtherCount,
 }
 
 codes!(finding PanelizeFinding {
@@ -157,4 +256,8 @@ codes!(finding PanelizeFinding {
     TooLarge = 607,
     FarNode = 608,
     Stopped = 609,
+    CreaseLost = 610,
+    FullNode = 611,
+    UnevenRing = 612,
+    OtherCount = 620,
 });

@@ -85,7 +85,7 @@ fn solve(surface: &Surface, quadrics: &[Quadric], wishes: &[(DVec2, f64)]) -> Op
     let cliques = surface.edges.iter().map(|e| e.to_vec()).collect();
     let single = (0..count).map(|v| vec![v]);
     let cliques: Vec<Vec<usize>> = Vec::into_iter(cliques).chain(single).collect();
-    let fronts = Fronts::new(&surface.points, cliques, 2);
+    let mut fronts = Fronts::new(&surface.points, cliques, 2);
     let mut matrix = fronts.zeros();
     for (k, &[i, j]) in surface.edges.iter().enumerate() {
         let way = surface.points[j] - surface.points[i];
@@ -109,6 +109,7 @@ fn solve(surface: &Surface, quadrics: &[Quadric], wishes: &[(DVec2, f64)]) -> Op
         fronts.add(&mut matrix, surface.edges.len() + v, &[weight, 0.0, 0.0, weight]);
         right[2 * v..2 * v + 2].copy_from_slice(&(wish * weight).to_array());
     }
+    fronts.forget_cliques();
     let solved = fronts.factor(matrix, 1e-12)?.solve(&right);
     Some(solved.chunks_exact(2).map(|u| u[1].atan2(u[0]) / 6.0).collect())
 }

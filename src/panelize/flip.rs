@@ -3,6 +3,7 @@
 
 use glam::DVec3;
 
+use super::regions::Kind;
 use super::solve::{Run, Scene, State, Weights};
 use super::start::{TURNED, meeting_point};
 use super::surface::NONE;
@@ -102,7 +103,8 @@ fn candidates(state: &State) -> Vec<(f64, [usize; 2])> {
         let is_broken = state.least_star(f) < 0.5 * LEAST_STAR;
         for i in 0..face.len() {
             let [u, v] = [face[i], face[(i + 1) % face.len()]];
-            let may = state.is_inner_corner(u) && state.is_inner_corner(v);
+            let may = state.is_inner_corner(u) && state.is_inner_corner(v)
+                || is_on_crease(state, f, [u, v]);
             if may && (length(i) < SHORT || is_broken && length(i) <= shortest) {
                 found.push((length(i), [u.min(v), u.max(v)]));
             }
@@ -111,6 +113,33 @@ fn candidates(state: &State) -> Vec<(f64, [usize; 2])> {
     found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     found.dedup();
     found
+}
+
+/// Whether an edge runs along a crease from a corner at which one side changes to one at which the
+/// other does. Such corners may change places.
+fn is_on_crease(state: &State, f: usize, [u, v]: [usize; 2]) -> bool {
+    let kinds = &state.panels.kinds;
+    if kinds[u] != Kind::Crease || kinds[v] != Kind::Crease {
+        return false;
+    }
+    // Whether the edge of f that goes on from `corner` leaves the crease.
+    let leaves = |f: usize, corner: usize, other: usize| {
+        let face = &state.panels.faces[f];
+        let i = face.iter().position(|&c| c == corner)?;
+        let sides = [face[(i + 1) % face.len()], face[(i + face.len() - 1) % face.len()]];
+        let next = sides.into_iter().find(|&c| c != other)?;
+        Some(!kinds[next].is_on_crease())
+    };
+    let both = state.fans[u].iter().copied().filter(|g| state.fans[v].contains(g));
+    let both: Vec<usize> = both.collect();
+    let &[g, h] = &both[..] else { return false };
+    let ways = |g: usize| [leaves(g, u, v), leaves(g, v, u)];
+    both.contains(&f)
+        && matches!(
+            (ways(g), ways(h)),
+            ([Some(true), Some(false)], [Some(false), Some(true)])
+                | ([Some(false), Some(true)], [Some(true), Some(false)])
+        )
 }
 
 /// The four faces at an edge between two inner corners: the ones that run along it from u to v and
@@ -171,6 +200,10 @@ fn place_ends(
     [u, v]: [usize; 2],
     [left, right, only_u, only_v]: [usize; 4],
 ) {
+    if state.panels.kinds[u] == Kind::Crease {
+        state.panels.points.swap(u, v);
+        return;
+    }
     let middle = state.panels.points[u].midpoint(state.panels.points[v]);
     for (corner, side) in [(u, left), (v, right)] {
         let sites = [side, only_u, only_v].map(|f| state.panels.centre(f));

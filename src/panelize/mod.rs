@@ -16,13 +16,16 @@
 //! planes at a lattice with a row along k₁ meet in hexagons for k₁ = k₂, in bricks for k₁ = 0 and
 //! in bow-ties for k₁ = −k₂, without a jump. Inside, all lengths are in units of the panel size.
 
+mod crease;
 mod curvature;
 mod delaunay;
+mod domain;
 mod error;
 mod field;
 mod flip;
 mod formula;
 mod height;
+mod kinds;
 mod lattice;
 mod layout;
 mod params;
@@ -30,38 +33,51 @@ mod prove;
 mod refine;
 mod regions;
 mod report;
+mod revolve;
+mod ring_plan;
+mod rings;
 mod scale;
 mod sites;
 mod size;
+mod smooth;
 mod solve;
 mod start;
 mod surface;
+mod wishes;
 
 #[cfg(test)]
 mod tests;
 
 use glam::DVec3;
 
+use self::crease::{Fold, creased, folds, without_short};
 use self::curvature::{Quadric, quadrics};
-use self::field::{RowField, Target};
+use self::field::RowField;
 use self::flip::turn_edges;
-use self::layout::layout;
-use self::prove::{Measured, measure};
+use self::kinds::{ALIKE, Kinds, kinds};
+use self::layout::{Layout, layout};
+use self::prove::{Measured, measure, off_folds};
 use self::refine::Triangles;
 use self::regions::Panels;
+use self::revolve::Revolution;
+use self::ring_plan::{RingPlan, ring_plans};
+use self::rings::{RingLayout, ring_layout};
 use self::scale::scale_field;
-use self::solve::{Limits, RimRule, Run, Scene, State, Weights, rim_plane_without_rim};
+use self::smooth::{Moved, smoothed};
+use self::solve::{Limits, RimRule, Run, Scene, State, Symmetry, Weights, rim_plane_without_rim};
 use self::start::start;
 use self::surface::{MOST_TRIANGLES, SPACING, Surface, triangles_of};
+use self::wishes::targets;
 use crate::geom::Plane;
 use crate::measure::crossings;
 use crate::mesh::{FaceId, Mesh, MeshBuilder};
 use crate::progress::Progress;
 
+pub use domain::Domain;
 pub use error::{PanelizeError, PanelizeFinding};
-pub use height::{Domain, HeightParams, height_field};
-pub use params::{Align, PanelizeParams, RimChoice, SheetSize};
-pub use report::{PanelizeReport, Place};
+pub use height::{HeightParams, height_field};
+pub use params::{Align, LayoutChoice, PanelizeParams, RimChoice, SheetSize};
+pub use report::{CreaseReport, PanelizeReport, Place};
 
 /// Rounds of solving.
 const ROUNDS: usize = 40;
@@ -73,8 +89,11 @@ const ATTEMPTS: u64 = 6;
 const ATTEMPTS_LARGE: u64 = 2;
 /// Surfaces with a larger area are large, in squared panel sizes.
 const LARGE: f64 = 1500.0;
-/// Rows along the rim are wanted so much more than rows along curvature.
-const RIM_WEIGHT: f64 = 3.0;
+/// Folds of more are said to be rounded, in radians.
+const CREASE: f64 = 40.0 * std::f64::consts::PI / 180.0;
+/// Another layout is worth a try where plates reach farther from a node, in thicknesses, unless the
+/// user allows more.
+const FARTHEST_NODE: f64 = 1.5;
 /// Corners within this distance of their planes are exact, in panel sizes.
 const EXACT: f64 = 1e-13;
 
@@ -83,11 +102,33 @@ struct Model {
     size: f64,
     origin: DVec3,
     surface: Surface,
+    /// How far the surface was moved to make it even, where that was asked for.
+    moved: Option<Moved>,
     quadrics: Vec<Quadric>,
-    scale: Vec<f64>,
-    field: RowField,
+    way: Way,
     rule: RimRule,
     limits: Limits,
+    /// Edges of the input that fold, and whether they are kept.
+    folds: Vec<Fold>,
+    keeps_creases: bool,
+}
+
+/// How panels are laid out.
+enum Way {
+    /// By a field of rows and the sizes of panels along them.
+    Free { field: RowField, scale: Vec<f64> },
+    /// In rings.
+    Rings { revolution: Revolution, plans: Vec<RingPlan> },
+}
+
+/// A layout that is to be solved: the panels, the areas that they should have, and which of their
+/// corners are images of each other.
+struct Draft {
+    panels: Panels,
+    areas: Vec<f64>,
+    symmetry: Option<Symmetry>,
+    /// The ring of each panel, if they are laid out in rings.
+    rings: Vec<usize>,
 }
 
 /// Panels of one layout, solved and measured.
@@ -97,6 +138,12 @@ struct Solved {
     lack: f64,
     /// Pairs of panels of which one goes through the other.
     through: Vec<[usize; 2]>,
+    /// How far each fold of the input is from the edges of panels if they are to be kept, from the
+    /// panels if not, in panel sizes; and the nearest panel.
+    off_folds: Vec<(f64, usize)>,
+    kinds: Kinds,
+    /// Of panels in rings: the ring of each.
+    rings: Vec<usize>,
     was_stopped: bool,
 }
 
@@ -126,26 +173,43 @@ impl Model {
         progress: &dyn Progress,
     ) -> Result<Self, PanelizeError> {
         progress.report("looking at the surface", 0, 0);
-        let given = triangles_of(mesh);
+        let mut given = triangles_of(mesh);
+        let limit = params.crease.map_or(CREASE, |angle| angle.radians());
+        let mut folds = folds(mesh, limit);
+        given.keep(&folds, params.crease.is_some());
         let size = size::panel_size(&given, params)?;
+        if params.crease.is_some() {
+            folds = without_short(folds, size);
+            given.keep(&folds, true);
+        }
         let (low, high) = mesh.bounds().unwrap_or_default();
-        let origin = low.midpoint(high);
-        let surface = fine_surface(&given, size, origin)?;
+        let revolution = match params.layout {
+            LayoutChoice::Free => None,
+            LayoutChoice::Rings(axis) => Some(Revolution::find(&given, axis, size)?),
+        };
+        let origin = revolution.as_ref().map_or(low.midpoint(high), |found| found.origin);
+        let mut surface = fine_surface(&given, size, origin)?;
+        let mut moved = None;
+        if let Some(most) = params.smooth {
+            let (even, how_far) = smoothed(surface, most.mm() / size);
+            (surface, moved) = (even, Some(how_far));
+        }
         if progress.is_cancelled() {
             return Err(PanelizeError::Cancelled);
         }
         let quadrics = quadrics(&surface);
         progress.report("laying out rows", 0, 0);
-        let targets = targets(&surface, params);
-        let follows_curvature = params.align != Align::None;
-        let field = RowField::new(&surface, &quadrics, follows_curvature, &targets)
-            .ok_or(PanelizeError::NoField)?;
-        let scale = scale_field(&surface, &quadrics, &field, params.even);
+        let way = match revolution {
+            None => Way::free(&surface, &quadrics, params, (size, origin))?,
+            Some(revolution) => Way::rings(&surface, revolution, size)?,
+        };
         if progress.is_cancelled() {
             return Err(PanelizeError::Cancelled);
         }
         let rule = match &params.rim {
             RimChoice::Free => RimRule::Curve,
+            // Rims that turn about an axis have no straight stretches but those of the file.
+            RimChoice::Walls if params.layout != LayoutChoice::Free => RimRule::Curve,
             RimChoice::Walls => RimRule::Walls,
             RimChoice::Planes(_) => {
                 let planes = params.rim_planes(origin, size).unwrap_or_default();
@@ -161,7 +225,8 @@ impl Model {
             deviation: Limits::default().deviation.max(report::sag(&quadrics)),
             ..Limits::default()
         };
-        Ok(Self { size, origin, surface, quadrics, scale, field, rule, limits })
+        let keeps_creases = params.crease.is_some();
+        Ok(Self { size, origin, surface, moved, quadrics, way, rule, limits, folds, keeps_creases })
     }
 
     fn scene(&self) -> Scene<'_> {
@@ -192,20 +257,22 @@ impl Model {
             }
             // Seeds far apart, so that those of neighbouring runs do not repeat.
             let seed = params.seed.wrapping_add(attempt * 1_000_003);
-            let solved = match layout(&self.surface, &self.quadrics, &self.field, &self.scale, seed)
-            {
-                Ok(layout) => self.solve(layout.panels, layout.areas, progress),
-                Err(bad) => {
+            let solved = match self.draft(attempt, seed) {
+                None => break,
+                Some(Ok(draft)) => self.solve(draft, progress),
+                Some(Err(bad)) => {
                     failed = failed.or(bad.first().copied());
                     continue;
                 }
             };
-            let bad = self.badness(&solved);
+            let bad = self.badness(&solved, params.max_reach.max(FARTHEST_NODE));
             if best.as_ref().is_none_or(|(least, _)| bad < *least) {
                 best = Some((bad, solved));
             }
-            let is_good = best.as_ref().is_some_and(|(least, _)| *least < 1.0);
-            let is_large = self.surface.area() > LARGE && best.is_some();
+            // Of plans of rings the best is wanted; they are few, and soon solved.
+            let is_free = matches!(self.way, Way::Free { .. });
+            let is_good = is_free && best.as_ref().is_some_and(|(least, _)| *least < 1.0);
+            let is_large = is_free && self.surface.area() > LARGE && best.is_some();
             if is_good || is_large && attempt + 1 >= ATTEMPTS_LARGE || progress.is_cancelled() {
                 break;
             }
@@ -220,10 +287,34 @@ impl Model {
         })
     }
 
-    fn solve(&self, mut panels: Panels, areas: Vec<f64>, progress: &dyn Progress) -> Solved {
+    /// The layout of an attempt; `None` when there is nothing more to try.
+    fn draft(&self, attempt: u64, seed: u64) -> Option<Result<Draft, Vec<usize>>> {
+        let (surface, quadrics) = (&self.surface, &self.quadrics[..]);
+        match &self.way {
+            Way::Free { field, scale } => {
+                let made = layout(surface, quadrics, field, scale, seed);
+                Some(made.map(|Layout { panels, areas }| Draft {
+                    panels,
+                    areas,
+                    symmetry: None,
+                    rings: Vec::new(),
+                }))
+            }
+            Way::Rings { revolution, plans } => {
+                let plan = plans.get(usize::try_from(attempt).ok()?)?;
+                let made = ring_layout(plan, revolution, self.size, (surface, quadrics));
+                let RingLayout { panels, areas, symmetry, rings } = made;
+                Some(Ok(Draft { panels, areas, symmetry: Some(symmetry), rings }))
+            }
+        }
+    }
+
+    fn solve(&self, draft: Draft, progress: &dyn Progress) -> Solved {
         let scene = self.scene();
+        let Draft { mut panels, areas, symmetry, rings } = draft;
         start(&mut panels, &self.quadrics);
-        let mut state = State::new(panels, areas, scene);
+        let may_turn = symmetry.is_none();
+        let mut state = State::new(panels, areas, symmetry, scene);
         let weights = Weights::default();
         let run = Run { rounds: ROUNDS, from: 1.0, to: 300.0, weights, active: None };
         let mut was_stopped = false;
@@ -232,15 +323,19 @@ impl Model {
             was_stopped |= progress.is_cancelled();
             was_stopped
         });
-        if !was_stopped {
+        if !was_stopped && may_turn {
             progress.report("turning edges", 0, 0);
             turn_edges(&mut state, scene, weights, || progress.is_cancelled());
         }
         progress.report("making planes exact", 0, 0);
         let lack = state.polish(scene, POLISH);
         let measured = measure(&self.surface, &self.quadrics, &state.panels);
+        let folds =
+            self.folds.iter().map(|fold| fold.places.map(|p| (p - self.origin) / self.size));
+        let off_folds = off_folds(&state.panels, folds, self.keeps_creases);
         let through = self.through(&state, &measured);
-        Solved { state, measured, lack, through, was_stopped }
+        let kinds = kinds(&state.panels, ALIKE);
+        Solved { kinds, rings, state, measured, lack, through, off_folds, was_stopped }
     }
 
     /// Pairs of panels that go through each other, beside those that cross themselves.
@@ -255,10 +350,13 @@ impl Model {
     }
 
     /// How bad panels are: from 1 on another layout is worth a try, from 100 on panels are broken.
-    fn badness(&self, solved: &Solved) -> f64 {
+    fn badness(&self, solved: &Solved, reach: f64) -> f64 {
         let m = &solved.measured;
         let broken = m.iter().filter(|m| !m.is_sound).count() + solved.through.len();
         let inexact = usize::from(solved.lack > EXACT);
+        let is_lost = |&&(off, _): &&(f64, usize)| off > report::CREASE_OFF;
+        let lost = solved.off_folds.iter().filter(is_lost).count();
+        let lost = if self.keeps_creases { lost } else { 0 };
         let sag = report::sag(&self.quadrics);
         let odd = |m: &&Measured| {
             m.deviation > (2.5 * sag).max(0.05)
@@ -267,12 +365,22 @@ impl Model {
                 || m.area < 0.2
                 || m.area > 2.4
         };
-        let odd = m.iter().filter(odd).count() + report::far_nodes(self, solved).len();
+        let far = report::far_nodes(self, solved, reach).len();
+        let odd = m.iter().filter(odd).count() + lost + far;
         let short = m.iter().filter(|m| m.shortest < 0.1).count().saturating_sub(m.len() / 50);
         let deviations: Vec<f64> = m.iter().map(|m| m.deviation).collect();
         let most = report::percentile(&deviations, 0.95);
         let off = usize::from(most > (1.5 * sag).max(0.035));
-        (100 * (broken + inexact) + odd + short + off) as f64 + most.min(0.99)
+        let bad = (100 * (broken + inexact) + odd + short + off) as f64;
+        let rest = if solved.rings.is_empty() {
+            most
+        } else {
+            // Among plans of rings the one that comes nearest, of panels that are alike in size.
+            let areas = [f64::INFINITY, 0.0];
+            let [low, high] = m.iter().fold(areas, |[a, b], m| [a.min(m.area), b.max(m.area)]);
+            (3.0 * most / sag.max(0.035) + (high / low.max(1e-3)).ln()) / 40.0
+        };
+        bad + rest.min(0.99)
     }
 
     /// The panels as a mesh in millimetres.
@@ -301,10 +409,36 @@ impl Model {
     }
 }
 
+impl Way {
+    fn free(
+        surface: &Surface,
+        quadrics: &[Quadric],
+        params: &PanelizeParams,
+        scale: (f64, DVec3),
+    ) -> Result<Self, PanelizeError> {
+        let follows_curvature = params.align != Align::None;
+        let targets = targets(surface, quadrics, params, scale)?;
+        let field = RowField::new(surface, quadrics, follows_curvature, &targets)
+            .ok_or(PanelizeError::NoField)?;
+        let scale = scale_field(surface, quadrics, &field, params.even);
+        Ok(Self::Free { field, scale })
+    }
+
+    fn rings(surface: &Surface, revolution: Revolution, size: f64) -> Result<Self, PanelizeError> {
+        let wanted = surface.area() / sites::PANEL_AREA;
+        let plans = ring_plans(&revolution, size, wanted);
+        if plans.is_empty() {
+            return Err(PanelizeError::NoRings { size });
+        }
+        Ok(Self::Rings { revolution, plans })
+    }
+}
+
 /// The surface in units of the panel size, about the origin, with fine triangles.
 fn fine_surface(given: &Triangles, size: f64, origin: DVec3) -> Result<Surface, PanelizeError> {
     let points = given.points.iter().map(|&p| (p - origin) / size).collect();
-    let mut triangles = Triangles { points, corners: given.corners.clone() };
+    let (corners, creases) = (given.corners.clone(), given.creases.clone());
+    let mut triangles = Triangles { points, corners, creases };
     let area = triangles.area();
     let count = area / sites::PANEL_AREA;
     let too_fine = || PanelizeError::TooFine { size, count: count as usize, limit: MOST_TRIANGLES };
@@ -312,20 +446,5 @@ fn fine_surface(given: &Triangles, size: f64, origin: DVec3) -> Result<Surface, 
     if count * 30.0 > MOST_TRIANGLES as f64 || !triangles.refine(SPACING, MOST_TRIANGLES) {
         return Err(too_fine());
     }
-    Ok(Surface::new(triangles))
-}
-
-/// Rows that are wanted besides those along curvature.
-fn targets(surface: &Surface, params: &PanelizeParams) -> Vec<Target> {
-    if params.align != Align::Rim {
-        return Vec::new();
-    }
-    let on_rim = (0..surface.points.len()).filter(|&v| surface.is_rim(v) && !surface.is_corner[v]);
-    on_rim
-        .map(|vertex| Target {
-            vertex,
-            direction: surface.rim_direction(vertex),
-            weight: RIM_WEIGHT,
-        })
-        .collect()
+    Ok(creased(triangles))
 }

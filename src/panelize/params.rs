@@ -1,6 +1,7 @@
 //! The parameters of `panelize`.
 
 use std::fmt;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use glam::DVec3;
@@ -10,8 +11,7 @@ use super::PanelizeError;
 use crate::units::{Angle, Length};
 
 /// What the rows of panels follow.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash, clap::ValueEnum, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub enum Align {
     /// The direction in which the surface bends least.
     #[default]
@@ -20,6 +20,44 @@ pub enum Align {
     Rim,
     /// Nothing: the rows run as smoothly as they can.
     None,
+    /// The direction in which the surface bends least, and drawn curves, the `l` lines of this OBJ
+    /// file; it has to be read before panels are made.
+    File(PathBuf),
+    /// The same with the curves, in mm.
+    Curves(Vec<Vec<DVec3>>),
+}
+
+impl FromStr for Align {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let is_file = Path::new(text).extension().is_some_and(|e| e.eq_ignore_ascii_case("obj"));
+        match text {
+            "flat" => Ok(Self::Flat),
+            "rim" => Ok(Self::Rim),
+            "none" => Ok(Self::None),
+            _ if is_file => Ok(Self::File(PathBuf::from(text))),
+            _ => Err(format!("`{text}` is not flat, rim, none, or an OBJ file of curves")),
+        }
+    }
+}
+
+impl fmt::Display for Align {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Flat => write!(f, "flat"),
+            Self::Rim => write!(f, "rim"),
+            Self::None => write!(f, "none"),
+            Self::File(path) => write!(f, "{}", path.display()),
+            Self::Curves(curves) => write!(f, "{} curves", curves.len()),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Align {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        String::deserialize(deserializer)?.parse().map_err(de::Error::custom)
+    }
 }
 
 /// What becomes of the rim.
@@ -48,7 +86,7 @@ impl FromStr for RimChoice {
         let planes = text.strip_prefix("plane:").ok_or_else(wrong)?;
         let plane = |part: &str| {
             let (axis, place) = part.split_once('=').ok_or_else(wrong)?;
-            let axis = ["x", "y", "z"].iter().position(|a| *a == axis.trim()).ok_or_else(wrong)?;
+            let axis = AXES.iter().position(|a| *a == axis.trim()).ok_or_else(wrong)?;
             let place = place.trim().parse().map_err(|e: crate::units::UnitError| e.to_string())?;
             Ok((axis, place))
         };
@@ -62,8 +100,7 @@ impl fmt::Display for RimChoice {
             Self::Free => write!(f, "free"),
             Self::Walls => write!(f, "walls"),
             Self::Planes(planes) => {
-                let part =
-                    |(axis, place): &(usize, Length)| format!("{}={place}", ["x", "y", "z"][*axis]);
+                let part = |(axis, place): &(usize, Length)| format!("{}={place}", AXES[*axis]);
                 write!(f, "plane:{}", planes.iter().map(part).collect::<Vec<_>>().join(","))
             }
         }
@@ -76,13 +113,54 @@ impl<'de> Deserialize<'de> for RimChoice {
     }
 }
 
+/// How panels are laid out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum LayoutChoice {
+    /// Along rows that follow the surface.
+    #[default]
+    Free,
+    /// In staggered rings about an axis along x, y or z (0 to 2), each of congruent panels.
+    Rings(usize),
+}
+
+impl FromStr for LayoutChoice {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let axis = match text {
+            "free" => return Ok(Self::Free),
+            "rings" => Some(2),
+            _ => text.strip_prefix("rings:axis=").and_then(|a| AXES.iter().position(|n| *n == a)),
+        };
+        axis.map(Self::Rings).ok_or_else(|| format!("`{text}` is not free, or like rings:axis=z"))
+    }
+}
+
+impl fmt::Display for LayoutChoice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Free => write!(f, "free"),
+            Self::Rings(axis) => write!(f, "rings:axis={}", AXES[*axis]),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for LayoutChoice {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        String::deserialize(deserializer)?.parse().map_err(de::Error::custom)
+    }
+}
+
+/// The names of the axes.
+const AXES: [&str; 3] = ["x", "y", "z"];
+
 /// How to panelize. One definition for the library, the command line and the recipe.
 #[derive(Debug, Clone, clap::Args, Deserialize)]
 pub struct PanelizeParams {
     /// The size of panels: the distance between the middles of neighbours, in mm unless a unit is
     /// given. A regular hexagon of size 1 m has an area of 0.87 m².
     #[arg(long, value_name = "LENGTH")]
-    #[serde(default)]
+    #[serde(default, deserialize_with = "size_or_word")]
     pub size: Option<Length>,
     /// About how many panels there should be, within 10 %; instead of a size.
     #[arg(long, value_name = "N")]
@@ -93,8 +171,15 @@ pub struct PanelizeParams {
     #[arg(long, value_name = "LENGTH")]
     #[serde(default)]
     pub sag: Option<Length>,
-    /// What the rows of panels follow.
-    #[arg(long, value_enum, default_value_t = Align::Flat)]
+    /// How panels are laid out: free, or in staggered rings of congruent panels about an axis of a
+    /// surface of revolution, such as rings:axis=z; where the axis is, is found out.
+    #[arg(long, default_value_t = LayoutChoice::Free)]
+    #[serde(default)]
+    pub layout: LayoutChoice,
+    /// What the rows of panels follow: flat (the direction in which the surface bends least), rim
+    /// (the same, and the rim), none (as smooth as can be), or FILE.obj: flat, and near the curves
+    /// of its `l` lines these, which are in the unit of the surface's file.
+    #[arg(long, default_value_t = Align::Flat, value_name = "flat|rim|none|FILE")]
     #[serde(default)]
     pub align: Align,
     /// By how much panels may be larger or smaller than the mean so that rows run on without
@@ -106,6 +191,16 @@ pub struct PanelizeParams {
     #[arg(long, default_value_t = RimChoice::Free)]
     #[serde(default)]
     pub rim: RimChoice,
+    /// Keep edges of the surface that fold by more than this, 5 to 170 degrees: panels end there on
+    /// both sides, and their corners lie on them. Without it creases are rounded.
+    #[arg(long, value_name = "ANGLE")]
+    #[serde(default)]
+    pub crease: Option<Angle>,
+    /// Even out noise and facets of the surface that are smaller than a panel, no place by more than
+    /// this; how far it went is told.
+    #[arg(long, value_name = "LENGTH")]
+    #[serde(default)]
+    pub smooth: Option<Length>,
     /// The shortest edge that is aimed at, over the panel size, 0.05 to 0.3; shorter ones are
     /// findings below half of it.
     #[arg(long, default_value_t = 0.18, value_parser = crate::units::parse_number)]
@@ -116,6 +211,16 @@ pub struct PanelizeParams {
     #[arg(long, default_value_t = default_angle(), value_name = "ANGLE")]
     #[serde(default = "default_angle")]
     pub min_angle: Angle,
+    /// How far a panel may leave the surface; farther ones are findings [default: a fifth of the
+    /// panel size].
+    #[arg(long, value_name = "LENGTH")]
+    #[serde(default)]
+    pub max_off: Option<Length>,
+    /// From how many thicknesses plates may reach a vertex, 1 to 1000; what comes from farther is a
+    /// finding. Of no meaning for card, which has none.
+    #[arg(long, default_value_t = 1.5, value_name = "N", value_parser = crate::units::parse_number)]
+    #[serde(default = "default_reach")]
+    pub max_reach: f64,
     /// The sheet that every panel must fit, in mm: 3210x6000.
     #[arg(long, value_name = "WIDTHxHEIGHT")]
     #[serde(default)]
@@ -151,12 +256,34 @@ impl<'de> Deserialize<'de> for SheetSize {
     }
 }
 
+/// A size, or the word `count` or `sag` where a recipe gives one of these instead.
+fn size_or_word<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Length>, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(
+        untagged,
+        expecting = "a length like \"1.2m\", or \"count\" or \"sag\" beside a key of that name"
+    )]
+    enum Typed {
+        Number(f64),
+        Text(String),
+    }
+    match Typed::deserialize(deserializer)? {
+        Typed::Number(mm) => Ok(Some(Length::from_mm(mm))),
+        Typed::Text(word) if ["count", "sag"].contains(&word.as_str()) => Ok(None),
+        Typed::Text(text) => text.parse().map(Some).map_err(de::Error::custom),
+    }
+}
+
 fn default_even() -> f64 {
     0.2
 }
 
 fn default_edge() -> f64 {
     0.18
+}
+
+fn default_reach() -> f64 {
+    1.5
 }
 
 fn default_angle() -> Angle {
@@ -173,11 +300,16 @@ impl Default for PanelizeParams {
             size: None,
             count: None,
             sag: None,
+            layout: LayoutChoice::default(),
             align: Align::default(),
             even: default_even(),
             rim: RimChoice::default(),
+            crease: None,
+            smooth: None,
             min_edge: default_edge(),
             min_angle: default_angle(),
+            max_off: None,
+            max_reach: default_reach(),
             max_panel: None,
             seed: default_seed(),
         }
@@ -192,14 +324,39 @@ impl PanelizeParams {
         if given != 1 {
             return Err(PanelizeError::NoSize { given });
         }
+        let rings = (self.layout != LayoutChoice::Free, "--layout rings");
+        for (is_given, other) in [rings, (self.smooth.is_some(), "--smooth")] {
+            if self.crease.is_some() && is_given {
+                return Err(PanelizeError::Together { one: "--crease", other });
+            }
+        }
         let largest = f64::MAX;
         let least = f64::MIN_POSITIVE;
         let ranges = [
             ("the size in mm", self.size.map_or(1.0, |l| l.mm()), least, largest),
             ("the sag in mm", self.sag.map_or(1.0, |l| l.mm()), least, largest),
+            (
+                "the distance to smooth by in mm",
+                self.smooth.map_or(1.0, |l| l.mm()),
+                least,
+                largest,
+            ),
+            (
+                "the distance off the surface in mm",
+                self.max_off.map_or(1.0, |l| l.mm()),
+                least,
+                largest,
+            ),
+            ("the reach of plates", self.max_reach, 1.0, 1000.0),
             ("the count", self.count.map_or(4.0, f64::from), 4.0, 100_000.0),
             ("`even`", self.even, 0.0, 0.4),
             ("the shortest edge", self.min_edge, 0.05, 0.3),
+            (
+                "the fold of a crease in degrees",
+                self.crease.map_or(40.0, |a| a.degrees()),
+                5.0,
+                170.0,
+            ),
             ("the smallest angle in degrees", self.min_angle.degrees(), 5.0, 60.0),
         ];
         for (name, value, low, high) in ranges {

@@ -7,9 +7,9 @@ use glam::{DMat3, DVec2, DVec3};
 use super::curvature::Quadric;
 use super::regions::{Kind, Panels};
 use super::sites::PANEL_AREA;
-use super::surface::{Links, Surface};
+use super::surface::{Links, NONE, Surface};
 use crate::geom::polygon::{segments_meet, signed_area, smallest_rectangle};
-use crate::geom::{Frame, Plane, nearest_on_triangle};
+use crate::geom::{Frame, Grid, Plane, nearest_on_segment, nearest_on_triangle};
 
 /// What was measured of one panel. Lengths in panel sizes, angles in degrees.
 #[derive(Debug, Clone, Copy)]
@@ -49,7 +49,7 @@ fn measure_one(
     let face = &panels.faces[f];
     let corners: Vec<DVec3> = face.iter().map(|&v| panels.points[v]).collect();
     let centre = panels.centre(f);
-    let hint = surface.nearest(centre, panels.hints[face[0]]);
+    let hint = surface.nearest(centre, panels.hint(f));
     let up = quadrics[hint].normal;
     let newell = Plane::newell(&corners).map_or(up, |plane| plane.normal());
     // A figure of eight may have a Newell vector that says little.
@@ -121,7 +121,67 @@ fn distance(surface: &Surface, around: &Links, place: DVec3, hint: usize) -> f64
 /// vector that has the product 1 with all three normals.
 pub(super) fn node_reach(normals: [DVec3; 3]) -> f64 {
     let rows = DMat3::from_cols(normals[0], normals[1], normals[2]);
-    // Where the normals lie in one plane, a shift leaves the part that is settled.
+    // Asked for is only what the mean normal lacks: where planes hardly differ that is next to
+    // nothing, and rounding does not count. The shift leaves out what is not settled.
+    let mean = (normals[0] + normals[1] + normals[2]).normalize_or_zero();
+    let lack = DVec3::from_array(normals.map(|n| n.distance_squared(mean) / 2.0));
     let gram = rows.transpose() * rows + DMat3::from_diagonal(DVec3::splat(1e-10));
-    (rows * (gram.inverse() * DVec3::ONE)).length()
+    (mean + rows * (gram.inverse() * lack)).length()
+}
+
+/// Places on folds, and on edges of panels, are so far apart, in panel sizes.
+const STEP: f64 = 0.1;
+/// Edges of panels are looked for within so much of a place.
+const NEAR: f64 = 0.5;
+
+/// How far each of some folds goes from the panels at most: from their edges when it is to be one,
+/// else from their faces; and the panel that is nearest there. Folds are looked at all along, so a
+/// crease without a panel's edge is seen, too.
+pub(super) fn off_folds(
+    panels: &Panels,
+    folds: impl Iterator<Item = [DVec3; 2]>,
+    is_kept: bool,
+) -> Vec<(f64, usize)> {
+    let faces = panels.faces.iter().enumerate();
+    let sides = faces.flat_map(|(f, face)| {
+        let side = move |i: usize| (f, [face[i], face[(i + 1) % face.len()]]);
+        (0..face.len()).map(side)
+    });
+    let mut grid = Grid::new([0.0; 3], NEAR);
+    let mut owners: Vec<(usize, [DVec3; 2])> = Vec::new();
+    for (f, side) in sides {
+        let ends = side.map(|v| panels.points[v]);
+        for place in steps(ends) {
+            grid.insert(place.to_array());
+            owners.push((f, ends));
+        }
+    }
+    let off = |place: DVec3| {
+        let near = grid.around(place.to_array()).map(|k| owners[k as usize]);
+        let distance = |(f, ends): (usize, [DVec3; 2])| {
+            let on_face = |i: usize| {
+                let [a, b] = [0, 1].map(|k| panels.faces[f][(i + k) % panels.faces[f].len()]);
+                let corners = [panels.centre(f), panels.points[a], panels.points[b]];
+                nearest_on_triangle(place, corners).distance(place)
+            };
+            let distance = if is_kept {
+                nearest_on_segment(place, ends).distance(place)
+            } else {
+                (0..panels.faces[f].len()).map(on_face).fold(f64::INFINITY, f64::min)
+            };
+            (distance, f)
+        };
+        near.map(distance).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((NEAR, NONE))
+    };
+    folds.map(|ends| worst(steps(ends).map(off))).collect()
+}
+
+/// Places along a line, both ends among them.
+fn steps([a, b]: [DVec3; 2]) -> impl Iterator<Item = DVec3> {
+    let count = (a.distance(b) / STEP).ceil().max(1.0) as usize;
+    (0..=count).map(move |i| a.lerp(b, i as f64 / count as f64))
+}
+
+fn worst(all: impl Iterator<Item = (f64, usize)>) -> (f64, usize) {
+    all.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, NONE))
 }

@@ -1,7 +1,7 @@
 //! A triangle mesh made fine: edges that are too long are halved, and their triangles divided into
 //! two, three or four, until none is left.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec3;
 
@@ -10,6 +10,8 @@ use glam::DVec3;
 pub(super) struct Triangles {
     pub points: Vec<DVec3>,
     pub corners: Vec<[usize; 3]>,
+    /// Edges that stay where they are, the lower vertex first.
+    pub creases: BTreeSet<[usize; 2]>,
 }
 
 impl Triangles {
@@ -73,6 +75,11 @@ impl Triangles {
             }
         }
         self.corners = made;
+        let halves = |&[a, b]: &[usize; 2]| match middles.get(&[a, b]) {
+            Some(&m) => vec![edge(a, m), edge(m, b)],
+            None => vec![[a, b]],
+        };
+        self.creases = self.creases.iter().flat_map(halves).collect();
     }
 
     /// A triangle a, b, c with middles m on a–b and n on b–c; the quad that is left is divided by
@@ -87,7 +94,8 @@ impl Triangles {
     }
 }
 
-fn edge(u: usize, v: usize) -> [usize; 2] {
+/// The ends of an edge, the lower first.
+pub(super) fn edge(u: usize, v: usize) -> [usize; 2] {
     [u.min(v), u.max(v)]
 }
 
@@ -99,7 +107,8 @@ mod tests {
     fn edges_become_short_and_the_area_stays() {
         let points = [(0.0, 0.0), (3.0, 0.0), (3.0, 1.0), (0.0, 1.0)];
         let points = points.map(|(x, y)| DVec3::new(x, y, 0.0)).to_vec();
-        let mut mesh = Triangles { points, corners: vec![[0, 1, 2], [0, 2, 3]] };
+        let mut mesh =
+            Triangles { points, corners: vec![[0, 1, 2], [0, 2, 3]], ..Triangles::default() };
         assert!(mesh.refine(0.3, 10_000));
         let area: f64 = mesh
             .corners

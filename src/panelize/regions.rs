@@ -2,10 +2,13 @@
 //! three regions meet become corners, so that three edges meet at every inner corner by
 //! construction.
 
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 
+use super::refine::edge;
 use super::sites::{apart, region_areas, regions, relax};
-use super::surface::{NONE, Surface};
+use super::surface::{Creases, NONE, Surface};
 
 /// Rounds of mending regions that are no discs; the last two only relax.
 const TRIES: usize = 10;
@@ -21,6 +24,17 @@ pub(super) enum Kind {
     Rim,
     /// The rim turns there, and there is one panel.
     Corner,
+    /// Three panels meet on a crease.
+    Crease,
+    /// Creases meet there or turn, or end at the rim.
+    Kept,
+}
+
+impl Kind {
+    /// Whether panels of both sides of a crease meet there.
+    pub(super) fn is_on_crease(self) -> bool {
+        matches!(self, Self::Crease | Self::Kept)
+    }
 }
 
 /// The panels: a mesh of polygons on its way to planarity.
@@ -51,6 +65,12 @@ impl Panels {
         self.faces[f].iter().any(|&v| self.kinds[v] != Kind::Inner)
     }
 
+    /// A vertex of the surface near a face and on its side of all creases.
+    pub(super) fn hint(&self, f: usize) -> usize {
+        let own = self.faces[f].iter().find(|&&v| !self.kinds[v].is_on_crease());
+        own.map_or(self.sites[f], |&v| self.hints[v])
+    }
+
     /// The mean of a face's corners.
     pub(super) fn centre(&self, f: usize) -> DVec3 {
         let face = &self.faces[f];
@@ -69,7 +89,14 @@ pub(super) fn panels_of_sites(
 ) -> Result<Panels, Vec<usize>> {
     let mut bad = Vec::new();
     for round in 0..TRIES {
-        let labels = regions(surface, sites);
+        let mut labels = regions(surface, sites);
+        // A facet between creases may be one panel, however small.
+        while let (false, Some(v)) =
+            (surface.creases.names.is_empty(), labels.iter().position(|&label| label == NONE))
+        {
+            sites.push(v);
+            labels = regions(surface, sites);
+        }
         // A part of the surface has lost all its sites: it is too small for panels.
         if let Some(v) = labels.iter().position(|&label| label == NONE) {
             return Err(vec![v]);
@@ -100,11 +127,21 @@ struct Turn {
     after: usize,
 }
 
-/// Where a region meets the rim: the region before, the corners from there on, the region after.
+/// Where a region meets the rim: the region before, the corners from there on, the region after;
+/// neither when the rim is all its own.
 struct RimRun {
     before: usize,
     corners: Vec<usize>,
     after: usize,
+    /// Whether it is not a crease all along.
+    is_outer: bool,
+}
+
+/// A step along a rim: a corner, or the edge of a rim that is no crease.
+enum Step {
+    /// A corner; with the regions before and after where these change.
+    Corner(usize, Option<[usize; 2]>),
+    Outer,
 }
 
 struct Extraction<'a> {
@@ -114,6 +151,10 @@ struct Extraction<'a> {
     turns: Vec<Vec<Turn>>,
     runs: Vec<Vec<RimRun>>,
     is_faulty: Vec<bool>,
+    /// The corners on each edge of a crease, by the vertex where it begins on either side.
+    on_edges: BTreeMap<usize, Vec<usize>>,
+    /// The corners at vertices that stay, by their name.
+    kept: BTreeMap<usize, usize>,
 }
 
 /// The panels, and the regions that make no proper panel, ascending.
@@ -126,17 +167,24 @@ fn extract(surface: &Surface, labels: &[usize], sites: &[usize]) -> (Panels, Vec
         turns: (0..count).map(|_| Vec::new()).collect(),
         runs: (0..count).map(|_| Vec::new()).collect(),
         is_faulty: vec![false; count],
+        on_edges: BTreeMap::new(),
+        kept: BTreeMap::new(),
     };
     work.inner_corners();
+    work.crease_corners();
     surface.rims().iter().for_each(|rim| work.rim_corners(rim));
     for f in 0..count {
         let face = work.face(f);
-        let needed = match &face {
-            Some(face) if face.iter().any(|&v| work.panels.kinds[v] != Kind::Inner) => 3,
-            _ => 4,
-        };
-        work.is_faulty[f] |= face.as_ref().is_none_or(|face| face.len() < needed);
+        work.is_faulty[f] |= face.is_none();
         work.panels.faces.push(face.unwrap_or_default());
+    }
+    if !surface.creases.names.is_empty() {
+        work.panels.join_at_creases(&surface.creases);
+        work.panels.share_two_edges().into_iter().for_each(|f| work.is_faulty[f] = true);
+    }
+    for (f, face) in work.panels.faces.iter().enumerate() {
+        let is_inner = face.iter().all(|&v| work.panels.kinds[v] == Kind::Inner);
+        work.is_faulty[f] |= face.len() < if is_inner { 4 } else { 3 };
     }
     let faulty = (0..count).filter(|&f| work.is_faulty[f]).collect();
     (work.panels, faulty)
@@ -165,32 +213,123 @@ impl Extraction<'_> {
         }
     }
 
-    /// Corners where the region changes along a rim, and where the rim turns.
+    /// Corners on creases: where the region changes on either side.
+    fn crease_corners(&mut self) {
+        let Surface { creases, rim_next, points, .. } = self.surface;
+        for (v, &w) in creases.across.iter().enumerate() {
+            if w == NONE || w < v {
+                continue;
+            }
+            let ends = [v, rim_next[v], rim_next[w], w].map(|u| self.labels[u]);
+            let [a, b, c, d] = ends;
+            let (from, to) = (points[v], points[rim_next[v]]);
+            let mut corners = Vec::new();
+            match (a != b, c != d) {
+                (true, true) => {
+                    corners.push(self.corner(from.lerp(to, 1.0 / 3.0), Kind::Crease, v));
+                    corners.push(self.corner(from.lerp(to, 2.0 / 3.0), Kind::Crease, v));
+                }
+                (true, false) | (false, true) => {
+                    corners.push(self.corner(from.midpoint(to), Kind::Crease, v));
+                }
+                (false, false) => {}
+            }
+            self.on_edges.insert(w, corners.iter().rev().copied().collect());
+            self.on_edges.insert(v, corners);
+        }
+    }
+
+    /// Which of the corners on an edge of a crease is the one where the side changes that begins at
+    /// a vertex: where both sides do, each comes to its own corner first.
+    fn own_corner(&self, v: usize) -> Option<usize> {
+        let changes = self.labels[v] != self.labels[self.surface.rim_next[v]];
+        self.on_edges[&v].first().copied().filter(|_| changes)
+    }
+
+    /// The corners along a rim: where the region changes, and where the rim turns.
+    fn steps(&mut self, rim: &[usize]) -> Vec<Step> {
+        let surface = self.surface;
+        let mut steps = Vec::new();
+        for (i, &p) in rim.iter().enumerate() {
+            let q = rim[(i + 1) % rim.len()];
+            let change = [self.labels[p], self.labels[q]];
+            if surface.creases.has_edge(p) {
+                let own = self.own_corner(p);
+                let corners = self.on_edges[&p].iter();
+                steps.extend(corners.map(|&c| Step::Corner(c, (own == Some(c)).then_some(change))));
+            } else {
+                steps.push(Step::Outer);
+                if change[0] != change[1] {
+                    let place = surface.points[p].midpoint(surface.points[q]);
+                    steps.push(Step::Corner(self.corner(place, Kind::Rim, q), Some(change)));
+                }
+            }
+            if surface.is_corner[q] {
+                let corner = match surface.creases.name(q) {
+                    None => self.corner(surface.points[q], Kind::Corner, q),
+                    Some(name) => match self.kept.get(&name) {
+                        Some(&corner) => corner,
+                        None => {
+                            let corner = self.corner(surface.points[q], Kind::Kept, q);
+                            self.kept.insert(name, corner);
+                            corner
+                        }
+                    },
+                };
+                steps.push(Step::Corner(corner, None));
+            }
+        }
+        steps
+    }
+
+    /// Divides a rim into the runs of its regions.
     fn rim_corners(&mut self, rim: &[usize]) {
-        let label = |i: usize| self.labels[rim[i % rim.len()]];
-        let Some(start) = (0..rim.len()).find(|&i| label(i + rim.len() - 1) != label(i)) else {
-            // A hole inside one region.
-            self.is_faulty[self.labels[rim[0]]] = true;
+        let mut steps = self.steps(rim);
+        let is_change = |step: &Step| matches!(step, Step::Corner(_, Some(_)));
+        let Some(start) = steps.iter().position(is_change) else {
+            self.whole_rim(rim, &steps);
             return;
         };
+        steps.rotate_left(start);
         let mut runs: Vec<RimRun> = Vec::new();
-        for i in start..start + rim.len() {
-            let (p, q) = (rim[(i + rim.len() - 1) % rim.len()], rim[i % rim.len()]);
-            if self.labels[p] != self.labels[q] {
-                let place = self.surface.points[p].midpoint(self.surface.points[q]);
-                let corner = self.corner(place, Kind::Rim, q);
-                if let Some(last) = runs.last_mut() {
-                    last.corners.push(corner);
+        for step in steps {
+            match (step, runs.last_mut()) {
+                (Step::Corner(corner, Some([before, _])), last) => {
+                    if let Some(last) = last {
+                        last.corners.push(corner);
+                    }
+                    let corners = vec![corner];
+                    runs.push(RimRun { before, corners, after: NONE, is_outer: false });
                 }
-                let (before, after) = (self.labels[p], NONE);
-                runs.push(RimRun { before, corners: vec![corner], after });
-            }
-            if self.surface.is_corner[q] {
-                let corner = self.corner(self.surface.points[q], Kind::Corner, q);
-                runs.last_mut().expect("the first step changes the region").corners.push(corner);
+                (Step::Corner(corner, None), Some(last)) => last.corners.push(corner),
+                (Step::Outer, Some(last)) => last.is_outer = true,
+                (_, None) => unreachable!("the first step changes the region"),
             }
         }
         self.close_runs(runs);
+    }
+
+    /// A rim along which there is one region only.
+    fn whole_rim(&mut self, rim: &[usize], steps: &[Step]) {
+        let label = self.labels[rim[0]];
+        let creases = &self.surface.creases;
+        let other = |&v: &usize| creases.has_edge(v).then(|| self.labels[creases.across[v]]);
+        if rim.iter().all(|v| other(v) == Some(label)) {
+            // A crease that begins and ends within one region.
+            return;
+        }
+        if !rim.iter().any(|&v| creases.has_edge(v)) {
+            // A hole inside one region.
+            self.is_faulty[label] = true;
+            return;
+        }
+        let corner = |step: &Step| match step {
+            Step::Corner(corner, _) => Some(*corner),
+            Step::Outer => None,
+        };
+        let is_outer = steps.iter().any(|step| matches!(step, Step::Outer));
+        let corners = steps.iter().filter_map(corner).collect();
+        self.runs[label].push(RimRun { before: NONE, corners, after: NONE, is_outer });
     }
 
     /// Each run ends where the next begins.
@@ -205,25 +344,101 @@ impl Extraction<'_> {
         }
     }
 
-    /// The corners of a region in order; `None` when its border is not one loop.
+    /// The corners of a region in order; `None` when its border is not one loop, or meets the outer
+    /// rim more than once.
     fn face(&self, f: usize) -> Option<Vec<usize>> {
-        let turns = &self.turns[f];
-        let (mut corners, start, mut at) = match &self.runs[f][..] {
-            [] => (Vec::new(), turns.first()?.before, turns.first()?.before),
-            [run] => (run.corners.clone(), run.before, run.after),
-            _ => return None,
-        };
-        let mut steps = 0;
-        let has_run = !corners.is_empty();
-        while at != start || steps == 0 && (!has_run || !turns.is_empty()) {
-            let turn = turns.iter().find(|turn| turn.before == at)?;
-            corners.push(turn.corner);
-            at = turn.after;
+        let (turns, runs) = (&self.turns[f], &self.runs[f]);
+        if runs.iter().filter(|run| run.is_outer).count() > 1 {
+            return None;
+        }
+        if let ([run], true) = (&runs[..], turns.is_empty()) {
+            // What it borders on beside the rim, if anything, is one other region.
+            return (run.before == run.after).then(|| run.corners.clone());
+        }
+        let start = runs.first().map(|run| run.before).or(turns.first().map(|t| t.before))?;
+        let (mut corners, mut at, mut steps) = (Vec::new(), start, 0);
+        while steps == 0 || at != start {
+            if let Some(run) = runs.iter().find(|run| run.before == at) {
+                corners.extend(&run.corners);
+                at = run.after;
+            } else {
+                let turn = turns.iter().find(|turn| turn.before == at)?;
+                corners.push(turn.corner);
+                at = turn.after;
+            }
             steps += 1;
             if steps > MOST_CORNERS {
                 return None;
             }
         }
-        (steps == turns.len()).then_some(corners)
+        (steps == turns.len() + runs.len()).then_some(corners)
+    }
+}
+
+impl Panels {
+    /// Leaves out corners on creases at which no three panels meet. Where a crease turns at one, the
+    /// nearest corner on the crease takes its place.
+    fn join_at_creases(&mut self, creases: &Creases) {
+        for face in &mut self.faces {
+            face.dedup();
+            if face.len() > 1 && face.first() == face.last() {
+                face.pop();
+            }
+        }
+        let mut fans = self.fans();
+        fans.iter_mut().for_each(|fan| fan.dedup());
+        let kinds = self.kinds.clone();
+        let few = |v: usize, kind: Kind, least: usize| {
+            kinds[v] == kind && (1..least).contains(&fans[v].len())
+        };
+        let count = self.points.len();
+        let mut left_out: Vec<bool> = (0..count).map(|v| few(v, Kind::Crease, 3)).collect();
+        for v in 0..count {
+            let hint = self.hints[v];
+            if !few(v, Kind::Kept, 3) || creases.outer.get(hint) == Some(&true) {
+                left_out[v] |= few(v, Kind::Kept, 2) && !creases.turns[hint];
+                continue;
+            }
+            left_out[v] = true;
+            if let (2, Some(u)) = (fans[v].len(), self.next_on_crease(v, &fans[v], &left_out)) {
+                (self.points[u], self.kinds[u]) = (self.points[v], Kind::Kept);
+                self.hints[u] = hint;
+            }
+        }
+        for face in &mut self.faces {
+            face.retain(|&v| !left_out[v]);
+        }
+    }
+
+    /// The nearest corner beside another one along a crease.
+    fn next_on_crease(&self, v: usize, fan: &[usize], left_out: &[bool]) -> Option<usize> {
+        let beside = |&f: &usize| {
+            let face = &self.faces[f];
+            let i = face.iter().position(|&c| c == v)?;
+            Some([face[(i + 1) % face.len()], face[(i + face.len() - 1) % face.len()]])
+        };
+        let near = fan.iter().filter_map(beside).flatten();
+        let distance = |u: usize| self.points[u].distance_squared(self.points[v]);
+        near.filter(|&u| self.kinds[u] == Kind::Crease && !left_out[u])
+            .min_by(|&a, &b| distance(a).total_cmp(&distance(b)).then(a.cmp(&b)))
+    }
+
+    /// Faces that share more than one edge with another one: the one with fewer corners of each
+    /// pair.
+    fn share_two_edges(&self) -> Vec<usize> {
+        let mut sides: Vec<([usize; 2], usize)> = Vec::new();
+        for (f, face) in self.faces.iter().enumerate() {
+            let side = |i: usize| (edge(face[i], face[(i + 1) % face.len()]), f);
+            sides.extend((0..face.len()).map(side));
+        }
+        sides.sort_unstable();
+        let mut pairs: Vec<[usize; 2]> = sides
+            .windows(2)
+            .filter(|pair| pair[0].0 == pair[1].0)
+            .map(|pair| [pair[0].1, pair[1].1])
+            .collect();
+        pairs.sort_unstable();
+        let twice = pairs.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0]);
+        twice.map(|[a, b]| if self.faces[a].len() < self.faces[b].len() { a } else { b }).collect()
     }
 }

@@ -4,18 +4,20 @@ use glam::DVec3;
 
 use super::curvature::Quadric;
 use super::prove::node_reach;
-use super::regions::Kind;
-use super::{EXACT, Model, PanelizeFinding, PanelizeParams, Solved};
+use super::{ALIKE, EXACT, Model, PanelizeFinding, PanelizeParams, Solved};
 use crate::check::short;
 use crate::code::Coded;
 
 /// Panels that leave the surface by more than this share of their size do so because it bends too
 /// much for them; a sag of as much is the most that goes well.
 const MOST_OFF: f64 = 0.2;
-/// Plates may reach so many thicknesses from their node.
-const FARTHEST_NODE: f64 = 1.5;
+/// Creases that are kept may be so far from the edges of panels, in panel sizes.
+pub(super) const CREASE_OFF: f64 = 0.1;
 /// The sag counts where it is largest but for this share of the surface.
 const SHARE: f64 = 0.99;
+/// Panels may be so much more or fewer than were asked for, or so many.
+const MOST_OTHER: f64 = 0.1;
+const FEW_OTHER: f64 = 5.0;
 /// So many places of one kind are named.
 const NAMED: usize = 6;
 
@@ -42,10 +44,16 @@ pub struct PanelizeReport {
     pub panels: usize,
     /// How many there should be for the size.
     pub wanted: f64,
+    /// How many were asked for, where the size came from that.
+    pub asked: Option<u32>,
     /// The largest and the 95th percentile of the distance of a panel from the surface.
     pub deviation_mm: [f64; 2],
     /// By how much a flat panel leaves the surface where it bends most.
     pub sag_mm: f64,
+    /// How far the surface that was used lies from the one that was given, at most and for 95 % of
+    /// its vertices, and the share of them that would have gone farther than was allowed; `None`
+    /// unless it was made even.
+    pub smoothed_mm: Option<[f64; 3]>,
     /// The shortest edge.
     pub shortest_mm: f64,
     /// The smallest and the largest angle.
@@ -60,10 +68,33 @@ pub struct PanelizeReport {
     pub node_reach: f64,
     /// The largest distance of a corner from its planes.
     pub planarity_mm: f64,
+    /// How many panels differ by more than a thousandth of the panel size in a side or a diagonal;
+    /// mirror images are alike.
+    pub panel_kinds: usize,
+    /// How many edges differ by more in length, and how many edges there are.
+    pub edge_kinds: [usize; 2],
+    /// How many rings there are, caps among them; 0 for other layouts.
+    pub rings: usize,
+    /// What became of edges of the surface that fold by more than `crease`, or 40 degrees.
+    pub creases: CreaseReport,
     /// What is wrong, by kind, the worst first.
     pub findings: Vec<Place>,
     /// Whether the work was stopped.
     pub was_stopped: bool,
+}
+
+/// What became of the edges of the surface that fold.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CreaseReport {
+    /// How many edges of the surface fold by more than the limit.
+    pub edges: usize,
+    /// The largest fold.
+    pub largest_fold: f64,
+    /// Whether they were to be kept.
+    pub is_kept: bool,
+    /// The largest distance of a place on them from the edges of panels if they were to be kept,
+    /// else from the panels.
+    pub off_mm: f64,
 }
 
 impl PanelizeReport {
@@ -79,8 +110,10 @@ impl PanelizeReport {
             size_mm: size,
             panels: m.len(),
             wanted: model.surface.area() / super::sites::PANEL_AREA,
+            asked: params.count,
             deviation_mm: [1.0, 0.95].map(|share| percentile(&deviations, share) * size),
             sag_mm: sag(&model.quadrics) * size,
+            smoothed_mm: model.moved.map(|m| [m.distance[0] * size, m.distance[1] * size, m.held]),
             shortest_mm: least(&|f| m[f].shortest) * size,
             angles: [least(&|f| m[f].least_angle), most(&|f| m[f].largest_angle)],
             areas: [least(&|f| m[f].area), most(&|f| m[f].area)],
@@ -88,6 +121,15 @@ impl PanelizeReport {
             concave: m.iter().filter(|m| m.concave > 0).count(),
             node_reach: reaches(solved).map(|(_, reach)| reach).fold(0.0, f64::max),
             planarity_mm: solved.lack * size,
+            panel_kinds: solved.kinds.panels,
+            edge_kinds: [solved.kinds.edges, solved.kinds.all_edges],
+            rings: solved.rings.iter().max().map_or(0, |last| last + 1),
+            creases: CreaseReport {
+                edges: model.folds.len(),
+                largest_fold: model.folds.iter().map(|f| f.angle).fold(0.0, f64::max).to_degrees(),
+                is_kept: model.keeps_creases,
+                off_mm: solved.off_folds.iter().map(|(off, _)| *off).fold(0.0, f64::max) * size,
+            },
             findings: Vec::new(),
             was_stopped: solved.was_stopped,
         };
@@ -97,17 +139,33 @@ impl PanelizeReport {
 
     /// Whether everything is as it should be.
     pub fn is_clean(&self) -> bool {
-        self.findings.is_empty() && !self.was_stopped
+        self.findings.is_empty() && !self.was_stopped && self.other_count().is_none()
+    }
+
+    /// The number that was asked for, where the panels are more than a tenth, and more than five, off it.
+    fn other_count(&self) -> Option<u32> {
+        let off = |asked: u32| (self.panels as f64 - f64::from(asked)).abs();
+        self.asked.filter(|&asked| off(asked) > (MOST_OTHER * f64::from(asked)).max(FEW_OTHER))
     }
 
     /// What the user should know, in words.
     pub fn notes(&self) -> Vec<String> {
-        let mut notes = vec![self.summary(), self.shape()];
+        let mut notes = vec![self.summary(), self.shape(), self.repeats()];
+        notes.extend(self.creases.note());
+        notes.extend(self.smoothed_mm.map(smoothing));
         let mut rest = &self.findings[..];
         while let Some(first) = rest.first() {
             let count = rest.iter().take_while(|place| place.finding == first.finding).count();
             notes.push(self.told(&rest[..count]));
             rest = &rest[count..];
+        }
+        if let Some(asked) = self.other_count() {
+            notes.push(format!(
+                "{} panels, where {asked} were asked for: parts of the surface are thinner than a \
+                panel; ask for more, or give --size ({})",
+                self.panels,
+                PanelizeFinding::OtherCount.code()
+            ));
         }
         if self.was_stopped {
             notes.push(format!(
@@ -150,6 +208,21 @@ impl PanelizeReport {
         )
     }
 
+    /// How often panels and edges repeat, in words.
+    fn repeats(&self) -> String {
+        let [edges, all] = self.edge_kinds;
+        let rings = match self.rings {
+            0 => String::new(),
+            rings => format!(" in {rings} rings, caps among them"),
+        };
+        format!(
+            "within {} mm there are {} different panels{rings} (mirror images count as one) and \
+            {edges} different lengths of {all} edges",
+            short(self.size_mm * ALIKE),
+            self.panel_kinds,
+        )
+    }
+
     /// Places with one finding, in words.
     fn told(&self, places: &[Place]) -> String {
         let kind = places[0].finding;
@@ -165,9 +238,9 @@ impl PanelizeReport {
                 ("panels that are not planar up to rounding", "take a smaller size or another seed")
             }
             PanelizeFinding::TooCurved => (
-                "panels that leave the surface by more than a fifth of their size, since it bends \
-                too much for it",
-                "take a smaller size",
+                "panels that leave the surface by more than is allowed, since it bends too much for \
+                their size",
+                "take a smaller size, or allow more (--max-off)",
             ),
             PanelizeFinding::ShortEdge => {
                 ("panels with a shorter edge than allowed", "take another seed or a smaller size")
@@ -180,16 +253,26 @@ impl PanelizeReport {
             }
             PanelizeFinding::FarNode => (
                 "vertices that plates reach from far",
-                "bend the surface more there, or take another seed",
+                "bend the surface more there, take another seed, or allow more (--max-reach)",
             ),
-            PanelizeFinding::Stopped => ("panels that are not finished", "run it to the end"),
+            PanelizeFinding::CreaseLost => (
+                "panels that a crease runs through, farther from all edges than a tenth of their \
+                size",
+                "take a smaller size or another seed",
+            ),
+            PanelizeFinding::FullNode => (
+                "vertices with more than three members, since so many creases meet there",
+                "cut the corner off in the model, or keep fewer creases with a larger `--crease`",
+            ),
+            PanelizeFinding::UnevenRing => (
+                "rings of which the panels are not congruent, by their first panels",
+                "take another size, or `--layout free`",
+            ),
+            PanelizeFinding::Stopped | PanelizeFinding::OtherCount => {
+                ("panels that are not finished", "run it to the end")
+            }
         };
-        let unit = match kind {
-            PanelizeFinding::SharpAngle => "°",
-            PanelizeFinding::FarNode => " thicknesses",
-            PanelizeFinding::Crosses | PanelizeFinding::GoesThrough => "",
-            _ => " mm",
-        };
+        let unit = unit_of(kind);
         let name = |place: &Place| {
             let measured = if unit.is_empty() {
                 String::new()
@@ -217,6 +300,54 @@ impl PanelizeReport {
     }
 }
 
+/// What is measured where a panel has this finding; nothing where nothing is.
+fn unit_of(kind: PanelizeFinding) -> &'static str {
+    match kind {
+        PanelizeFinding::SharpAngle => "°",
+        PanelizeFinding::FarNode => " thicknesses",
+        PanelizeFinding::FullNode => " panels",
+        PanelizeFinding::UnevenRing => " kinds",
+        PanelizeFinding::Crosses | PanelizeFinding::GoesThrough => "",
+        _ => " mm",
+    }
+}
+
+impl CreaseReport {
+    /// What became of them, in words; nothing without any.
+    fn note(&self) -> Option<String> {
+        let Self { edges, largest_fold, .. } = self;
+        let off = short(self.off_mm);
+        match (edges, self.is_kept) {
+            (0, true) => Some("the surface has no crease to be kept: no edge folds so far".into()),
+            (0, false) => None,
+            (_, true) => Some(format!(
+                "creases kept: {edges} edges of the surface, folds up to {largest_fold:.0}°; edges \
+                of panels follow them within {off} mm"
+            )),
+            (_, false) => Some(format!(
+                "creases rounded: {edges} edges of the surface fold by more than 40°, up to \
+                {largest_fold:.0}°, and lie up to {off} mm off the panels; keep them with `--crease \
+                40deg`"
+            )),
+        }
+    }
+}
+
+/// How far the surface was made even, in words.
+fn smoothing([most, usual, held]: [f64; 3]) -> String {
+    let told = format!(
+        "the surface was made even: it lies within {} mm of the one that was given, and within {} \
+        mm for 95 % of it; panels are measured from the even one",
+        short(most),
+        short(usual)
+    );
+    if held > 0.0 {
+        let share = (held * 100.0).max(0.1);
+        return format!("{told}; {share:.1} % of it would have moved farther than --smooth allows");
+    }
+    told
+}
+
 /// Everything that is wrong, by kind, the worst first.
 fn findings(model: &Model, solved: &Solved, params: &PanelizeParams) -> Vec<Place> {
     let m = &solved.measured;
@@ -241,8 +372,9 @@ fn findings(model: &Model, solved: &Solved, params: &PanelizeParams) -> Vec<Plac
         };
         all.extend(faces(PanelizeFinding::NotPlanar, &|f| (off(f) > EXACT).then(|| off(f) * size)));
     }
+    let most_off = params.max_off.map_or(MOST_OFF, |off| off.mm() / size);
     all.extend(faces(PanelizeFinding::TooCurved, &|f| {
-        (m[f].deviation > MOST_OFF).then(|| m[f].deviation * size)
+        (m[f].deviation > most_off).then(|| m[f].deviation * size)
     }));
     let mut short_edges = faces(PanelizeFinding::ShortEdge, &|f| {
         (m[f].shortest < params.min_edge / 2.0).then(|| m[f].shortest * size)
@@ -260,7 +392,10 @@ fn findings(model: &Model, solved: &Solved, params: &PanelizeParams) -> Vec<Plac
             (!fits(m[f].extent.map(|x| x * size), sheet.0)).then(|| m[f].diameter * size)
         }));
     }
-    all.extend(far_nodes(model, solved));
+    all.extend(far_nodes(model, solved, params.max_reach));
+    all.extend(lost_creases(model, solved));
+    all.extend(full_nodes(model, solved));
+    all.extend(uneven_rings(model, solved));
     all
 }
 
@@ -270,8 +405,72 @@ fn fits(panel: [f64; 2], sheet: [f64; 2]) -> bool {
     panel[0] <= sheet[1] && panel[1] <= sheet[0]
 }
 
-pub(super) fn far_nodes(model: &Model, solved: &Solved) -> Vec<Place> {
-    let far = reaches(solved).filter(|&(_, reach)| reach > FARTHEST_NODE);
+/// Edges of creases to be kept that no edges of panels follow.
+fn lost_creases(model: &Model, solved: &Solved) -> Vec<Place> {
+    let folds = model.folds.iter().zip(&solved.off_folds);
+    let lost = folds.filter(|(_, (off, _))| model.keeps_creases && *off > CREASE_OFF);
+    let mut found: Vec<Place> = lost
+        .map(|(fold, &(off, panel))| Place {
+            finding: PanelizeFinding::CreaseLost,
+            element: panel,
+            measured: off * model.size,
+            place: fold.places[0].midpoint(fold.places[1]),
+        })
+        .collect();
+    found.sort_by(|a, b| b.measured.total_cmp(&a.measured).then(a.element.cmp(&b.element)));
+    found
+}
+
+/// Vertices at which more than three panels meet: there more than three creases do.
+fn full_nodes(model: &Model, solved: &Solved) -> Vec<Place> {
+    let fans = solved.state.fans.iter().enumerate();
+    fans.filter(|(_, fan)| fan.len() > 3)
+        .map(|(v, fan)| Place {
+            finding: PanelizeFinding::FullNode,
+            element: v,
+            measured: fan.len() as f64,
+            place: model.place(solved.state.panels.points[v]),
+        })
+        .collect()
+}
+
+/// Rings with panels of more kinds than they should have: one, or two where the ring beside has half
+/// as many panels.
+fn uneven_rings(model: &Model, solved: &Solved) -> Vec<Place> {
+    let count = solved.rings.iter().max().map_or(0, |last| last + 1);
+    let mut panels = vec![Vec::new(); count];
+    solved.rings.iter().enumerate().for_each(|(f, &ring)| panels[ring].push(f));
+    let halves = |ring: usize| {
+        let beside = [ring.checked_sub(1), Some(ring + 1)];
+        let mut beside = beside.into_iter().flatten().filter_map(|r| panels.get(r));
+        beside.any(|other| 2 * other.len() == panels[ring].len())
+    };
+    let mut found = Vec::new();
+    for (ring, own) in panels.iter().enumerate() {
+        let mut kinds: Vec<usize> = own.iter().map(|&f| solved.kinds.of_panel[f]).collect();
+        kinds.sort_unstable();
+        kinds.dedup();
+        if kinds.len() > if halves(ring) { 2 } else { 1 } {
+            let (finding, element) = (PanelizeFinding::UnevenRing, own[0]);
+            let place = model.place(solved.state.panels.centre(element));
+            found.push(Place { finding, element, measured: kinds.len() as f64, place });
+        }
+    }
+    found
+}
+
+pub(super) fn far_nodes(model: &Model, solved: &Solved, most: f64) -> Vec<Place> {
+    // On a crease plates cannot but reach as far as the mitre of two of them.
+    let needed = |v: usize| {
+        let state = &solved.state;
+        if !state.panels.kinds[v].is_on_crease() {
+            return 1.0;
+        }
+        let normals: Vec<DVec3> = state.fans[v].iter().map(|&f| state.planes[f].normal).collect();
+        let pairs = (0..normals.len()).flat_map(|i| (0..i).map(move |j| [i, j]));
+        pairs.map(|[i, j]| 2.0 / (normals[i] + normals[j]).length()).fold(1.0, f64::max)
+    };
+    let far = reaches(solved).filter(|&(v, reach)| reach > most * needed(v));
     let mut found: Vec<Place> = far
         .map(|(v, measured)| Place {
             finding: PanelizeFinding::FarNode,
@@ -287,7 +486,7 @@ pub(super) fn far_nodes(model: &Model, solved: &Solved) -> Vec<Place> {
 /// The reach of every inner node.
 fn reaches(solved: &Solved) -> impl Iterator<Item = (usize, f64)> + '_ {
     let state = &solved.state;
-    let inner = (0..state.panels.points.len()).filter(|&v| state.panels.kinds[v] == Kind::Inner);
+    let inner = (0..state.panels.points.len()).filter(|&v| state.fans[v].len() == 3);
     inner.filter_map(|v| {
         let &[a, b, c] = &state.fans[v][..] else { return None };
         Some((v, node_reach([a, b, c].map(|f| state.planes[f].normal))))

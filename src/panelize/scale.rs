@@ -50,7 +50,7 @@ fn solve(surface: &Surface, quadrics: &[Quadric], field: &RowField) -> Option<Ve
         .iter()
         .map(|t| t.to_vec())
         .chain((0..surface.points.len()).map(|v| vec![v]));
-    let fronts = Fronts::new(&surface.points, cliques.collect(), 1);
+    let mut fronts = Fronts::new(&surface.points, cliques.collect(), 1);
     let mut matrix = fronts.zeros();
     let mut right = vec![0.0; surface.points.len()];
     for (k, &t) in surface.triangles.iter().enumerate() {
@@ -68,6 +68,7 @@ fn solve(surface: &Surface, quadrics: &[Quadric], field: &RowField) -> Option<Ve
     for (v, area) in surface.areas.iter().enumerate() {
         fronts.add(&mut matrix, surface.triangles.len() + v, &[area * 1e-4]);
     }
+    fronts.forget_cliques();
     Some(fronts.factor(matrix, 1e-12)?.solve(&right))
 }
 

@@ -114,6 +114,7 @@ fn thinned(ground: Ground<'_>, candidates: &[usize]) -> Vec<usize> {
             let u = kept[k as usize];
             surface.points[u].distance(place) >= TOO_NEAR * sizes[u]
                 || surface.normals[u].dot(surface.normals[v]) <= 0.0
+                || surface.creases.are_apart(u, v)
         });
         if is_free {
             grid.insert(place.to_array());

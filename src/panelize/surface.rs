@@ -1,5 +1,7 @@
 //! The given surface as a fine triangle mesh, in units of the panel size.
 
+use std::collections::BTreeSet;
+
 use glam::{DVec2, DVec3};
 
 use super::refine::Triangles;
@@ -9,7 +11,7 @@ use crate::mesh::Mesh;
 /// Edges are at most so long, in panel sizes.
 pub(super) const SPACING: f64 = 1.0 / 6.0;
 /// The rim has a corner where it turns by more, in degrees.
-const CORNER_TURN: f64 = 40.0;
+pub(super) const CORNER_TURN: f64 = 40.0;
 /// More triangles are refused before they are made.
 pub(super) const MOST_TRIANGLES: usize = 3_000_000;
 /// No vertex.
@@ -33,6 +35,56 @@ pub(super) struct Surface {
     pub rim_before: Vec<usize>,
     /// Vertices at which the rim turns sharply.
     pub is_corner: Vec<bool>,
+    /// Where it was cut open along creases.
+    pub creases: Creases,
+}
+
+/// What is known of creases, by the vertices of the surface that was cut open along them; all lists
+/// are empty when there are none.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Creases {
+    /// A number that both sides of a vertex on a crease share; [`NONE`] for others.
+    pub names: Vec<usize>,
+    /// Of each vertex from which the rim runs along a crease: where the same edge begins on the
+    /// other side; [`NONE`] for others.
+    pub across: Vec<usize>,
+    /// Vertices past which corners do not slide.
+    pub stops: Vec<bool>,
+    /// Vertices that stay corners of panels.
+    pub kept: Vec<bool>,
+    /// Whether vertices on creases lie on the outer rim, too.
+    pub outer: Vec<bool>,
+    /// Whether the outer rim turns sharply there.
+    pub turns: Vec<bool>,
+    /// The planes that hold corners on the edge that begins at a vertex.
+    pub held: Vec<[Held; 2]>,
+    /// The connected part that each vertex belongs to.
+    pub parts: Vec<usize>,
+}
+
+/// A plane through an edge of a crease.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Held {
+    pub normal: DVec3,
+    /// Whether corners lie in it exactly.
+    pub is_hard: bool,
+}
+
+impl Creases {
+    /// Whether the rim that begins at a vertex runs along a crease.
+    pub(super) fn has_edge(&self, v: usize) -> bool {
+        self.across.get(v).is_some_and(|&other| other != NONE)
+    }
+
+    /// The number that all sides of a vertex on a crease share.
+    pub(super) fn name(&self, v: usize) -> Option<usize> {
+        self.names.get(v).copied().filter(|&name| name != NONE)
+    }
+
+    /// Whether two vertices are known to lie on parts that do not hang together.
+    pub(super) fn are_apart(&self, u: usize, v: usize) -> bool {
+        self.parts.get(u) != self.parts.get(v)
+    }
 }
 
 /// For each vertex a list of others.
@@ -86,7 +138,7 @@ pub(super) fn triangles_of(mesh: &Mesh) -> Triangles {
         let face: Vec<usize> = mesh.face_vertices(f).map(|v| number[v.index()]).collect();
         corners.extend(divide(&mesh.face_positions(f)).into_iter().map(|t| t.map(|i| face[i])));
     }
-    Triangles { points, corners }
+    Triangles { points, corners, creases: BTreeSet::new() }
 }
 
 /// The triangles of one polygon.
@@ -105,7 +157,7 @@ fn divide(corners: &[DVec3]) -> Vec<[usize; 3]> {
 impl Surface {
     /// The surface of triangles that are fine enough; vertices without a triangle are left out.
     pub(super) fn new(triangles: Triangles) -> Self {
-        let Triangles { points, corners: triangles } = compacted(triangles);
+        let Triangles { points, corners: triangles, .. } = compacted(triangles);
         let count = points.len();
         let mut sides: Vec<[usize; 2]> =
             triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
@@ -141,6 +193,7 @@ impl Surface {
             rim_next,
             rim_before,
             is_corner,
+            creases: Creases::default(),
         };
         made.is_corner = (0..count).map(|v| made.turns_at(v)).collect();
         made
@@ -224,5 +277,5 @@ fn compacted(triangles: Triangles) -> Triangles {
         }
     }
     let corners = triangles.corners.iter().map(|t| t.map(|i| number[i])).collect();
-    Triangles { points, corners }
+    Triangles { points, corners, creases: BTreeSet::new() }
 }

@@ -97,7 +97,7 @@ fn a_count_and_a_sag_give_a_size() {
 
 #[test]
 fn what_is_wrong_is_told_with_its_place() {
-    let mesh = roof(4000.0, 3000.0, 250.0, |x, _| -2.0 * x.abs());
+    let mesh = roof(4000.0, 3000.0, 250.0, |x, y| -(x * x + y * y) / 700.0);
     let (_, report) = panelize(&mesh, &sized(1200.0), &Silent).expect("panels");
     assert!(!report.is_clean());
     let told = report.notes().concat();
@@ -129,4 +129,183 @@ fn rims_are_read_as_they_are_written() {
     for text in ["", "wall", "plane:", "plane:w=0", "plane:z=a"] {
         assert!(text.parse::<RimChoice>().is_err(), "{text}");
     }
+}
+
+fn with_crease(mm: f64) -> PanelizeParams {
+    PanelizeParams { crease: Some(crate::units::Angle::from_degrees(40.0)), ..sized(mm) }
+}
+
+#[test]
+fn a_straight_crease_between_flat_sides_is_kept_to_the_last_digit() {
+    let mesh = roof(4000.0, 3000.0, 250.0, |x, _| -0.7 * x.abs());
+    let (made, report) = panelize(&mesh, &with_crease(1000.0), &Silent).expect("panels");
+    assert_sound(&made);
+    assert!(report.is_clean(), "{:?}", report.notes());
+    assert_eq!(report.creases.edges, 12);
+    assert!((report.creases.largest_fold - 2.0 * 0.7_f64.atan().to_degrees()).abs() < 1e-9);
+    assert!(report.creases.is_kept && report.creases.off_mm < 1e-9, "{:?}", report.creases);
+    let on_ridge = made.vertices().filter(|&v| made.position(v).x.abs() < 1e-9).count();
+    assert!(on_ridge >= 5, "corners from both sides, and two at the rim: {on_ridge}");
+    for f in made.faces() {
+        let corners = made.face_positions(f);
+        let goes = |sign: f64| corners.iter().any(|p| p.x * sign > 1e-9);
+        assert!(goes(1.0) != goes(-1.0), "panel {f} lies on both sides of the ridge");
+        assert!(corners.iter().all(|p| (p.z + 0.7 * p.x.abs()).abs() < 0.1), "{corners:?}");
+    }
+    for v in made.vertices().filter(|&v| !made.is_rim_vertex(v)) {
+        assert_eq!(made.valence(v), 3, "vertex {v}");
+    }
+}
+
+#[test]
+fn a_crease_of_bent_sides_is_followed_and_without_the_option_said_to_be_rounded() {
+    let mesh =
+        roof(4000.0, 3000.0, 250.0, |x, y| -x.abs() * (0.6 + y / 30_000.0) - y * y / 20_000.0);
+    let (made, report) = panelize(&mesh, &with_crease(900.0), &Silent).expect("panels");
+    assert_good(&made, &report);
+    assert!(report.creases.is_kept && report.creases.off_mm < 45.0, "{:?}", report.creases);
+    let (_, rounded) = panelize(&mesh, &sized(900.0), &Silent).expect("panels");
+    assert!(!rounded.creases.is_kept && rounded.creases.edges == 12);
+    assert!(rounded.creases.off_mm > 2.0 * report.creases.off_mm, "{:?}", rounded.creases);
+    let told = rounded.notes().concat();
+    assert!(told.contains("creases rounded: 12 edges") && told.contains("--crease"), "{told}");
+}
+
+#[test]
+fn a_cube_keeps_its_corners_and_the_top_of_a_pyramid_has_a_member_too_many() {
+    let at = |i: usize| [1, 2, 4].map(|bit| if i & bit == 0 { -750.0 } else { 750.0 });
+    let faces =
+        [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [1, 3, 7, 5], [3, 2, 6, 7], [2, 0, 4, 6]];
+    let cube = Mesh::from_faces((0..8).map(|i| DVec3::from_array(at(i))), faces).expect("a cube");
+    let (made, report) = panelize(&cube, &with_crease(700.0), &Silent).expect("panels");
+    assert_sound(&made);
+    assert!(made.is_closed() && report.creases.off_mm < 1e-9, "{:?}", report.notes());
+    let is_corner = |p: DVec3| (p.abs() - DVec3::splat(750.0)).length() < 1e-9;
+    assert_eq!(made.vertices().filter(|&v| is_corner(made.position(v))).count(), 8);
+    assert!(made.vertices().all(|v| made.valence(v) == 3));
+    let points =
+        [(-1.5, -1.5, 0.0), (1.5, -1.5, 0.0), (1.5, 1.5, 0.0), (-1.5, 1.5, 0.0), (0.0, 0.0, 1.3)];
+    let points = points.map(|(x, y, z)| 1000.0 * DVec3::new(x, y, z));
+    let faces = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]];
+    let pyramid = Mesh::from_faces(points, faces).expect("a pyramid");
+    let (_, report) = panelize(&pyramid, &with_crease(800.0), &Silent).expect("panels");
+    let full = report.findings.iter().filter(|p| p.finding == PanelizeFinding::FullNode);
+    assert_eq!(full.map(|p| p.measured).collect::<Vec<_>>(), [4.0], "{:?}", report.notes());
+    let error = panelize(
+        &pyramid,
+        &PanelizeParams { crease: Some(crate::units::Angle::from_degrees(1.0)), ..sized(800.0) },
+        &Silent,
+    );
+    assert!(matches!(error, Err(PanelizeError::OutOfRange { .. })));
+}
+
+/// A surface of revolution about an upright axis through a place, by radius and height in mm; a
+/// radius of 0 is a point on the axis.
+fn turned(curve: &[(f64, f64)], columns: usize, axis: DVec3) -> Mesh {
+    let mut points = Vec::new();
+    let rows: Vec<Vec<usize>> = curve
+        .iter()
+        .map(|&(radius, height)| {
+            let first = points.len();
+            let count = if radius == 0.0 { 1 } else { columns };
+            points.extend((0..count).map(|i| {
+                let angle = std::f64::consts::TAU * i as f64 / columns as f64;
+                axis + DVec3::new(radius * angle.cos(), radius * angle.sin(), height)
+            }));
+            (0..columns).map(|i| first + i % count).collect()
+        })
+        .collect();
+    let mut faces = Vec::new();
+    for pair in rows.windows(2) {
+        for i in 0..columns {
+            let j = (i + 1) % columns;
+            let mut face = vec![pair[0][i], pair[0][j], pair[1][j], pair[1][i]];
+            face.dedup();
+            if face.first() == face.last() {
+                face.pop();
+            }
+            faces.push(face);
+        }
+    }
+    Mesh::from_faces(points, faces).expect("a surface of revolution")
+}
+
+fn in_rings(mm: f64, axis: usize) -> PanelizeParams {
+    PanelizeParams { layout: LayoutChoice::Rings(axis), ..sized(mm) }
+}
+
+/// The number of different panels, by all distances between their corners.
+fn kinds_of(made: &Mesh, tolerance: f64) -> usize {
+    let mut firsts: Vec<Vec<f64>> = Vec::new();
+    for f in made.faces() {
+        let p = made.face_positions(f);
+        let pairs = (0..p.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+        let mut distances: Vec<f64> = pairs.map(|(i, j)| p[i].distance(p[j])).collect();
+        distances.sort_by(f64::total_cmp);
+        let is_like = |other: &&Vec<f64>| {
+            let mut both = distances.iter().zip(other.iter());
+            other.len() == distances.len() && both.all(|(a, b)| (a - b).abs() < tolerance)
+        };
+        if !firsts.iter().any(|first| is_like(&first)) {
+            firsts.push(distances);
+        }
+    }
+    firsts.len()
+}
+
+#[test]
+fn rings_of_a_tower_and_of_a_dome_have_one_kind_of_panel_each() {
+    // A waist, about an axis that is not in the middle of any box.
+    let tower: Vec<(f64, f64)> = (0..=24)
+        .map(|k| f64::from(k) * 125.0)
+        .map(|z| (1800.0 + (z - 1800.0) * (z - 1800.0) / 9000.0, z))
+        .collect();
+    let dome: Vec<(f64, f64)> = (0..=20)
+        .map(|k| f64::from(k) / 20.0)
+        .map(|t| (2600.0 * (1.1 * (1.0 - t)).sin(), 2600.0 * (1.1 * (1.0 - t)).cos()))
+        .collect();
+    for (curve, mm) in [(tower, 900.0), (dome, 800.0)] {
+        let mesh = turned(&curve, 60, DVec3::new(700.0, -400.0, 100.0));
+        let (made, report) = panelize(&mesh, &in_rings(mm, 2), &Silent).expect("rings");
+        assert_good(&made, &report);
+        let kinds = kinds_of(&made, 1e-6);
+        assert!(report.rings > 2 && kinds <= report.rings + 2, "{kinds}: {report:?}");
+        assert!(report.panel_kinds <= kinds, "{kinds}: {report:?}");
+        assert!(report.deviation_mm[0] < 0.08 * mm, "{report:?}");
+    }
+}
+
+#[test]
+fn what_does_not_turn_about_an_axis_is_refused() {
+    let wave = roof(4000.0, 3000.0, 250.0, |x, y| (x * y) / 9_000.0);
+    let error = panelize(&wave, &in_rings(900.0, 2), &Silent).expect_err("a saddle");
+    assert!(matches!(error, PanelizeError::NotRound { axis: "z", .. }), "{error}");
+    let tube: Vec<(f64, f64)> = (0..=10).map(|k| (1500.0, f64::from(k) * 300.0)).collect();
+    let tube = turned(&tube, 40, DVec3::ZERO);
+    let error = panelize(&tube, &in_rings(900.0, 0), &Silent).expect_err("the wrong axis");
+    let is_refused = matches!(error, PanelizeError::NoTurn { .. } | PanelizeError::NotRound { .. });
+    assert!(is_refused, "{error}");
+    let half = tube.faces().filter(|&f| tube.face_positions(f).iter().all(|p| p.x > -1.0));
+    let half = Mesh::from_faces(
+        tube.vertices().map(|v| tube.position(v)),
+        half.map(|f| tube.face_vertices(f).map(|v| v.index()).collect::<Vec<_>>())
+            .collect::<Vec<_>>(),
+    );
+    let error = panelize(&half.expect("half"), &in_rings(700.0, 2), &Silent).expect_err("a half");
+    assert!(matches!(error, PanelizeError::NoTurn { count: 0, .. }), "{error}");
+    let both = PanelizeParams { crease: with_crease(1.0).crease, ..in_rings(900.0, 2) };
+    let error = panelize(&tube, &both, &Silent).expect_err("two options");
+    assert!(matches!(error, PanelizeError::Together { .. }), "{error}");
+    for text in ["free", "rings:axis=x", "rings:axis=z"] {
+        assert_eq!(text.parse::<LayoutChoice>().expect(text).to_string(), text);
+    }
+    assert!("rings:axis=w".parse::<LayoutChoice>().is_err());
+}
+
+#[test]
+fn rows_follow_what_is_written() {
+    for text in ["flat", "rim", "none", "a/rows.obj"] {
+        assert_eq!(text.parse::<Align>().expect(text).to_string(), text);
+    }
+    assert!("rows.txt".parse::<Align>().is_err() && "".parse::<Align>().is_err());
 }

@@ -6,7 +6,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::marks::{Owner, Tag};
+use super::marks::{Owner, Rank, Tag};
 use super::paint::{self, Light};
 use super::scene::{Dot, Facet, Ink, Line, Scene, touches};
 use crate::mesh::{FaceId, Mesh};
@@ -53,6 +53,8 @@ pub(super) struct Band<'a> {
     facets: Vec<u32>,
     /// How many facets lie over a sample, for x-rays; else empty.
     layers: Vec<u8>,
+    /// What is pointed out most and nearest at a sample, for x-rays; else empty.
+    marked: Vec<u32>,
 }
 
 impl<'a> Band<'a> {
@@ -63,8 +65,10 @@ impl<'a> Band<'a> {
         let samples = width * SAMPLES * (rows.len() + 2 * halo) * SAMPLES;
         let depths = vec![f32::NEG_INFINITY; samples];
         let layers = vec![0; if scene.is_x_ray { samples } else { 0 }];
+        let has_marks = scene.is_x_ray && scene.facets.iter().any(|f| f.rank > Rank::Plain);
+        let marked = vec![NONE; if has_marks { samples } else { 0 }];
         let facets = vec![NONE; samples];
-        let mut band = Self { scene, width, rows, halo, depths, facets, layers };
+        let mut band = Self { scene, width, rows, halo, depths, facets, layers, marked };
         let mut crossings = Vec::new();
         for (i, facet) in scene.facets.iter().enumerate() {
             band.fill(facet, i as u32, &mut crossings);
@@ -121,6 +125,10 @@ impl<'a> Band<'a> {
         for column in from..to {
             let depth = facet.depth((column as f64 + 0.5) / per_pixel, y) as f32;
             let sample = row * columns + column;
+            if facet.rank > Rank::Plain && !self.marked.is_empty() {
+                self.mark(sample, id, [(column as f64 + 0.5) / per_pixel, y]);
+                continue;
+            }
             if let Some(layers) = self.layers.get_mut(sample) {
                 *layers = layers.saturating_add(1);
             }
@@ -128,6 +136,23 @@ impl<'a> Band<'a> {
                 self.depths[sample] = depth;
                 self.facets[sample] = id;
             }
+        }
+    }
+
+    /// Lays a facet that is pointed out over a sample of an x-ray, if it counts more than what lies
+    /// there or is nearer.
+    fn mark(&mut self, sample: usize, id: u32, [x, y]: [f64; 2]) {
+        let order = |id: u32| {
+            let facet = &self.scene.facets[id as usize];
+            (facet.rank, facet.depth(x, y))
+        };
+        let old = self.marked[sample];
+        let counts = old == NONE || {
+            let ((rank, depth), (old_rank, old_depth)) = (order(id), order(old));
+            rank > old_rank || (rank == old_rank && depth > old_depth)
+        };
+        if counts {
+            self.marked[sample] = id;
         }
     }
 
@@ -150,14 +175,18 @@ impl<'a> Band<'a> {
 
     fn sample_light(&self, sample: usize, [x, y]: [f64; 2], paper: Light) -> Light {
         let id = self.facets[sample];
-        if id == NONE {
-            return paper;
-        }
-        let light = self.scene.light(id as usize, x, y);
-        match self.layers.get(sample) {
+        let own = |id: u32| self.scene.light(id as usize, x, y);
+        let plain = match self.layers.get(sample) {
+            _ if id == NONE => paper,
             // Every surface on the way takes a little of the light.
-            Some(&layers) => paper.lerp(light, 0.55) * 0.94_f32.powi(i32::from(layers.min(24))),
-            None => light,
+            Some(&layers) => paper.lerp(own(id), 0.55) * 0.94_f32.powi(i32::from(layers.min(24))),
+            None => own(id),
+        };
+        match self.marked.get(sample) {
+            Some(&over) if over != NONE => {
+                plain.lerp(own(over), self.scene.facets[over as usize].rank.cover())
+            }
+            _ => plain,
         }
     }
 
@@ -234,7 +263,9 @@ impl<'a> Band<'a> {
     pub fn draw_lines(&self, coverage: &mut Coverage) {
         for line in &self.scene.lines {
             if self.scene.is_x_ray {
-                let pale = Line { strength: HIDDEN * line.strength, ..line.clone() };
+                // What is pointed out is seen through everything.
+                let share = if line.ink == Ink::Mark { 1.0 } else { HIDDEN };
+                let pale = Line { strength: share * line.strength, ..line.clone() };
                 coverage.draw(line.ends[0].truncate(), line.ends[1].truncate(), &pale);
             }
             for [from, to] in self.visible_parts(line) {
@@ -294,7 +325,10 @@ impl<'a> Band<'a> {
     pub fn visible_dots(&self, mesh: &Mesh) -> Vec<&'a Dot> {
         let rows = self.rows.start as f64..self.rows.end as f64;
         let dots = self.scene.dots.iter().filter(|dot| rows.contains(&dot.place.y));
-        dots.filter(|dot| self.sees(dot.place, false, |f| touches(mesh, dot.vertex, f))).collect()
+        dots.filter(|dot| {
+            self.scene.is_x_ray || self.sees(dot.place, false, |f| touches(mesh, dot.vertex, f))
+        })
+        .collect()
     }
 }
 
@@ -319,14 +353,14 @@ pub(super) struct Coverage {
     width: usize,
     rows: std::ops::Range<usize>,
     /// By ink.
-    inks: [Vec<f32>; 3],
+    inks: [Vec<f32>; 4],
 }
 
 impl Coverage {
     /// Nothing covered yet.
     pub fn new(width: usize, rows: std::ops::Range<usize>) -> Self {
         let none = vec![0.0; width * rows.len()];
-        Self { width, rows, inks: [none.clone(), none.clone(), none] }
+        Self { width, rows, inks: [none.clone(), none.clone(), none.clone(), none] }
     }
 
     /// Covers the pixels within half a line width of the segment, softly over one pixel, with round
@@ -359,7 +393,7 @@ impl Coverage {
     /// Lays the lines over the light of a pixel.
     pub fn over(&self, x: usize, y: usize, light: Light) -> Light {
         let i = (y - self.rows.start) * self.width + x;
-        let colours = [(Ink::Edge, paint::LINE), (Ink::Rim, paint::RIM), (Ink::Mark, paint::MARK)];
+        let colours = [Ink::Plane, Ink::Edge, Ink::Rim, Ink::Mark].map(|ink| (ink, ink.colour()));
         colours.into_iter().fold(light, |light, (ink, colour)| {
             light.lerp(paint::ink(colour), self.inks[ink as usize][i])
         })

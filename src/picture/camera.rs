@@ -37,6 +37,9 @@ impl Camera {
         window: Window,
     ) -> Result<Self, PictureError> {
         let axes = params.axes()?;
+        if !(0.1..=20.0).contains(&params.zoom) {
+            return Err(PictureError::ZoomOutOfRange { zoom: params.zoom });
+        }
         for (mesh, v) in meshes.iter().flat_map(|mesh| mesh.vertices().map(move |v| (mesh, v))) {
             // Half of the largest number, so that differences stay finite.
             let p = mesh.position(v);
@@ -56,11 +59,11 @@ impl Camera {
             if params.projection == Projection::Perspective { EYE_DISTANCE } else { f64::INFINITY };
         let mut camera =
             Self { axes, centre, radius, eye_distance, scale: 1.0, shift: DVec2::ZERO };
-        camera.fit(meshes, window);
+        camera.fit(meshes, window, params.zoom);
         Ok(camera)
     }
 
-    fn fit(&mut self, meshes: &[&Mesh], window: Window) {
+    fn fit(&mut self, meshes: &[&Mesh], window: Window, zoom: f64) {
         let mut low = DVec2::INFINITY;
         let mut high = DVec2::NEG_INFINITY;
         for p in meshes.iter().flat_map(|mesh| mesh.vertices().map(|v| mesh.position(v))) {
@@ -70,7 +73,7 @@ impl Camera {
         let (room, size) = (window.high - window.low, high - low);
         // A model seen from its end can have no width or no height, but a point-like one must not
         // become infinite.
-        self.scale = (room / size.max(DVec2::splat(1e-6))).min_element();
+        self.scale = (room / size.max(DVec2::splat(1e-6))).min_element() * zoom;
         self.shift = window.low.midpoint(window.high) - low.midpoint(high) * self.scale;
     }
 
@@ -127,6 +130,24 @@ mod tests {
                 "{size}: {low} {high}"
             );
             assert!(low.x > 10.0 && high.x < 410.0 && (low.y - 20.0).abs() < 1e-3);
+        }
+    }
+
+    #[test]
+    fn zooming_keeps_the_middle_and_enlarges_the_rest() {
+        let window = Window { low: DVec2::ZERO, high: DVec2::splat(100.0) };
+        let mesh = cuboid(DVec3::ZERO, DVec3::ONE);
+        let whole = RenderParams { projection: Projection::Parallel, ..RenderParams::default() };
+        let near = RenderParams { zoom: 4.0, ..whole.clone() };
+        let [whole, near] =
+            [whole, near].map(|p| Camera::fitted(&[&mesh], &p, window).expect("a camera"));
+        let middle = |camera: &Camera| camera.project(DVec3::splat(0.5)).truncate();
+        assert!(middle(&whole).distance(middle(&near)) < 1e-9);
+        assert!((near.scale() - 4.0 * whole.scale()).abs() < 1e-9 * near.scale());
+        for zoom in [0.0, 21.0, f64::NAN] {
+            let params = RenderParams { zoom, ..RenderParams::default() };
+            let refused = Camera::fitted(&[&mesh], &params, window);
+            assert!(matches!(refused, Err(PictureError::ZoomOutOfRange { .. })));
         }
     }
 

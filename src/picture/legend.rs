@@ -41,15 +41,55 @@ impl Legend {
         f64::from(letter_height(width, height)) * 14.0
     }
 
+    /// Whether a picture is large enough for one.
+    pub fn has_room(width: u32, height: u32) -> bool {
+        width.min(height) >= 160
+    }
+
     /// Draws the legend over the right end of the picture.
     pub fn draw(&self, pixmap: &mut Pixmap) {
-        let letter = letter_height(pixmap.width(), pixmap.height());
-        let left = pixmap.width() as f32 - letter * 13.5;
-        match self {
-            Self::Scale { title, top } => draw_scale(pixmap, title, *top, [left, letter]),
-            Self::Valence { counts } => draw_counts(pixmap, counts, left, letter),
+        for shape in self.shapes(pixmap.width(), pixmap.height()) {
+            match shape {
+                Shape::Bar { place, colour } => rectangle(pixmap, place, colour),
+                Shape::Disc { middle, radius, colour } => disc(pixmap, middle, radius, colour),
+                Shape::Text { text, place, height, colour } => {
+                    write(pixmap, &text, place, height, colour);
+                }
+            }
         }
     }
+
+    /// What is drawn at the right end of a picture of this size, the same for pixels and for areas
+    /// and lines.
+    pub fn shapes(&self, width: u32, height: u32) -> Vec<Shape> {
+        let letter = letter_height(width, height);
+        let left = width as f32 - letter * 13.5;
+        match self {
+            Self::Scale { title, top } => scale(title, *top, [left, letter], height as f32),
+            Self::Valence { counts } => valences(counts, [left, letter], height as f32),
+        }
+    }
+}
+
+/// A part of a legend, in pixels, y down.
+pub(super) enum Shape {
+    /// A rectangle: left, top, width, height.
+    Bar {
+        place: [f32; 4],
+        colour: [u8; 3],
+    },
+    Disc {
+        middle: (f32, f32),
+        radius: f32,
+        colour: [u8; 3],
+    },
+    /// A text whose base line begins at `place`; `height` is that of a capital.
+    Text {
+        text: String,
+        place: (f32, f32),
+        height: f32,
+        colour: [u8; 3],
+    },
 }
 
 /// The height of capitals in pixels.
@@ -57,44 +97,48 @@ fn letter_height(width: u32, height: u32) -> f32 {
     (width.min(height) as f32 / 62.0).max(6.0)
 }
 
-fn draw_scale(pixmap: &mut Pixmap, title: &str, top: f64, [left, letter]: [f32; 2]) {
-    let height = pixmap.height() as f32;
+fn text(text: &str, place: (f32, f32), height: f32) -> Shape {
+    Shape::Text { text: text.to_owned(), place, height, colour: paint::LINE }
+}
+
+fn scale(title: &str, top: f64, [left, letter]: [f32; 2], height: f32) -> Vec<Shape> {
     let (above, bar) = (height * 0.28, height * 0.44);
-    write(pixmap, title, (left, above - 2.2 * letter), letter, paint::LINE);
+    let mut shapes = vec![text(title, (left, above - 2.2 * letter), letter)];
     let rows = bar.round() as usize;
     for row in 0..rows {
         let share = 1.0 - (row as f64 + 0.5) / rows as f64;
-        rectangle(
-            pixmap,
-            [left, above + row as f32, 1.6 * letter, 1.0],
-            paint::scale_colour(share),
-        );
+        let place = [left, above + row as f32, 1.6 * letter, 1.0];
+        shapes.push(Shape::Bar { place, colour: paint::scale_colour(share) });
     }
     for i in 0..=4 {
         let share = f64::from(i) / 4.0;
         let y = above + bar * (1.0 - share as f32);
-        rectangle(pixmap, [left + 1.6 * letter, y - 0.5, 0.6 * letter, 1.0], paint::LINE);
-        write(
-            pixmap,
-            &three_digits(top * share),
-            (left + 2.9 * letter, y + letter / 2.0),
-            letter,
-            paint::LINE,
-        );
+        let place = [left + 1.6 * letter, y - 0.5, 0.6 * letter, 1.0];
+        shapes.push(Shape::Bar { place, colour: paint::LINE });
+        let number = three_digits(top * share);
+        shapes.push(text(&number, (left + 2.9 * letter, y + letter / 2.0), letter));
     }
+    shapes
 }
 
-fn draw_counts(pixmap: &mut Pixmap, counts: &BTreeMap<usize, usize>, left: f32, letter: f32) {
-    let above = pixmap.height() as f32 * 0.4;
-    write(pixmap, "VALENCE", (left, above - 2.2 * letter), letter, paint::LINE);
+fn valences(counts: &BTreeMap<usize, usize>, [left, letter]: [f32; 2], height: f32) -> Vec<Shape> {
+    let above = height * 0.4;
+    let mut shapes = vec![text("VALENCE", (left, above - 2.2 * letter), letter)];
     for (i, (&valence, count)) in counts.iter().enumerate() {
         let y = above + i as f32 * 2.4 * letter;
-        disc(pixmap, (left + 0.7 * letter, y), 0.6 * letter, paint::valence_colour(valence));
+        let middle = (left + 0.7 * letter, y);
+        let colour = paint::valence_colour(valence);
+        shapes.push(Shape::Disc { middle, radius: 0.6 * letter, colour });
         let name = if valence < 6 { valence.to_string() } else { "6+".to_owned() };
-        write(pixmap, &name, (left + 2.2 * letter, y + letter / 2.0), letter, paint::LINE);
-        let grey = [120, 116, 110];
-        write(pixmap, &count.to_string(), (left + 5.4 * letter, y + letter / 2.0), letter, grey);
+        shapes.push(text(&name, (left + 2.2 * letter, y + letter / 2.0), letter));
+        shapes.push(Shape::Text {
+            text: count.to_string(),
+            place: (left + 5.4 * letter, y + letter / 2.0),
+            height: letter,
+            colour: [120, 116, 110],
+        });
     }
+    shapes
 }
 
 /// A number with three significant digits, as short as can be.

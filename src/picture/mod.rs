@@ -20,6 +20,7 @@ mod pieces;
 mod scene;
 mod sheet;
 mod smooth;
+mod story;
 mod strip;
 mod through;
 mod vector;
@@ -31,6 +32,7 @@ pub use params::{
     Colour, EdgeLines, Ids, Projection, RenderParams, Shadow, Surface, UpAxis, View, ViewError,
 };
 pub use sheet::{Polyline, StrokeLayer, Strokes, render_sheet};
+pub use story::{Frame, render_story};
 pub use strip::{Cell, render_strip};
 pub use vector::{MAX_VECTOR_FACES, VectorPicture, render_vector};
 pub use views::render_with;
@@ -74,6 +76,12 @@ pub enum PictureError {
         y: f64,
         /// Third coordinate.
         z: f64,
+    },
+    /// The zoom is no number in its range.
+    #[error("a zoom of {zoom} is out of range; choose 0.1 to 20, 1 shows the whole model")]
+    ZoomOutOfRange {
+        /// What was asked for.
+        zoom: f64,
     },
     /// The model has no faces.
     #[error("there is nothing to draw: the model has no faces")]
@@ -140,6 +148,7 @@ codes!(error PictureError {
     StrokeNotFinite = 826,
     TooManyFaces = 829,
     OnlyPixels = 830,
+    ZoomOutOfRange = 832,
 });
 
 impl Picture {

@@ -52,7 +52,7 @@ pub(super) fn render_one(
     marks: &Marks,
 ) -> Result<Picture, PictureError> {
     let (legend, mut colours) = colours(mesh, params.colour);
-    marks.faces.iter().for_each(|&f| colours[f] = paint::MARKED);
+    marks.paint(&mut colours);
     draw_model(mesh, params, legend, (&colours, marks))
 }
 
@@ -105,7 +105,7 @@ fn draw_model(
     if mesh.face_count() == 0 {
         return Err(PictureError::NoFaces);
     }
-    let legend = legend.filter(|_| width.min(height) >= 160);
+    let legend = legend.filter(|_| Legend::has_room(width, height));
     let camera = Camera::fitted(&[mesh], params, window(width, height, legend.is_some()))?;
     let scene = Scene::new(mesh, params, &camera, look);
     draw(&mut pixmap, mesh, &scene, Division { workers: workers(), rows: BAND_ROWS });

@@ -29,6 +29,11 @@ pub(super) const BACK: [u8; 3] = [142, 163, 184];
 pub(super) const MARK: [u8; 3] = [206, 32, 44];
 pub(super) const MARKED: [u8; 3] = [236, 130, 92];
 
+/// Slicing planes.
+pub(super) const PLANE: [u8; 3] = [96, 150, 206];
+pub(super) const SECTION: [u8; 3] = [84, 134, 200];
+pub(super) const PLANE_LINE: [u8; 3] = [52, 104, 164];
+
 /// Pale, so that dots stand out.
 pub(super) const PALE: [u8; 3] = [244, 241, 236];
 

@@ -39,6 +39,10 @@ pub struct RenderParams {
     #[arg(long, value_enum, default_value_t)]
     #[serde(default)]
     pub projection: Projection,
+    /// How much nearer than for a whole view, 0.1 to 20: what is at the middle fills the picture.
+    #[arg(long, default_value_t = default_zoom(), value_parser = parse_number)]
+    #[serde(default = "default_zoom")]
+    pub zoom: f64,
     /// Whether edges are drawn.
     #[arg(long, value_enum, default_value_t)]
     #[serde(default)]
@@ -61,6 +65,10 @@ pub struct RenderParams {
     pub views: Vec<View>,
 }
 
+fn default_zoom() -> f64 {
+    1.0
+}
+
 fn default_width() -> u32 {
     1200
 }
@@ -74,6 +82,7 @@ impl Default for RenderParams {
             view: View::default(),
             up: UpAxis::default(),
             projection: Projection::default(),
+            zoom: default_zoom(),
             edges: EdgeLines::default(),
             ids: Ids::default(),
             surface: Surface::default(),

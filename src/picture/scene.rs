@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::camera::Camera;
-use super::marks::{Marks, Owner, Tag};
+use super::marks::{Marks, Owner, Rank, Tag};
 use super::paint::{self, Light, Modelling};
 use super::params::{EdgeLines, Ids, Shadow, Surface};
 use super::smooth::{Normals, Slope};
@@ -27,6 +27,8 @@ pub(super) struct Facet {
     pub face: FaceId,
     /// Its corners in [`Scene::corners`].
     pub corners: std::ops::Range<usize>,
+    /// How much it is pointed out.
+    pub rank: Rank,
     /// Its colour.
     pub light: Light,
     /// How its normal runs where it is shaded smoothly, with the colour of the material.
@@ -71,6 +73,19 @@ pub(super) enum Ink {
     Rim,
     /// Pointed out.
     Mark,
+    /// Around a slicing plane.
+    Plane,
+}
+
+impl Ink {
+    pub fn colour(self) -> [u8; 3] {
+        match self {
+            Self::Edge => paint::LINE,
+            Self::Rim => paint::RIM,
+            Self::Mark => paint::MARK,
+            Self::Plane => paint::PLANE_LINE,
+        }
+    }
 }
 
 /// A vertex in the picture.
@@ -125,6 +140,7 @@ impl Scene {
         let corners = mesh.faces().map(|f| mesh.sides(f)).sum();
         stage.scene.corners.reserve(corners);
         stage.scene.facets.reserve(mesh.face_count());
+        stage.ranks = marks.ranks(mesh);
         for f in mesh.faces() {
             stage.add_face(f, colours[f]);
         }
@@ -155,6 +171,8 @@ struct Stage<'a> {
     normals: FaceMap<DVec3>,
     /// Areas in square pixels as if seen from straight ahead.
     areas: FaceMap<f64>,
+    /// How much each face is pointed out.
+    ranks: FaceMap<Rank>,
     /// Whether the part of the face at the half-edge is seen from the front.
     fronts: HalfEdgeMap<bool>,
     /// Normals of smooth shading, where it is asked for.
@@ -194,6 +212,7 @@ impl<'a> Stage<'a> {
             places,
             normals: FaceMap::filled(mesh.face_slots(), DVec3::ZERO),
             areas: FaceMap::filled(mesh.face_slots(), 0.0),
+            ranks: FaceMap::filled(mesh.face_slots(), Rank::Plain),
             fronts: HalfEdgeMap::filled(mesh.half_edge_slots(), true),
             smooth: is_smooth.then(|| Normals::new(mesh, |v| camera.turned(mesh.position(v)))),
             scene,
@@ -263,7 +282,12 @@ impl<'a> Stage<'a> {
         });
         self.scene.facets.push(Facet {
             face,
-            light: paint::lit(colour, sign * normal, modelling),
+            rank: self.ranks[face],
+            light: match self.ranks[face] {
+                // Planes are no material.
+                Rank::Plane | Rank::Section => paint::ink(colour),
+                _ => paint::lit(colour, sign * normal, modelling),
+            },
             smooth,
             top: low.y,
             bottom: high.y,
@@ -308,7 +332,11 @@ impl<'a> Stage<'a> {
             width,
             strength: strength as f32,
             is_outline,
-            ink: if is_rim { Ink::Rim } else { Ink::Edge },
+            ink: match faces.map(|f| self.ranks[f]).into_iter().max() {
+                Some(Rank::Plane | Rank::Section) => Ink::Plane,
+                _ if is_rim => Ink::Rim,
+                _ => Ink::Edge,
+            },
         })
     }
 
@@ -325,7 +353,7 @@ impl<'a> Stage<'a> {
         let lines: Vec<Line> = marks.edges.iter().map(thick).collect();
         self.scene.lines.extend(lines);
         if !marks.vertices.is_empty() {
-            self.scene.dot_radius = self.scene.dot_radius.max(4.5 * self.line_width);
+            self.scene.dot_radius = self.scene.dot_radius.max(5.5 * self.line_width);
         }
         let dot = |&v: &VertexId| Dot { place: self.places[v], vertex: v, colour: paint::MARK };
         let dots: Vec<Dot> = marks.vertices.iter().map(dot).collect();

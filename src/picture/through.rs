@@ -54,6 +54,7 @@ pub(super) fn aimed(mesh: &Mesh, params: &RenderParams) -> Result<RenderParams, 
         surface: Surface::Solid,
         shadow: Shadow::Off,
         views: Vec::new(),
+        zoom: 1.0,
         ..params.clone()
     };
     let mut best = (LEAST, View::ThreeQuarter);

@@ -1,8 +1,8 @@
 //! Pictures of models as areas and lines, for SVG and PDF.
 //!
 //! Faces are cut and put in order from back to front, so that painting them one over the other hides
-//! what is hidden; lines are the visible parts that a picture of pixels has. Legends are left out,
-//! and smooth surfaces are shaded face by face.
+//! what is hidden; lines are the visible parts that a picture of pixels has. Smooth surfaces are
+//! shaded face by face.
 
 use std::fmt::Write as _;
 
@@ -12,6 +12,7 @@ use super::band::{Band, HIDDEN};
 use super::bsp::{Patch, painted};
 use super::camera::Camera;
 use super::frame::window;
+use super::legend::{Legend, Shape};
 use super::marks::Marks;
 use super::model::colours;
 use super::paint;
@@ -71,9 +72,10 @@ pub fn render_vector(
     if triangles > MAX_VECTOR_FACES {
         return Err(PictureError::TooManyFaces { triangles });
     }
-    let camera = Camera::fitted(&[mesh], params, window(width, height, false))?;
-    let (_, mut colours) = colours(mesh, params.colour);
-    marks.faces.iter().for_each(|&f| colours[f] = paint::MARKED);
+    let (legend, mut colours) = colours(mesh, params.colour);
+    let legend = legend.filter(|_| Legend::has_room(width, height));
+    let camera = Camera::fitted(&[mesh], params, window(width, height, legend.is_some()))?;
+    marks.paint(&mut colours);
     let scene = Scene::new(mesh, params, &camera, (&colours, marks));
     let areas = painted(patches(mesh, &camera, &scene), camera.eye());
     let flat = |p: Patch<[u8; 3]>| {
@@ -85,13 +87,16 @@ pub fn render_vector(
     let letter = f64::from(width.max(height)) / 90.0;
     let words = tags.iter().flat_map(|tag| letters(&tag.text, tag.place.truncate(), letter));
     let dots = band.visible_dots(mesh).into_iter();
+    let dots = dots.map(|d| (d.place.truncate(), scene.dot_radius, d.colour));
+    let shapes = legend.map_or(Vec::new(), |legend| legend.shapes(width, height));
+    let (legend_lines, legend_dots) = as_lines(&shapes);
     Ok(VectorPicture {
         width: width.into(),
         height: height.into(),
         areas: areas.into_iter().map(flat).collect(),
         opacity: if scene.is_x_ray { X_RAY } else { 1.0 },
-        lines: lines(&scene, &band).into_iter().chain(words).collect(),
-        dots: dots.map(|d| (d.place.truncate(), scene.dot_radius, d.colour)).collect(),
+        lines: lines(&scene, &band).into_iter().chain(words).chain(legend_lines).collect(),
+        dots: dots.chain(legend_dots).collect(),
     })
 }
 
@@ -122,23 +127,55 @@ fn patches(mesh: &Mesh, camera: &Camera, scene: &Scene) -> Vec<Patch<[u8; 3]>> {
 fn lines(scene: &Scene, band: &Band<'_>) -> Vec<VectorLine> {
     let mut lines = Vec::new();
     for line in &scene.lines {
-        let colour = match line.ink {
-            Ink::Edge => paint::LINE,
-            Ink::Rim => paint::RIM,
-            Ink::Mark => paint::MARK,
-        };
+        let colour = line.ink.colour();
         let mut add = |points: Vec<DVec2>, strength: f64| {
             lines.push(VectorLine { points, colour, width: line.width, strength });
         };
         if scene.is_x_ray {
             let whole = line.ends.map(DVec3::truncate).to_vec();
-            add(whole, f64::from(HIDDEN * line.strength));
+            let share = if line.ink == Ink::Mark { 1.0 } else { HIDDEN };
+            add(whole, f64::from(share * line.strength));
         }
         for part in band.visible_parts(line) {
             add(part.to_vec(), line.strength.into());
         }
     }
     lines
+}
+
+/// A disc: middle, radius, colour.
+type Disc = (DVec2, f64, [u8; 3]);
+
+/// The legend as lines and dots: its bars are lines as wide as the bars are high.
+fn as_lines(shapes: &[Shape]) -> (Vec<VectorLine>, Vec<Disc>) {
+    let (mut lines, mut dots) = (Vec::new(), Vec::new());
+    let at = |x: f32, y: f32| DVec2::new(x.into(), y.into());
+    for shape in shapes {
+        match shape {
+            &Shape::Bar { place: [x, y, width, height], colour } => lines.push(VectorLine {
+                points: vec![at(x, y + height / 2.0), at(x + width, y + height / 2.0)],
+                colour,
+                // Rows are painted a little over one another, so that no gap shines through.
+                width: f64::from(height) * 1.3,
+                strength: 1.0,
+            }),
+            &Shape::Disc { middle: (x, y), radius, colour } => {
+                dots.push((at(x, y), radius.into(), colour));
+            }
+            Shape::Text { text, place: (x, y), height, colour } => {
+                let height = f64::from(*height);
+                let Ok(word) = crate::sheet::plain_lettering(text, height) else { continue };
+                let put = |s: &Vec<DVec2>| VectorLine {
+                    points: s.iter().map(|p| at(*x, *y) + *p * DVec2::new(1.0, -1.0)).collect(),
+                    colour: *colour,
+                    width: (height / 8.0).max(1.0),
+                    strength: 1.0,
+                };
+                lines.extend(word.strokes.iter().map(put));
+            }
+        }
+    }
+    (lines, dots)
 }
 
 /// A text as lines around its middle, with a pale rim.
@@ -312,14 +349,14 @@ mod tests {
     #[test]
     fn painting_the_areas_in_order_hides_what_is_hidden() {
         let params = RenderParams {
-            width: 240,
+            width: 200,
             colour: Colour::Valence,
             edges: super::super::EdgeLines::Off,
             ..RenderParams::default()
         };
         let ring = torus(16, 8);
         let vector = render_vector(&ring, &params, &Marks::default()).expect("a picture");
-        let mut painted = tiny_skia::Pixmap::new(240, 180).expect("a size");
+        let mut painted = tiny_skia::Pixmap::new(200, 150).expect("a size");
         let [r, g, b] = paint::PAPER;
         painted.fill(tiny_skia::Color::from_rgba8(r, g, b, 255));
         for (points, [r, g, b]) in &vector.areas {
@@ -334,22 +371,48 @@ mod tests {
                 painted.fill_path(&path, &look, rule, tiny_skia::Transform::identity(), None);
             }
         }
-        // Without the legend, whose strip the pixels keep free.
+        // Too small for a legend, which stands beside the areas.
         let plain = RenderParams { colour: Colour::Faces, ..params };
         let vector = render_vector(&ring, &plain, &Marks::default()).expect("a picture");
         assert!(vector.areas.len() >= 2 * 16 * 8);
         let picture = render_model(&ring, &plain).expect("a picture");
         let is_ground = |p: [u8; 3]| p == paint::PAPER;
-        let differ = (0..240 * 180)
+        let differ = (0..200 * 150)
             .filter(|&i| {
-                let (x, y) = (i % 240, i / 240);
+                let (x, y) = (i % 200, i / 200);
                 let own = painted.pixel(x, y).expect("within");
                 let own = [own.red(), own.green(), own.blue()];
                 is_ground(own) != is_ground(picture.pixel(x, y).expect("within"))
             })
             .count();
         // Only along outlines.
-        assert!(differ < 240 * 180 / 50, "{differ}");
+        assert!(differ < 200 * 150 / 50, "{differ}");
+    }
+
+    #[test]
+    fn legends_are_those_of_pixels() {
+        let cube = crate::shape::cube(10.0);
+        let drawn = |colour, width| {
+            let params = RenderParams { width, colour, ..RenderParams::default() };
+            render_vector(&cube, &params, &Marks::default()).expect("a picture")
+        };
+        let in_strip = |picture: &VectorPicture| {
+            let left = picture.width - Legend::width(400, 300);
+            let lines = picture.lines.iter().filter(|l| l.points[0].x > left).count();
+            (lines, picture.dots.iter().filter(|d| d.0.x > left).count())
+        };
+        // A dot for the one valence that there is; letters, but no scale.
+        let (lines, dots) = in_strip(&drawn(Colour::Valence, 400));
+        assert!(dots == 1 && lines > 10, "{lines} {dots}");
+        // A row of the scale for every pixel of its height, and its letters.
+        let (lines, dots) = in_strip(&drawn(Colour::Planarity, 400));
+        assert!(dots == 0 && lines > 132, "{lines} {dots}");
+        // The model keeps clear of the strip, and small pictures have none.
+        let all = drawn(Colour::Planarity, 400);
+        let left = all.width - Legend::width(400, 300);
+        assert!(all.areas.iter().flat_map(|a| &a.0).all(|p| p.x < left));
+        assert!(drawn(Colour::Valence, 180).lines.len() < 20);
+        assert!(drawn(Colour::Faces, 400).lines.len() < 20);
     }
 
     #[test]

@@ -4,19 +4,18 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::{Before, OperatorStep, ReadStep, Recipe, Step, StepError};
+use super::{Before, OperatorStep, ReadStep, Recipe, Step, StepError, StoryParams};
 use crate::check::{CheckParams, Report, check};
 use crate::io::{ReadMesh, read_mesh, size_note};
 use crate::make::{
-    DformError, DformParams, FabricateParams, FabricateSettings, Fabrication, MakeError,
+    DformError, DformParams, FabricateParams, FabricateSettings, Fabrication, MakeError, Moment,
     OutlineParams, OutlinesError, PanelFiles, PanelJob, Panelled, PiecePromise, PointOut,
-    ShowParams, carve_dform_for_sheet, fabricate, nest_files, operate, outlined_dform, panel_model,
-    solid_of_planes, with_material,
+    ShowParams, carve_dform_for_sheet, fabricate, height_mesh, nest_files, operate, outlined_dform,
+    panel_model, solid_of_planes, with_material,
 };
 use crate::mesh::{Mesh, SplitVertex};
-use crate::op::{HullParams, HullStep, OpContext, OpError, hull};
+use crate::op::{ChosenElements, HullParams, HullStep, OpContext, OpError, hull};
 use crate::panel::PanelParams;
-use crate::panelize::height_field;
 use crate::picture::RenderParams;
 use crate::progress::Progress;
 use crate::select::{NewElements, Selection};
@@ -44,15 +43,28 @@ impl fmt::Display for StepWithFindings {
 pub(super) struct JobContext {
     /// The name of the recipe, which stands on its sheets.
     title: String,
-    /// Whether a picture shows the mesh before the last operator.
-    keeps_before: bool,
+    /// Which steps are kept to be shown.
+    keeps: Keeps,
+}
+
+/// Which steps a job keeps to be shown.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
+enum Keeps {
+    #[default]
+    None,
+    Last,
+    All,
 }
 
 impl JobContext {
-    pub(super) fn of<'a>(name: Option<&str>, mut steps: impl Iterator<Item = &'a Step>) -> Self {
-        let shows =
-            |s: &Step| matches!(s, Step::Render { story, .. } if story.before == Before::On);
-        Self { title: name.unwrap_or_default().to_owned(), keeps_before: steps.any(shows) }
+    pub(super) fn of<'a>(name: Option<&str>, steps: impl Iterator<Item = &'a Step>) -> Self {
+        let keeps = steps.map(|s: &Step| match s {
+            Step::Render { story, .. } if !story.story.is_empty() => Keeps::All,
+            Step::Render { story, .. } if story.before == Before::On => Keeps::Last,
+            _ => Keeps::None,
+        });
+        let keeps = keeps.max().unwrap_or_default();
+        Self { title: name.unwrap_or_default().to_owned(), keeps }
     }
 }
 
@@ -63,6 +75,8 @@ pub struct Job {
     /// The name of the recipe, which stands on its sheets.
     title: String,
     mesh: Option<Arc<Mesh>>,
+    /// The factor from the numbers of the file that the mesh came from to millimetres.
+    scale: Option<f64>,
     made: Option<NewElements>,
     /// Into how many pieces the strips of the last cut come apart, as the edges promised.
     promised: Option<PiecePromise>,
@@ -74,9 +88,11 @@ pub struct Job {
     pub render: RenderParams,
     /// What the picture points out.
     pub point_out: PointOut,
-    /// The mesh before the last operator, where the recipe shows it.
-    pub before: Option<Arc<Mesh>>,
-    keeps_before: bool,
+    /// What else is shown.
+    pub story: StoryParams,
+    /// The operators with the meshes before and after them, as far as the recipe shows them.
+    pub moments: Vec<Moment>,
+    keeps: Keeps,
     /// The dual hull on its way, as the last hull was asked for.
     pub hull_steps: Vec<HullStep>,
     /// Limits for the report.
@@ -127,7 +143,7 @@ impl Job {
     /// Takes over what the whole recipe says of every step.
     pub(super) fn begin(&mut self, context: &JobContext) {
         self.title.clone_from(&context.title);
-        self.keeps_before = context.keeps_before;
+        self.keeps = context.keeps;
     }
 
     /// Carries out one step; `number` is its place in the recipe, from 1.
@@ -143,6 +159,22 @@ impl Job {
             verb: step.verb(),
             cause: Box::new(cause),
         })
+    }
+
+    /// The job with the gaps in the ids of its mesh closed up, so that ids are those of a file of
+    /// it, and of arrays.
+    #[must_use]
+    pub fn closed_up(mut self) -> Self {
+        if let Some(mesh) = self.mesh.as_mut()
+            && has_gaps(mesh)
+        {
+            let mesh = Arc::make_mut(mesh);
+            match self.made.as_mut() {
+                Some(made) => drop(made.compact(mesh)),
+                None => drop(mesh.compact()),
+            }
+        }
+        self
     }
 
     /// The mesh as it is by now.
@@ -184,7 +216,10 @@ impl Job {
         match step {
             Step::Solid(params) => self.start(solid(params)?)?,
             Step::Height(params) => {
-                self.start(height_field(params).map_err(OpError::from)?)?;
+                let (mesh, notes) = height_mesh(params, folder)?;
+                self.notes.extend(notes);
+                self.scale = Some(params.domain.unit_mm());
+                self.start(mesh)?;
             }
             Step::Read(read) => self.read(read, folder)?,
             Step::Planes(planes) => {
@@ -197,8 +232,9 @@ impl Job {
             Step::Operator(operator) => self.operator(number, operator, folder, progress)?,
             Step::Hull(params) => self.hull(params, progress)?,
             Step::Check(params) => (self.check, self.is_check_asked) = (params.clone(), true),
-            Step::Render { render, point_out, .. } => {
+            Step::Render { render, point_out, story } => {
                 (self.render, self.point_out) = (render.clone(), point_out.clone());
+                self.story = story.clone();
             }
             Step::Dform { dform, outlines, sheet, show } => {
                 self.show = show.clone();
@@ -230,7 +266,8 @@ impl Job {
 
     fn read(&mut self, read: &ReadStep, folder: &Path) -> Result<(), MakeError> {
         let path: PathBuf = folder.join(&read.path);
-        let ReadMesh { mut mesh, notes, made, .. } = read_mesh(&path, &read.options)?;
+        let ReadMesh { mut mesh, notes, made, scale, .. } = read_mesh(&path, &read.options)?;
+        self.scale = Some(scale);
         let notes = notes.into_iter().chain(size_note(&mesh, &read.options));
         self.notes.extend(notes.map(|note| note.to_string()));
         // From here on ids are those of the model.obj that will be written.
@@ -251,18 +288,37 @@ impl Job {
         progress: &dyn Progress,
     ) -> Result<(), MakeError> {
         let context = OpContext { made: self.made.as_ref(), progress };
-        let output = operate(params.as_ref(), folder, self.mesh()?, &context)?;
+        let scale = self.scale.unwrap_or(1.0);
+        let output = operate(params.as_ref(), (folder, scale), self.mesh()?, &context)?;
         self.notes.extend(output.notes);
         // To planarize again is how to mend faces that did not become planar.
         self.with_findings.retain(|u| u.verb != "planarize" || *verb != "planarize");
         if !output.is_clean {
             self.with_findings.push(StepWithFindings { step: number, verb });
         }
-        let cut = (&output.cut_edges[..], self.made.as_ref());
+        let cut = (&output.chosen.edges[..], self.made.as_ref());
         self.promised = PiecePromise::of(self.mesh()?, cut, self.promised);
-        self.before = self.mesh.take().filter(|_| self.keeps_before);
-        (self.mesh, self.made) = (Some(Arc::new(output.mesh)), output.made);
+        self.change(verb, output.chosen, output.mesh, output.made);
         Ok(())
+    }
+
+    /// Puts another mesh in the place of the one that there is.
+    fn change(
+        &mut self,
+        verb: &'static str,
+        chosen: ChosenElements,
+        after: Mesh,
+        made: Option<NewElements>,
+    ) {
+        let after = Arc::new(after);
+        if self.keeps <= Keeps::Last {
+            self.moments.clear();
+        }
+        if let Some(before) = self.mesh.take().filter(|_| self.keeps > Keeps::None) {
+            let (after, made) = (after.clone(), made.clone());
+            self.moments.push(Moment { verb, before, chosen, after, made });
+        }
+        (self.mesh, self.made) = (Some(after), made);
     }
 
     fn hull(&mut self, params: &HullParams, progress: &dyn Progress) -> Result<(), MakeError> {
@@ -271,7 +327,8 @@ impl Job {
         self.hull_steps = report.steps;
         // The hull is a solid of its own, whatever its corners came from.
         self.with_findings.clear();
-        (self.mesh, self.made, self.promised) = (Some(Arc::new(mesh)), None, None);
+        self.promised = None;
+        self.change("hull", ChosenElements::default(), mesh, None);
         Ok(())
     }
 
@@ -296,12 +353,13 @@ impl Job {
     ) -> Result<(), MakeError> {
         let carved = carve_dform_for_sheet(self.mesh()?, params, sheet, progress)?;
         self.notes.extend(carved.notes);
-        self.mesh = Some(Arc::new(carved.mesh));
+        let chosen = ChosenElements { edges: carved.chosen, ..ChosenElements::default() };
+        self.change("dform", chosen, carved.mesh, Some(carved.made));
         let folds = FabricateParams {
             folds: Selection::of_edges(carved.folds.iter().copied()),
             ..FabricateParams::default()
         };
-        (self.made, self.promised) = (Some(carved.made), None);
+        self.promised = None;
         self.unfold(&UnfoldParams::default(), &folds, sheet, Path::new(""), progress)
     }
 
@@ -371,6 +429,12 @@ impl Job {
         (self.fabrication, self.panelled) = (Some((fabrication, sheet.clone())), None);
         Ok(())
     }
+}
+
+fn has_gaps(mesh: &Mesh) -> bool {
+    mesh.vertex_slots() > mesh.vertex_count()
+        || mesh.edge_slots() > mesh.edge_count()
+        || mesh.face_slots() > mesh.face_count() + mesh.hole_count()
 }
 
 /// Options of outlines mean nothing for a D-form of a solid.

@@ -35,6 +35,8 @@ pub struct StepKind {
     pub kind: Option<&'static str>,
     /// The parameter that the value of the verb's key goes to; empty where there is a kind.
     pub field: &'static str,
+    /// What the step does, in a line; that of its verb on the command line, too.
+    pub help: &'static str,
     /// Words for the values of a parameter that is a switch on the command line: the word and what
     /// it stands for.
     pub words: &'static [(&'static str, &'static str)],
@@ -64,59 +66,151 @@ pub fn steps() -> &'static [StepKind] {
 }
 
 const STEPS: &[StepKind] = &[
-    step("solid", "name", &[SolidParams::augment_args], |s| Ok(Step::Solid(s.read()?))),
-    step("read", "path", &[ReadStep::augment_args], |s| Ok(Step::Read(s.read()?))),
-    step("height", "height", &[HeightParams::augment_args], |s| Ok(Step::Height(s.read()?))),
-    step("planes", "path", &[PlanesStep::augment_args], |s| Ok(Step::Planes(s.read()?))),
-    cut("vertex", &[TruncateVertexParams::augment_args], |s| {
+    step(
+        "solid",
+        "name",
+        "Begin with a ready-made solid: Platonic, Archimedean, prism-N, antiprism-N, geodesic-N, soccer-ball, box-AxBxC",
+        &[SolidParams::augment_args],
+        |s| Ok(Step::Solid(s.read()?)),
+    ),
+    step(
+        "read",
+        "path",
+        "Begin with a mesh file: OBJ, PLY, STL or OFF",
+        &[ReadStep::augment_args],
+        |s| Ok(Step::Read(s.read()?)),
+    ),
+    step(
+        "height",
+        "height",
+        "Begin with a surface that a formula gives as heights over a rectangle",
+        &[HeightParams::augment_args],
+        |s| Ok(Step::Height(s.read()?)),
+    ),
+    step(
+        "planes",
+        "path",
+        "Begin with the solid that half-spaces bound",
+        &[PlanesStep::augment_args],
+        |s| Ok(Step::Planes(s.read()?)),
+    ),
+    cut("vertex", "Cut vertices off", &[TruncateVertexParams::augment_args], |s| {
         operator::<TruncateVertexParams>(s, "cut vertex")
     }),
-    cut("edge", &[TruncateEdgeParams::augment_args], |s| {
-        operator::<TruncateEdgeParams>(s, "cut edge")
-    }),
-    cut("face", &[TruncateFaceParams::augment_args], |s| {
+    cut(
+        "edge",
+        "Cut edges off; repeated, each becomes a developable strip",
+        &[TruncateEdgeParams::augment_args],
+        |s| operator::<TruncateEdgeParams>(s, "cut edge"),
+    ),
+    cut("face", "Push faces inwards", &[TruncateFaceParams::augment_args], |s| {
         operator::<TruncateFaceParams>(s, "cut face")
     }),
-    cut("plane", &[SliceParams::augment_args], |s| operator::<SliceParams>(s, "cut plane")),
+    cut("plane", "Cut by a plane", &[SliceParams::augment_args], |s| {
+        operator::<SliceParams>(s, "cut plane")
+    }),
     StepKind {
         words: &[("\"convex\"", "false"), ("\"dual\"", "true")],
-        ..step("hull", "dual", &[HullParams::augment_args], |s| Ok(Step::Hull(s.read()?)))
+        ..step(
+            "hull",
+            "dual",
+            "Make the convex hull of a mesh or its dual (one plane through each corner of the hull)",
+            &[HullParams::augment_args],
+            |s| Ok(Step::Hull(s.read()?)),
+        )
     },
-    step("resolve", "select", &[ResolveParams::augment_args], |s| {
-        operator::<ResolveParams>(s, "resolve")
-    }),
-    step("planarize", "profile", &[PlanarizeParams::augment_args], |s| {
-        operator::<PlanarizeParams>(s, "planarize")
-    }),
-    step("merge", "tolerance", &[MergeParams::augment_args], |s| {
-        operator::<MergeParams>(s, "merge")
-    }),
-    step("repair", "close_holes", &[RepairParams::augment_args], |s| {
-        operator::<RepairParams>(s, "repair")
-    }),
-    step("simplify", "faces", &[SimplifyParams::augment_args], |s| {
-        operator::<SimplifyParams>(s, "simplify")
-    }),
-    step("panelize", "size", &[PanelizeParams::augment_args], |s| {
-        operator::<PanelizeParams>(s, "panelize")
-    }),
-    step("subdivide", "scheme", &[SubdivideParams::augment_args], |s| {
-        operator::<SubdivideParams>(s, "subdivide")
-    }),
-    step("sierpinski", "rounds", &[SierpinskiParams::augment_args], |s| {
-        operator::<SierpinskiParams>(s, "sierpinski")
-    }),
-    step("handle", "from", &[HandleParams::augment_args], |s| {
-        operator::<HandleParams>(s, "handle")
-    }),
-    step("menger", "rounds", &[MengerParams::augment_args], |s| {
-        operator::<MengerParams>(s, "menger")
-    }),
-    step("rind", "thickness", &[RindParams::augment_args], |s| operator::<RindParams>(s, "rind")),
-    step("check", "profile", &[CheckParams::augment_args], |s| Ok(Step::Check(s.read()?))),
+    step(
+        "resolve",
+        "select",
+        "Split vertices with more than three edges into 3-valent ones by moving faces inwards",
+        &[ResolveParams::augment_args],
+        |s| operator::<ResolveParams>(s, "resolve"),
+    ),
+    step(
+        "planarize",
+        "profile",
+        "Move vertices as little as possible until every face is planar to a profile",
+        &[PlanarizeParams::augment_args],
+        |s| operator::<PlanarizeParams>(s, "planarize"),
+    ),
+    step(
+        "merge",
+        "tolerance",
+        "Make one polygon of faces that lie flat beside each other, as triangles from STL and CAD do",
+        &[MergeParams::augment_args],
+        |s| operator::<MergeParams>(s, "merge"),
+    ),
+    step(
+        "repair",
+        "close_holes",
+        "Mend faces that are no surface: weld, orient, drop doubled and empty faces, close T-junctions, part edges with more than two faces",
+        &[RepairParams::augment_args],
+        |s| operator::<RepairParams>(s, "repair"),
+    ),
+    step(
+        "simplify",
+        "faces",
+        "Make fewer triangles, so many or within a deviation: a scan becomes a paper model",
+        &[SimplifyParams::augment_args],
+        |s| operator::<SimplifyParams>(s, "simplify"),
+    ),
+    StepKind {
+        // Beside a key of that name; the size itself is left open.
+        words: &[("\"count\"", "\"count\""), ("\"sag\"", "\"sag\"")],
+        ..step(
+            "panelize",
+            "size",
+            "Make planar panels of a freeform surface, three edges at every node",
+            &[PanelizeParams::augment_args],
+            |s| operator::<PanelizeParams>(s, "panelize"),
+        )
+    },
+    step(
+        "subdivide",
+        "scheme",
+        "Make a mesh finer: Doo–Sabin, Catmull–Clark, Loop, simplest, honeycomb, truncation, dual or triangles",
+        &[SubdivideParams::augment_args],
+        |s| operator::<SubdivideParams>(s, "subdivide"),
+    ),
+    step(
+        "sierpinski",
+        "rounds",
+        "Halve every edge and remove the middle of every face, over and over: one connected surface of high genus",
+        &[SierpinskiParams::augment_args],
+        |s| operator::<SierpinskiParams>(s, "sierpinski"),
+    ),
+    step(
+        "handle",
+        "from",
+        "Join two faces by a curved handle, or by a hole when the weights are negative",
+        &[HandleParams::augment_args],
+        |s| operator::<HandleParams>(s, "handle"),
+    ),
+    step(
+        "menger",
+        "rounds",
+        "Dig a tunnel into every face, over and over; exact ones make Menger's own sponge of a cube",
+        &[MengerParams::augment_args],
+        |s| operator::<MengerParams>(s, "menger"),
+    ),
+    step(
+        "rind",
+        "thickness",
+        "Make a shell of even thickness, with faces punched through or peeled off",
+        &[RindParams::augment_args],
+        |s| operator::<RindParams>(s, "rind"),
+    ),
+    step(
+        "check",
+        "profile",
+        "Measure planarity, valence, manifoldness, convexity and genus against limits",
+        &[CheckParams::augment_args],
+        |s| Ok(Step::Check(s.read()?)),
+    ),
     step(
         "unfold",
         "pieces",
+        "Unfold a mesh into flat pieces that never overlap, and lay them out on sheets",
         &[
             UnfoldParams::augment_args,
             FabricateParams::augment_args,
@@ -137,6 +231,7 @@ const STEPS: &[StepKind] = &[
         ..step(
             "dform",
             "matching",
+            "Make a D-form of a solid (choose the folds, roll them into even strips) or of flat outlines (the one convex body that their rims close to), unfold it, and lay the pieces out",
             &[
                 DformParams::augment_args,
                 OutlineParams::augment_args,
@@ -156,15 +251,21 @@ const STEPS: &[StepKind] = &[
     step(
         "panels",
         "side",
+        "Make every face a plate of constant thickness: mitres, gaps, joints, schedule, sheets, assembly map and 3D files",
         &[PanelParams::augment_args, PanelFiles::augment_args, SheetParams::augment_args],
         |s| Ok(Step::Panels { panels: s.read()?, files: s.read()?, sheet: s.read()? }),
     ),
-    step("nest", "pieces", &[NestStep::augment_args, SheetParams::augment_args], |s| {
-        Ok(Step::Nest { nest: s.read()?, sheet: s.read()? })
-    }),
+    step(
+        "nest",
+        "pieces",
+        "Lay anybody's flat pieces out on sheets, close together, and draw the sheets",
+        &[NestStep::augment_args, SheetParams::augment_args],
+        |s| Ok(Step::Nest { nest: s.read()?, sheet: s.read()? }),
+    ),
     step(
         "render",
         "view",
+        "Draw a picture of a mesh, hidden parts hidden",
         &[RenderParams::augment_args, PointOut::augment_args, StoryParams::augment_args],
         |s| Ok(Step::Render { render: s.read()?, point_out: s.read()?, story: s.read()? }),
     ),
@@ -173,18 +274,20 @@ const STEPS: &[StepKind] = &[
 const fn step(
     verb: &'static str,
     field: &'static str,
+    help: &'static str,
     params: &'static [fn(Command) -> Command],
     read: Read,
 ) -> StepKind {
-    StepKind { verb, kind: None, field, words: &[], params, read }
+    StepKind { verb, kind: None, field, help, words: &[], params, read }
 }
 
 const fn cut(
     kind: &'static str,
+    help: &'static str,
     params: &'static [fn(Command) -> Command],
     read: Read,
 ) -> StepKind {
-    StepKind { verb: "cut", kind: Some(kind), field: "", words: &[], params, read }
+    StepKind { verb: "cut", kind: Some(kind), field: "", help, words: &[], params, read }
 }
 
 fn operator<T: Args + DeserializeOwned + Operate + 'static>(

@@ -5,6 +5,7 @@
 //! [`Job`]: the mesh as it is by then, what the last step made, and the results that are written at
 //! the end.
 
+mod call;
 mod draft;
 mod error;
 mod fields;
@@ -15,6 +16,8 @@ mod parameters;
 mod parse;
 mod schema;
 mod session;
+mod shell;
+mod story;
 
 #[cfg(test)]
 mod tests;
@@ -31,6 +34,7 @@ pub use keys::{StepKind, steps};
 pub use outputs::job_outputs;
 pub use schema::{ChoiceSchema, KeySchema, StepGroup, StepSchema, ValueKind, schema};
 pub use session::{Preview, Reached, Replay, Session, SessionError};
+pub use shell::{shell_line, shell_text};
 
 use crate::check::CheckParams;
 use crate::io::ReadOptions;
@@ -68,13 +72,38 @@ pub struct ReadStep {
 }
 
 /// What a recipe shows besides its model.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::Args, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, clap::Args, Deserialize)]
 pub struct StoryParams {
     /// Whether before.png shows the model as it was before the last operator, seen through, with the
-    /// sections along which it was cut
+    /// sections along which it was cut, and what was cut, opened or joined in red
     #[arg(long, value_enum, default_value_t)]
     #[serde(default)]
     pub before: Before,
+    /// Pictures side by side in story.png, in this order, with what the frames show: start, each,
+    /// cuts, cut, steps, model, sheets
+    #[arg(long, value_enum, value_name = "LIST", value_delimiter = ',')]
+    #[serde(default)]
+    pub story: Vec<StoryFrame>,
+}
+
+/// What a picture of a story shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum StoryFrame {
+    /// The mesh that the recipe begins with.
+    Start,
+    /// The mesh after each operator but the last.
+    Each,
+    /// The mesh before each operator, with what is cut, opened or joined in red.
+    Cuts,
+    /// The same before the last operator that cuts, opens or joins something.
+    Cut,
+    /// The dual hull on its way, as the step `hull` asks.
+    Steps,
+    /// The model, from each of the views.
+    Model,
+    /// The pieces as they lie on the sheets, in the colours that they have on the model.
+    Sheets,
 }
 
 /// Whether there is a picture of the model before the last operator.

@@ -1,18 +1,19 @@
 //! What a job leaves in its folder, as names and bytes; nothing is written here.
 
-use super::Job;
+use super::story::frames;
+use super::{Before, Job};
 use crate::check::details;
 use crate::io::report::html::check_html;
 use crate::io::report::json::check_json;
 use crate::io::report::page::{ReportPage, ReportRows};
 use crate::io::{MeshFormat, WriteOptions, mesh_bytes};
 use crate::make::{
-    MakeError, Output, before_and_sections, fabrication_outputs, in_pieces, panel_outputs,
-    report_pictures, show_outputs, x_ray,
+    MakeError, Output, fabrication_outputs, in_pieces, panel_outputs, report_pictures,
+    show_outputs, x_ray,
 };
 use crate::mesh::Mesh;
 use crate::op::OpContext;
-use crate::picture::{Colour, render_model, render_with};
+use crate::picture::{Colour, render_model, render_story, render_with};
 use crate::progress::Silent;
 
 /// The files of a whole recipe: model, picture, report, the steps of a hull where asked for, and if
@@ -25,7 +26,11 @@ pub fn job_outputs(job: &Job, command: &str) -> Result<Vec<Output>, MakeError> {
     // A recipe that only nests pieces has no model.
     if job.has_mesh() || job.fabrication.is_none() {
         let mesh = job.mesh()?;
-        let options = WriteOptions { command: Some(command.to_owned()), ..WriteOptions::default() };
+        let options = WriteOptions {
+            command: Some(command.to_owned()),
+            made: job.made().cloned(),
+            ..WriteOptions::default()
+        };
         outputs.push(("model.obj".to_owned(), mesh_bytes(MeshFormat::Obj, mesh, &options)?));
         outputs.extend(pictures(job, mesh)?);
         outputs.push(("report.json".to_owned(), check_json(&job.report()?, command).into_bytes()));
@@ -60,10 +65,14 @@ fn pictures(job: &Job, mesh: &Mesh) -> Result<Vec<Output>, MakeError> {
     };
     let mut outputs =
         vec![("model.png".to_owned(), render_with(&shown, &render, &marks)?.to_png())];
-    let before = job.before.as_deref();
-    if let Some((both, marks)) = before.and_then(|b| before_and_sections(b, mesh, job.made())) {
-        let picture = render_with(&both, &x_ray(&job.render), &marks)?;
+    if let Some(last) = job.moments.last().filter(|_| job.story.before == Before::On) {
+        let (before, marks) = last.about_to();
+        let picture = render_with(&before, &x_ray(&job.render), &marks)?;
         outputs.push(("before.png".to_owned(), picture.to_png()));
+    }
+    if !job.story.story.is_empty() {
+        let picture = render_story(&frames(job, (&shown, &marks))?, &job.render)?;
+        outputs.push(("story.png".to_owned(), picture.to_png()));
     }
     Ok(outputs)
 }

@@ -97,6 +97,10 @@ pub struct StepSchema {
     pub value: Option<&'static str>,
     /// What the step is for.
     pub group: StepGroup,
+    /// What it does, in a line.
+    pub help: &'static str,
+    /// The parameter that the value of the verb's key goes to; empty where the verb has kinds.
+    pub field: &'static str,
     /// Its keys, that of the verb first.
     pub keys: Vec<KeySchema>,
 }
@@ -120,7 +124,14 @@ fn of_step(step: &StepKind) -> StepSchema {
         }
     }
     first.append(&mut others);
-    StepSchema { verb: step.verb, value: step.kind, group: group(step.verb), keys: first }
+    StepSchema {
+        verb: step.verb,
+        value: step.kind,
+        group: group(step.verb),
+        help: step.help,
+        field: step.field,
+        keys: first,
+    }
 }
 
 fn group(verb: &str) -> StepGroup {

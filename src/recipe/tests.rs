@@ -225,3 +225,70 @@ fn what_an_operator_did_not_reach_counts_until_it_is_mended() {
     assert_eq!(unclean("[[step]]\nhull = \"convex\"\n"), []);
     assert_eq!(unclean("[[step]]\ncut = \"face\"\nselect = \"0\"\n").len(), 1);
 }
+
+#[test]
+fn panels_have_a_size_or_a_word_for_what_stands_in_its_place() {
+    let panelize = |step: &str| {
+        let text = format!("[[step]]\nheight = \"0\"\ndomain = \"4mx3m\"\n[[step]]\n{step}\n");
+        Recipe::parse(&text).map(|recipe| format!("{:?}", recipe.steps[1]))
+    };
+    for (step, wanted) in [
+        ("panelize = \"1.2m\"", "size: Some(Length { mm: 1200.0 }), count: None"),
+        ("panelize = 40", "size: Some(Length { mm: 40.0 }), count: None"),
+        ("panelize = \"count\"\ncount = 40", "size: None, count: Some(40)"),
+    ] {
+        let read = panelize(step).expect(step);
+        assert!(read.contains(wanted), "{step}: {read}");
+    }
+    assert!(panelize("panelize = \"tall\"").is_err());
+    let open = "[[step]]\nheight = \"0\"\ndomain = \"4mx3m\"\n[[step]]\npanelize = \"sag\"\n";
+    let error = run(open).err().expect("no size").to_string();
+    assert!(error.contains("exactly one"), "{error}");
+}
+
+const EDGE_CUT: &str = "[[step]]\nsolid = \"cube\"\nsize = \"50mm\"\n[[step]]\ncut = \"edge\"\nselect = \
+    \"0\"\noffset = 0.25\n[[step]]\nrender = \"iso\"\nwidth = 90\n";
+
+#[test]
+fn a_story_has_a_frame_for_every_word_and_says_what_is_missing() {
+    let story = |words: &str| {
+        let job = run(&format!("{EDGE_CUT}story = [{words}]\n")).expect("a job");
+        job_outputs(&job, "kerfold run")
+    };
+    for (words, size) in [
+        (r#""model""#, [180, 135]),
+        (r#""start", "cut", "model""#, [180, 45]),
+        // Four frames, two in a row: the only cut is the last step, so there is none for `each`.
+        (r#""start", "each", "cuts", "model", "model""#, [180, 134]),
+    ] {
+        let outputs = story(words).expect("pictures");
+        let (_, png) = outputs.iter().find(|(name, _)| name == "story.png").expect("a story");
+        let number =
+            |at: usize| u32::from_be_bytes(png[at..at + 4].try_into().expect("four bytes"));
+        assert_eq!([number(16), number(20)], size, "{words}");
+    }
+    for (word, missing) in [("steps", "hull = \"dual\""), ("sheets", "nothing was unfolded")] {
+        let error = story(&format!("\"{word}\"")).expect_err(word).to_string();
+        assert!(error.contains(word) && error.contains(missing), "{error}");
+    }
+    let none = run("[[step]]\nsolid = \"cube\"\n[[step]]\nrender = \"iso\"\nstory = [\"cut\"]\n");
+    let error = job_outputs(&none.expect("a job"), "kerfold run").expect_err("no operator");
+    assert!(error.to_string().contains("no step before it changes the mesh"), "{error}");
+}
+
+#[test]
+fn what_is_about_to_be_cut_is_marked_with_its_plane() {
+    let job = run(&format!("{EDGE_CUT}before = \"on\"\n")).expect("a job");
+    let [moment] = &job.moments[..] else { panic!("one operator") };
+    let (shown, marks) = moment.about_to();
+    assert_eq!((marks.edges.len(), marks.sections.len(), marks.planes.len()), (1, 1, 1));
+    // The cube as it was, the section and the plane beside it.
+    assert_eq!(shown.face_count(), 8);
+    let ends = shown.edge_vertices(marks.edges[0]).map(|v| shown.position(v));
+    let [a, b] =
+        moment.before.edge_vertices(moment.chosen.edges[0]).map(|v| moment.before.position(v));
+    assert!(ends == [a, b] || ends == [b, a], "{ends:?}");
+    let plane = shown.plane(marks.planes[0]).expect("a plane");
+    let section = shown.face_positions(marks.sections[0]);
+    assert!(section.iter().all(|&p| plane.signed_distance(p).abs() < 1e-9));
+}

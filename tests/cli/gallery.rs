@@ -18,7 +18,7 @@ fn a_gallery_shows_what_works_and_names_what_fails() {
     );
     let page = fs::read_to_string(folder.path("bundled/index.html")).expect("the page");
     assert!(
-        page.contains("24 vertices, 36 edges, 14 faces") && page.contains("planar to rounding"),
+        page.contains("9 vertices, 16 edges, 9 faces") && page.contains("planar to rounding"),
         "{page}"
     );
     assert!(

@@ -12,6 +12,7 @@ mod hull;
 mod lint;
 mod nest;
 mod notices;
+mod panelize;
 mod recipe;
 mod rows;
 mod seams;

@@ -181,15 +181,28 @@ fn planarize_says_what_it_cost_and_which_ways_are_better() {
     let (input, output) = ("fixtures/mend/saddle-of-quads.obj", folder.path("planar.obj"));
     let told = run(&["planarize", input, "-o", &output]);
     assert_eq!(told.code, Some(1), "{}", told.err);
-    for words in ["(F507)", "kerfold panelize IN", "conjugate directions"] {
+    for words in ["(F507)", "conjugate directions"] {
         assert!(told.err.contains(words), "{words}: {}", told.err);
     }
-    // One of the other ways, run: triangles, planar where they are.
-    let command = "kerfold subdivide triangulate IN";
-    let ran = run_advice(&told, command, input, &output);
-    assert_eq!(ran.code, Some(2), "it needs an output: {}", ran.err);
-    let ran = run(&["subdivide", "triangulate", input, "-o", &output]);
-    assert_eq!((ran.code, checked(&output, &["--profile", "exact"]).1), (Some(0), vec![]));
+    assert!(!told.err.contains("cut face"), "an open surface: {}", told.err);
+    // The other ways, run as they are said, leave panels that are planar.
+    for command in
+        ["kerfold panelize IN --count 64 -o OUT", "kerfold subdivide triangulate IN -o OUT"]
+    {
+        let ran = run_advice(&told, command, input, &output);
+        assert_eq!(ran.code, Some(0), "{command}: {}", ran.err);
+        assert_eq!(checked(&output, &["--profile", "exact"]).1, [""; 0], "{command}");
+    }
+    // Of a closed model every face gets a plane of its own.
+    let (dented, output) = (folder.path("dented.obj"), folder.path("cut.obj"));
+    let text = fs::read_to_string("fixtures/meshes/cube.obj").expect("a cube");
+    let moved = text.replacen("v 0 0 0", "v -4 -4 -4", 1);
+    fs::write(&dented, moved).expect("a file");
+    let told = run(&["planarize", &dented, "-o", &folder.path("planar.obj")]);
+    let command = "kerfold cut face IN --select all -o OUT";
+    let ran = run_advice(&told, command, &dented, &output);
+    assert_eq!(ran.code, Some(0), "{}", ran.err);
+    assert_eq!(checked(&output, &["--profile", "exact"]).1, [""; 0]);
 }
 
 #[test]

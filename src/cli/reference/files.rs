@@ -14,13 +14,19 @@ const fn file(name: &'static str, by: &'static str, what: &'static str) -> File 
     File { name, by, what }
 }
 
-const FILES: [File; 35] = [
+const FILES: [File; 36] = [
     file("model.obj", "`run`, `dform`", "the model as it is at the end"),
     file("model.png", "`run`, `dform`", "its picture"),
     file(
         "before.png",
         "`run` with `before = \"on\"` in a step `render`",
-        "the model before the last operator, with the sections that it cut",
+        "the model before the last operator: what is cut, opened or joined in red, sections and \
+        plane in blue",
+    ),
+    file(
+        "story.png",
+        "`run` with `story` in a step `render`",
+        "the pictures that the list names, side by side",
     ),
     file(
         "list.png",

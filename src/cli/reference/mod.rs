@@ -277,3 +277,28 @@ fn sentence(text: &str) -> String {
 fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_step_and_its_verb_are_told_in_the_same_words() {
+        let command = super::super::command();
+        let mut told = 0;
+        // A recipe begins with a solid that the verb writes.
+        for step in steps().iter().filter(|step| step.verb != "solid") {
+            let verb = command.find_subcommand(step.verb);
+            let verb = match step.kind {
+                Some(kind) => verb.and_then(|verb| verb.find_subcommand(kind)),
+                None => verb,
+            };
+            let Some(about) = verb.and_then(Command::get_about) else { continue };
+            let about = one_line(&about.to_string());
+            let words = about.split([';', ',', ':', '(']).next().unwrap_or_default().trim();
+            assert!(step.help.starts_with(words), "{}: {} and {about}", step.verb, step.help);
+            told += 1;
+        }
+        assert!(told > 17, "only {told} steps are verbs");
+    }
+}

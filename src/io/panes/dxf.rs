@@ -7,7 +7,8 @@ use crate::io::sheet::dxf::{DxfLayer, Entities, dxf_file};
 
 /// The text of the file; `command` is the command line that made it. Letters and dimension lines are
 /// as large as the scale of the drawing makes them; the layers are `FRONT`, `BACK` (dashed), `HOLES`
-/// (circles), `DIMENSIONS` and `TEXT`.
+/// (circles), `DIMENSIONS` and `TEXT`. Dimensions are lines and letters, no DIMENSION entities: those
+/// are drawn anew by every program in a style of its own.
 pub fn pane_dxf(pane: &Pane, command: &str) -> String {
     let mut entities = Entities::default();
     for shape in &pane.shapes {

@@ -15,6 +15,7 @@ use source::SourceFile;
 pub mod artwork;
 mod content;
 mod decode;
+mod heights;
 mod keyhole;
 mod made;
 mod mended;
@@ -39,7 +40,7 @@ mod tests;
 pub use decode::{decode_text, read_text};
 pub use note::{ReadNote, size_note};
 pub(super) use plain::polygons_in;
-pub use points::{read_points, read_points_bytes};
+pub use points::{read_curves, read_curves_bytes, read_points, read_points_bytes};
 pub use seams::{read_seams, read_seams_bytes};
 
 /// How a mesh file is taken.
@@ -140,7 +141,8 @@ pub struct ReadMesh {
 
 /// Reads a mesh from a file.
 ///
-/// The format is shown by the extension, or else by the content.
+/// The format is shown by the extension, or else by the content. A name that ends in `.csv` is a
+/// grid of heights: a table whose first row is x and first column y, or rows x,y,z.
 ///
 /// # Errors
 /// When the file cannot be read or is not a mesh; every message names the place and what to do.
@@ -230,14 +232,16 @@ fn read_and_mend(
     }
     let format = MeshFormat::of_path(path)
         .or_else(|| stl::is_binary(bytes).then_some(MeshFormat::Stl))
-        .or_else(|| MeshFormat::of_content(&text));
-    let raw = match format.ok_or_else(|| IoError::UnknownFormat { path: path.to_owned() })? {
-        MeshFormat::Obj => obj::read(&text),
+        .or_else(|| MeshFormat::of_content(&text).filter(|_| !has_heights(path)));
+    let raw = match format {
+        None if has_heights(path) => heights::read(&text),
+        None => return Err(IoError::UnknownFormat { path: path.to_owned() }),
+        Some(MeshFormat::Obj) => obj::read(&text),
         // Zeros at the end of a binary file are numbers.
-        MeshFormat::Ply if bytes.starts_with(b"ply") => ply::read(bytes),
-        MeshFormat::Ply => ply::read(&text),
-        MeshFormat::Off => off::read(&text),
-        MeshFormat::Stl => stl::read(bytes, &text),
+        Some(MeshFormat::Ply) if bytes.starts_with(b"ply") => ply::read(bytes),
+        Some(MeshFormat::Ply) => ply::read(&text),
+        Some(MeshFormat::Off) => off::read(&text),
+        Some(MeshFormat::Stl) => stl::read(bytes, &text),
     };
     let mut source = SourceFile { path, raw: raw.map_err(|located| located.in_file(path))? };
     let mut notes = std::mem::take(&mut source.raw.notes);
@@ -262,6 +266,11 @@ fn read_and_mend(
     let is_changed = options.weld.is_some() || options.mend || repair.is_some();
     let made = if is_changed { None } else { made::of_raw(&source.raw, &mesh, &splits) };
     merged(ReadMesh { mesh, splits, notes, scale, made }, options)
+}
+
+/// Whether a name says that a file holds heights over a grid.
+fn has_heights(path: &Path) -> bool {
+    path.extension().is_some_and(|end| end.eq_ignore_ascii_case("csv"))
 }
 
 /// A closed model of which the faces look inwards.

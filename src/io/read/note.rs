@@ -92,6 +92,15 @@ pub enum ReadNote {
         /// The first, from 1.
         first_line: usize,
     },
+    /// The file is a grid of heights.
+    Heights {
+        /// How many values of x.
+        columns: usize,
+        /// How many values of y.
+        rows: usize,
+        /// Whether it has rows x, y, z; else a table whose first row is x and first column y.
+        is_list: bool,
+    },
     /// Faces were mended, since that was asked for.
     Mended(Mending),
     /// Seams were marked where mending left no edge.
@@ -201,6 +210,7 @@ impl fmt::Display for ReadNote {
             | Self::LostSeams { .. }
             | Self::NothingToMend
             | Self::Merged { .. }
+            | Self::Heights { .. }
             | Self::OtherUnit { .. }
             | Self::OddSize { .. }
             | Self::InsideOut { .. } => self.fmt_of_model(f),
@@ -223,6 +233,15 @@ impl ReadNote {
                 "{coincident} of {rim_edges} rim edges lie exactly on another one, such as at \
                 vertices {a} and {b}; \
                  if the surface is torn there, --weld 0 closes it"
+            ),
+            Self::Heights { columns, rows, is_list } => write!(
+                f,
+                "heights over a grid, {columns} values of x by {rows} of y, read from {}",
+                if *is_list {
+                    "rows x, y, z"
+                } else {
+                    "a table whose first row is x and first column y"
+                }
             ),
             Self::Mended(mending) => fmt::Display::fmt(mending, f),
             Self::LostSeams { count } => write!(

@@ -28,8 +28,16 @@ use crate::io::error::{ContentFault, IoError, Place, excerpt};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn read_points(path: &Path) -> Result<Vec<DVec3>, IoError> {
+    Ok(read_curves(path)?.concat())
+}
+
+/// Reads polylines from a file; see [`read_curves_bytes`].
+///
+/// # Errors
+/// As [`read_points`].
+pub fn read_curves(path: &Path) -> Result<Vec<Vec<DVec3>>, IoError> {
     let bytes = std::fs::read(path).map_err(|source| IoError::reading(path, source))?;
-    read_points_bytes(path, &bytes)
+    read_curves_bytes(path, &bytes)
 }
 
 /// Reads the points of a polyline from the content of a file; `path` shows the format and is named
@@ -48,8 +56,27 @@ pub fn read_points(path: &Path) -> Result<Vec<DVec3>, IoError> {
 /// # Ok::<(), kerfold::io::IoError>(())
 /// ```
 pub fn read_points_bytes(path: &Path, bytes: &[u8]) -> Result<Vec<DVec3>, IoError> {
+    Ok(read_curves_bytes(path, bytes)?.concat())
+}
+
+/// Reads polylines, as [`read_points`] does but each `l` line of an OBJ file by itself. In other
+/// files, and in OBJ files without `l` lines, all points are one.
+///
+/// # Errors
+/// As [`read_points`].
+///
+/// # Example
+/// ```
+/// use std::path::Path;
+///
+/// let text = b"v 0 0 0\nv 0 0 5\nv 3 0 9\nl 1 2\nl 2 3\n";
+/// let curves = kerfold::io::read_curves_bytes(Path::new("rows.obj"), text)?;
+/// assert_eq!((curves.len(), curves[1][1].z), (2, 9.0));
+/// # Ok::<(), kerfold::io::IoError>(())
+/// ```
+pub fn read_curves_bytes(path: &Path, bytes: &[u8]) -> Result<Vec<Vec<DVec3>>, IoError> {
     let is_obj = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("obj"));
-    let (mut points, mut order) = (Vec::new(), Vec::new());
+    let (mut points, mut orders): (Vec<DVec3>, Vec<Vec<usize>>) = (Vec::new(), Vec::new());
     let text = as_utf8(bytes);
     let mut lines = Lines::new(&text);
     while let Some((line, text)) = lines.next_content() {
@@ -62,19 +89,23 @@ pub fn read_points_bytes(path: &Path, bytes: &[u8]) -> Result<Vec<DVec3>, IoErro
             (false, _) => points.push(point(text).ok_or_else(|| at(fault(text)))?),
             (true, Some(b"v")) => points.push(point(&text[1..]).ok_or_else(|| at(fault(text)))?),
             (true, Some(b"l")) => {
+                orders.push(Vec::new());
                 for word in rest {
                     let count = points.len();
                     let missing =
                         |index| ContentFault::NoSuchVertex { text: excerpt(text), index, count };
-                    order.push(index(word, count).map_err(|index| at(missing(index)))?);
+                    let found = index(word, count).map_err(|index| at(missing(index)))?;
+                    orders.last_mut().into_iter().for_each(|order| order.push(found));
                 }
             }
             (true, _) => {}
         }
     }
-    let points: Vec<DVec3> =
-        if order.is_empty() { points } else { order.into_iter().map(|i| points[i]).collect() };
-    if points.is_empty() { Err(IoError::Empty { path: path.to_owned() }) } else { Ok(points) }
+    orders.retain(|order| !order.is_empty());
+    let curve = |order: Vec<usize>| order.into_iter().map(|i| points[i]).collect();
+    let curves: Vec<Vec<DVec3>> =
+        if orders.is_empty() { vec![points] } else { orders.into_iter().map(curve).collect() };
+    if curves[0].is_empty() { Err(IoError::Empty { path: path.to_owned() }) } else { Ok(curves) }
 }
 
 fn fault(text: &[u8]) -> ContentFault {

@@ -7,6 +7,7 @@ use std::str::FromStr;
 use glam::DVec3;
 use serde::{Deserialize, Deserializer, de};
 
+use crate::mesh::FaceId;
 use crate::units::{Angle, Length, UnitError};
 
 /// How to make a handle. One definition for the library, the command line and the recipe.
@@ -48,6 +49,14 @@ pub struct HandleParams {
 
 fn default_segments() -> u32 {
     5
+}
+
+impl HandleParams {
+    /// The faces that the handle joins.
+    pub fn faces(&self) -> impl Iterator<Item = FaceId> {
+        let all = [self.from, self.to].into_iter().chain(self.also.iter().copied());
+        all.map(|corner| FaceId::new(corner.face as usize))
+    }
 }
 
 /// A face and perhaps one of its corners, by ids.

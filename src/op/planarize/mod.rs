@@ -1,20 +1,19 @@
 //! Planarize: moves vertices as little as possible until every face is planar.
 //!
-//! Source: our own arrangement of known parts. Sequential quadratic programming (Nocedal, Wright
-//! 2006, 18.1) on the constraint that the heights of a face's corners over its least-squares plane
-//! are those of a plane; the goal is least movement, after the closeness terms of Liu, Pottmann,
-//! Wallner, Yang, Wang 2006 ("Geometric modeling with conical meshes and developable surfaces"),
-//! and a fairness term that lets neighbours move alike. Each round solves one sparse linear system,
-//! one unknown for each side above three of each face.
+//! Source: guided projection (Tang, Sun, Gomes, Wallner, Pottmann 2014, "Form-finding with polyhedral
+//! meshes made simple"): Gauss-Newton on corners and planes together, planes eliminated face by face,
+//! with the closeness of Liu, Pottmann, Wallner, Yang, Wang 2006 and a fairness that lets neighbours
+//! move alike. Ours is how it comes to an end: a small fixed weight of closeness, with which vertices
+//! slide to the nearest planar form, then planes alone, where rounds converge quadratically.
 //!
 //! Needs: faces whose corners are not all fixed. Keeps: V, E, F, genus, groups, seams. Changes:
 //! positions, so that faces are planar to the profile. Degenerate: a flat patch of hexagons has too
 //! few ways to bend; it is already planar, and the shift of the system (Levenberg 1944) keeps its
 //! steps small. What does not come to an end within the rounds is reported, with the worst face.
 
-mod constraints;
 mod damage;
 mod report;
+mod system;
 
 #[cfg(test)]
 mod tests;
@@ -24,25 +23,39 @@ use serde::Deserialize;
 
 pub use self::report::{FarMove, Needle, PlanarizeReport};
 
-use self::constraints::Constraints;
+use self::system::{Pull, System};
 use super::{OpContext, OpError};
 use crate::check::{Limits, Profile};
 use crate::geom::{RoundingBound, fit_plane};
 use crate::measure::{planarity, self_contact};
 use crate::mesh::{FaceId, Mesh, VertexId};
+use crate::random::Rng;
 use crate::select::Selection;
 
 /// The most rounds that may be asked for.
 const MOST_ROUNDS: u32 = 10_000;
+/// The weight of closeness against planarity, while vertices slide.
+const CLOSENESS: f64 = 1e-8;
+/// Vertices slide for at most so many rounds.
+const SLIDES: u32 = 16;
+/// After that it falls to this share of itself with each round.
+const FALL: f64 = 0.01;
+/// At most so many rounds more to the last digit.
+const POLISH: u32 = 3;
+/// Faces are kept star-shaped until it has fallen to this share.
+const LAST_STARS: f64 = 1e-9;
 /// A step moves no vertex by more than this share of its shortest edge, so that the linear model of
 /// the round still holds.
-const LONGEST_STEP: f64 = 0.25;
-/// The search for the least movement ends when a round lowers it by less than this share.
+const LONGEST_STEP: f64 = 0.3;
+/// Edges that have become shorter than this share of what they were do not hold steps back further.
+const SHORTEST: f64 = 0.1;
+/// The first move, against the shortest edge: a form whose movement is least only among forms of its
+/// own symmetry is left at once.
+const SHAKE: f64 = 0.02;
+/// Sliding ends when a round lowers the movement by less than this share.
 const SETTLED: f64 = 1e-3;
 /// Limits are kept with this much to spare, so that a file's rounding does not break them again.
 const MARGIN: f64 = 0.5;
-/// The shifts of the linear system, relative to its diagonal.
-const SHIFTS: [f64; 2] = [1e-12, 1e-3];
 
 /// Whether vertices on a rim may move.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash, clap::ValueEnum, Deserialize)]
@@ -141,16 +154,13 @@ pub fn planarize(
     let limits = params.profile.limits();
     refuse_fixed_faces(mesh, &limits, &is_fixed)?;
     let mut work = Work {
-        constraints: Constraints::new(mesh),
         start: mesh.vertices().map(|v| (v, mesh.position(v))).collect(),
         mesh: mesh.clone(),
         params,
         limits,
-        is_fixed,
-        shift: SHIFTS[0],
     };
     let before_mm = work.worst().2;
-    let rounds = work.run(context)?;
+    let rounds = work.run(&is_fixed, context)?;
     let (made, mut report) = work.finish(rounds, before_mm);
     let crosses =
         |f: &FaceId| self_contact(&made, *f).is_some() && self_contact(mesh, *f).is_none();
@@ -160,6 +170,7 @@ pub fn planarize(
     report.concave = damage::concave(mesh, &made);
     report.far = damage::far_moves(mesh, &made);
     report.is_quads = damage::is_quads(mesh);
+    (report.faces, report.is_closed) = (mesh.face_count(), mesh.is_closed());
     Ok((made, report))
 }
 
@@ -211,76 +222,94 @@ fn refuse_fixed_faces(mesh: &Mesh, limits: &Limits, is_fixed: &[bool]) -> Result
 struct Work<'a> {
     mesh: Mesh,
     start: Vec<(VertexId, DVec3)>,
-    constraints: Constraints,
     params: &'a PlanarizeParams,
     limits: Limits,
-    is_fixed: Vec<bool>,
-    shift: f64,
 }
 
 impl Work<'_> {
     /// First the least movement, then, without any other wish, the planes. Returns the number of
     /// rounds.
-    fn run(&mut self, context: &OpContext<'_>) -> Result<u32, OpError> {
-        let (mut cost, mut is_settled) = (f64::INFINITY, false);
+    fn run(&mut self, is_fixed: &[bool], context: &OpContext<'_>) -> Result<u32, OpError> {
+        if self.worst().1 <= MARGIN {
+            return Ok(0);
+        }
+        let system = System::new(&self.mesh, is_fixed, self.params.fairness > 0.0);
+        let reach = self.reach(system.free());
+        self.shake(system.free(), &reach);
+        let (mut cost, mut closeness, mut slides) = (f64::INFINITY, CLOSENESS, true);
+        // The last rounds are for the planes alone.
+        let most = SLIDES.min(self.params.rounds.saturating_sub(10).max(self.params.rounds / 2));
         for round in 0..self.params.rounds {
             if context.progress.is_cancelled() {
                 return Err(OpError::Cancelled);
             }
             context.progress.report("planarizing", round as usize, 0);
-            let share = self.worst().1;
             let now = self.cost();
-            if share <= MARGIN {
-                if is_settled || now == 0.0 || (cost - now).abs() <= SETTLED * now {
-                    return Ok(round);
+            slides &= round < most && (cost - now).abs() > SETTLED * now;
+            cost = now;
+            if !slides {
+                if self.worst().1 <= MARGIN {
+                    return Ok(round + self.polish(&system, &reach, closeness));
                 }
-                cost = now;
+                closeness *= FALL;
             }
-            // The last rounds are for the planes alone.
-            is_settled |= round + self.params.rounds.min(20) >= self.params.rounds;
-            self.step(is_settled);
+            self.step(&system, &reach, closeness);
         }
         Ok(self.params.rounds)
     }
 
-    /// One round: solve, then walk as far as the linear model holds.
-    fn step(&mut self, planes_only: bool) {
-        let (wish, mobility) = self.wish(planes_only);
-        self.constraints.measure(&self.mesh);
-        let Some(mut steps) = self.constraints.solve(&wish, &mobility, self.shift) else {
-            self.shift = (self.shift * 100.0).min(SHIFTS[1]);
-            return;
-        };
-        let share = self.longest_share(&steps);
-        let part = if share > LONGEST_STEP { LONGEST_STEP / share } else { 1.0 };
-        self.shift = if part < 1.0 { self.shift * 10.0 } else { self.shift / 10.0 }
-            .clamp(SHIFTS[0], SHIFTS[1]);
-        for (&(v, _), step) in self.start.iter().zip(&mut steps) {
-            if !self.is_fixed[v.index()] {
-                self.mesh.set_position(v, self.mesh.position(v) + *step * part, false);
+    /// Rounds to the last digit, where the profile asks for it: within the limit, faces need not be
+    /// planar up to rounding yet, and only then they carry their planes. Returns how many helped.
+    fn polish(&mut self, system: &System, reach: &[f64], mut closeness: f64) -> u32 {
+        if self.params.profile != Profile::Exact {
+            return 0;
+        }
+        for round in 0..POLISH {
+            let (before, off) = (self.mesh.clone(), self.worst().2);
+            closeness *= FALL;
+            self.step(system, reach, closeness);
+            if self.worst().2 > off / 2.0 {
+                self.mesh = before;
+                return round;
             }
+        }
+        POLISH
+    }
+
+    /// How far each free vertex may move in a round, at the start: its shortest edge.
+    fn reach(&self, free: &[VertexId]) -> Vec<f64> {
+        free.iter().map(|&v| self.shortest_edge(v)).collect()
+    }
+
+    /// The shortest edge at a vertex; nothing for one without edges.
+    fn shortest_edge(&self, v: VertexId) -> f64 {
+        let here = self.mesh.position(v);
+        let lengths = self.mesh.neighbours(v).map(|u| self.mesh.position(u).distance(here));
+        lengths.reduce(f64::min).unwrap_or(0.0)
+    }
+
+    /// Moves every free vertex a little, always the same way.
+    fn shake(&mut self, free: &[VertexId], reach: &[f64]) {
+        let mut rng = Rng::new(0);
+        for (&v, reach) in free.iter().zip(reach) {
+            let way = rng.on_sphere() * (SHAKE * reach);
+            self.mesh.set_position(v, self.mesh.position(v) + way, false);
         }
     }
 
-    /// For each vertex the step that the goal alone would take, and how readily it moves: the
-    /// inverse of a diagonal that majorises the goal's second derivative, so that the step never
-    /// raises the goal.
-    fn wish(&self, planes_only: bool) -> (Vec<DVec3>, Vec<f64>) {
-        let PlanarizeParams { closeness, fairness, .. } = *self.params;
-        let moved = self.moved();
-        let each = |&(v, _): &(VertexId, DVec3)| {
-            if self.is_fixed[v.index()] {
-                return (DVec3::ZERO, 0.0);
-            }
-            let (mut slope, mut count) = (closeness * moved[v.index()], 0);
-            for u in self.mesh.neighbours(v) {
-                slope += fairness * (moved[v.index()] - moved[u.index()]);
-                count += 1;
-            }
-            let mobility = 1.0 / (closeness + 2.0 * fairness * f64::from(count));
-            (if planes_only { DVec3::ZERO } else { -slope * mobility }, mobility * closeness)
-        };
-        self.start.iter().map(each).unzip()
+    /// One round: solve, then walk as far as the linear model holds.
+    fn step(&mut self, system: &System, reach: &[f64], closeness: f64) {
+        let PlanarizeParams { closeness: back, fairness, .. } = *self.params;
+        // The last rounds come to the planes without any other wish.
+        let keeps_stars = closeness > LAST_STARS * CLOSENESS;
+        let pull = Pull { back: closeness, alike: closeness * fairness / back, keeps_stars };
+        let Some(steps) = system.step(&self.mesh, pull) else { return };
+        let lengths: Vec<f64> = system.free().iter().map(|&v| self.shortest_edge(v)).collect();
+        for (i, &v) in system.free().iter().enumerate() {
+            let longest = LONGEST_STEP * lengths[i].max(SHORTEST * reach[i]);
+            let step = steps[i].clamp_length_max(longest);
+            self.mesh.set_position(v, self.mesh.position(v) + step, false);
+        }
     }
 
     fn moved(&self) -> Vec<DVec3> {
@@ -299,20 +328,6 @@ impl Work<'_> {
         let fair: f64 =
             ends.map(|[u, v]| moved[u.index()].distance_squared(moved[v.index()])).sum();
         self.params.closeness * close + self.params.fairness * fair
-    }
-
-    /// The largest step over the shortest edge at its vertex.
-    fn longest_share(&self, steps: &[DVec3]) -> f64 {
-        let share = |(&(v, here), step): (&(VertexId, DVec3), &DVec3)| {
-            let here = if self.is_fixed[v.index()] { here } else { self.mesh.position(v) };
-            let shortest = self
-                .mesh
-                .neighbours(v)
-                .map(|u| self.mesh.position(u).distance(here))
-                .fold(f64::MAX, f64::min);
-            if step.length() == 0.0 { 0.0 } else { step.length() / shortest }
-        };
-        self.start.iter().zip(steps).map(share).fold(0.0, f64::max)
     }
 
     /// The face that uses most of its limit, how much of it, and the largest distance of a corner
@@ -356,6 +371,8 @@ impl Work<'_> {
             concave: Vec::new(),
             far: Vec::new(),
             is_quads: false,
+            faces: 0,
+            is_closed: false,
         };
         (self.mesh, report)
     }

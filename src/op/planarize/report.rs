@@ -39,6 +39,10 @@ pub struct PlanarizeReport {
     pub far: Vec<FarMove>,
     /// Whether most faces have four sides.
     pub is_quads: bool,
+    /// How many faces the model has.
+    pub faces: usize,
+    /// Whether it is closed: only then can planes cut it face by face.
+    pub is_closed: bool,
 }
 
 /// A vertex that moved so far that the model is another one.
@@ -151,12 +155,17 @@ impl PlanarizeReport {
             ));
         }
         if self.is_damaged() {
-            notes.push(
-                "other ways to planar panels: `kerfold panelize IN` lays panels on the form anew, \
-                `kerfold subdivide triangulate IN` makes triangles, which are always planar, \
-                `kerfold cut face IN` moves planes instead of points"
-                    .to_owned(),
-            );
+            let planes = if self.is_closed {
+                ", `kerfold cut face IN --select all -o OUT` moves planes instead of points"
+            } else {
+                ""
+            };
+            notes.push(format!(
+                "other ways to planar panels: `kerfold panelize IN --count {} -o OUT` lays panels on \
+                the form anew, `kerfold subdivide triangulate IN -o OUT` makes triangles, which are \
+                always planar{planes}",
+                self.faces
+            ));
         }
         if self.is_quads && (self.is_damaged() || !self.is_planar) {
             notes.push(

@@ -314,3 +314,21 @@ fn openings(
     }
     Ok(openings)
 }
+
+impl RindParams {
+    /// The faces that are chosen to be opened, without the rims.
+    ///
+    /// # Errors
+    /// [`OpError::Select`] for an empty selection.
+    pub(super) fn opened(
+        &self,
+        mesh: &Mesh,
+        context: &OpContext<'_>,
+    ) -> Result<Vec<FaceId>, OpError> {
+        let mut faces = Vec::new();
+        for selection in [&self.punch, &self.peel].into_iter().flatten() {
+            faces.extend(selection.faces(&context.select(mesh))?);
+        }
+        Ok(faces)
+    }
+}

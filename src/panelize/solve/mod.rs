@@ -10,13 +10,15 @@
 mod element;
 mod planes;
 mod rim;
+mod symmetry;
 mod terms;
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use self::element::Element;
 pub(super) use self::planes::FacePlane;
 pub(super) use self::rim::{RimRow, RimRule, rim_plane_without_rim};
+pub(super) use self::symmetry::Symmetry;
 pub(super) use self::terms::{Limits, Weights};
 use super::curvature::{Height, Quadric};
 use super::regions::{Kind, Panels};
@@ -52,6 +54,10 @@ pub(super) struct State {
     pub fans: Vec<Vec<usize>>,
     /// For each face its neighbour across each side; [`NONE`] at a rim.
     pub across: Vec<Vec<usize>>,
+    /// Corners that are images of each other.
+    pub symmetry: Option<Symmetry>,
+    /// For each corner the face that carries its own terms.
+    owners: Vec<usize>,
     shift: f64,
 }
 
@@ -76,10 +82,20 @@ struct Unknowns {
 
 impl State {
     /// The state of some panels; `areas` as in [`Self::areas`].
-    pub(super) fn new(panels: Panels, areas: Vec<f64>, scene: Scene<'_>) -> Self {
+    pub(super) fn new(
+        panels: Panels,
+        areas: Vec<f64>,
+        symmetry: Option<Symmetry>,
+        scene: Scene<'_>,
+    ) -> Self {
         let stress = vec![1.0; panels.faces.len()];
-        let (fans, across, planes) = (Vec::new(), Vec::new(), Vec::new());
-        let mut made = Self { panels, planes, areas, stress, fans, across, shift: LEAST_SHIFT };
+        let (fans, across, planes, owners) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let shift = LEAST_SHIFT;
+        let mut made =
+            Self { panels, planes, areas, stress, fans, across, symmetry, owners, shift };
+        if let Some(symmetry) = &made.symmetry {
+            symmetry.spread(&mut made.panels.points);
+        }
         made.link();
         made.fit_planes(scene);
         made
@@ -88,6 +104,10 @@ impl State {
     /// Looks up fans and neighbours again after faces changed.
     pub(super) fn link(&mut self) {
         self.fans = self.panels.fans();
+        self.owners = match &self.symmetry {
+            Some(symmetry) => symmetry.owners(&self.panels.faces),
+            None => self.fans.iter().map(|fan| fan.first().copied().unwrap_or(NONE)).collect(),
+        };
         self.across = (0..self.panels.faces.len())
             .map(|f| {
                 let face = &self.panels.faces[f];
@@ -122,11 +142,37 @@ impl State {
         self.planes = (0..self.panels.faces.len())
             .map(|f| {
                 let centre = self.panels.centre(f);
-                let hint = self.panels.hints[self.panels.faces[f][0]];
+                let hint = self.panels.hint(f);
                 let up = self.height(scene, centre, hint).normal;
                 FacePlane::fit(&self.panels, f, up)
             })
             .collect();
+    }
+
+    /// What takes the place that is solved for to a corner.
+    fn image(&self, v: usize) -> DMat3 {
+        self.symmetry.as_ref().map_or(DMat3::IDENTITY, |symmetry| symmetry.image[v])
+    }
+
+    /// Whether a face is the first of its kind, and its terms are summed up.
+    fn is_first_face(&self, f: usize) -> bool {
+        self.symmetry.as_ref().is_none_or(|symmetry| symmetry.is_first_face[f])
+    }
+
+    /// Whether a face carries the terms of an edge, of the two faces there.
+    fn carries_edge(&self, f: usize, other: usize) -> bool {
+        other == NONE || other > f || !self.is_first_face(other)
+    }
+
+    /// Moves images after those that were solved for, and their planes.
+    fn follow_firsts(&mut self) {
+        let Some(symmetry) = &self.symmetry else { return };
+        symmetry.spread(&mut self.panels.points);
+        for f in 0..self.planes.len() {
+            if !symmetry.is_first_face[f] {
+                self.planes[f] = FacePlane::fit(&self.panels, f, self.planes[f].normal);
+            }
+        }
     }
 
     /// Runs so many rounds; corners with a face where `active` is false stay. `from` and `to` are
@@ -189,6 +235,17 @@ impl State {
             element.eliminate_plane(self.shift)?;
             let local: Vec<usize> =
                 (0..face.len()).filter(|&i| unknowns.node[face[i]] != NONE).collect();
+            if self.symmetry.is_some() {
+                let images: Vec<(usize, DMat3)> =
+                    face.iter().map(|&v| (unknowns.node[v], self.image(v))).collect();
+                add_images(unknowns, clique, element, &images, &mut matrix);
+                for (i, (node, image)) in images.into_iter().enumerate() {
+                    let slope = DVec3::from_slice(&element.slope[3 * i..]);
+                    let slope = (image.transpose() * slope).to_array();
+                    (0..3).for_each(|a| right[3 * node + a] -= slope[a]);
+                }
+                continue;
+            }
             add_element(unknowns, clique, element, &local, &mut matrix);
             for &i in &local {
                 let node = unknowns.node[face[i]];
@@ -206,8 +263,10 @@ impl State {
         for (&f, element) in unknowns.faces.iter().zip(elements) {
             let moved: Vec<DVec3> = self.panels.faces[f]
                 .iter()
-                .map(|&v| unknowns.node[v])
-                .map(|node| if node == NONE { DVec3::ZERO } else { steps[node] })
+                .map(|&v| match unknowns.node[v] {
+                    NONE => DVec3::ZERO,
+                    node => self.image(v) * steps[node],
+                })
                 .collect();
             let step = element.plane_step(&moved).clamp_length_max(LONGEST_STEP);
             self.planes[f] = self.planes[f].stepped(step);
@@ -215,6 +274,7 @@ impl State {
         for (&v, step) in unknowns.corners.iter().zip(steps) {
             self.panels.points[v] += step.clamp_length_max(LONGEST_STEP);
         }
+        self.follow_firsts();
         for &f in &unknowns.faces {
             self.planes[f] = self.planes[f].moved_to(self.panels.centre(f));
         }
@@ -222,12 +282,13 @@ impl State {
 
     /// Keeps the hint of each corner at the vertex of the surface that is nearest now.
     fn follow_surface(&mut self, scene: Scene<'_>, unknowns: &Unknowns) {
-        for &v in &unknowns.corners {
+        for v in (0..self.panels.points.len()).filter(|&v| unknowns.node[v] != NONE) {
             let Panels { points, hints, kinds, .. } = &mut self.panels;
             hints[v] = match kinds[v] {
                 Kind::Inner => scene.surface.nearest(points[v], hints[v]),
                 Kind::Rim => rim::nearest_on_rim(scene.surface, points[v], hints[v]),
-                Kind::Corner => hints[v],
+                Kind::Crease => rim::nearest_on_crease(scene.surface, points[v], hints[v]),
+                Kind::Corner | Kind::Kept => hints[v],
             };
         }
     }
@@ -237,14 +298,21 @@ impl State {
         let moves = |v: usize| {
             !self.fans[v].is_empty() && self.fans[v].iter().all(|&f| active.is_none_or(|a| a[f]))
         };
-        let corners: Vec<usize> = (0..self.panels.points.len()).filter(|&v| moves(v)).collect();
+        let is_first = |v: usize| self.symmetry.as_ref().is_none_or(|s| s.first[v] == v);
+        let corners = (0..self.panels.points.len()).filter(|&v| moves(v) && is_first(v));
+        let corners: Vec<usize> = corners.collect();
         let mut node = vec![NONE; self.panels.points.len()];
         corners.iter().enumerate().for_each(|(i, &v)| node[v] = i);
+        if let Some(symmetry) = &self.symmetry {
+            node = symmetry.first.iter().map(|&v| node[v]).collect();
+        }
         let nodes = |f: usize| -> Vec<usize> {
-            self.panels.faces[f].iter().map(|&v| node[v]).filter(|&n| n != NONE).collect()
+            let nodes = self.panels.faces[f].iter().map(|&v| node[v]).filter(|&n| n != NONE);
+            if self.symmetry.is_some() { without_repeats(nodes) } else { nodes.collect() }
         };
-        let faces: Vec<usize> =
-            (0..self.panels.faces.len()).filter(|&f| !nodes(f).is_empty()).collect();
+        let faces: Vec<usize> = (0..self.panels.faces.len())
+            .filter(|&f| self.is_first_face(f) && !nodes(f).is_empty())
+            .collect();
         if faces.is_empty() {
             return None;
         }
@@ -322,6 +390,49 @@ fn add_element(
             for a in 0..3 {
                 for b in 0..3 {
                     block[(3 * i + a) * size + 3 * j + b] = element.reduced(3 * li + a, 3 * lj + b);
+                }
+            }
+        }
+    }
+    unknowns.fronts.add(matrix, clique, &block);
+}
+
+/// Each of some numbers once, in the order in which they come first.
+fn without_repeats(all: impl Iterator<Item = usize>) -> Vec<usize> {
+    let mut kept = Vec::new();
+    for one in all {
+        if !kept.contains(&one) {
+            kept.push(one);
+        }
+    }
+    kept
+}
+
+/// Adds an element of which several corners may be images of one place.
+fn add_images(
+    unknowns: &Unknowns,
+    clique: usize,
+    element: &Element,
+    images: &[(usize, DMat3)],
+    matrix: &mut BlockMatrix,
+) {
+    let nodes = without_repeats(images.iter().map(|&(node, _)| node));
+    let place = |node: usize| nodes.iter().position(|&n| n == node).unwrap_or(0);
+    let size = 3 * nodes.len();
+    let mut block = vec![0.0; size * size];
+    for (i, &(node_i, image_i)) in images.iter().enumerate() {
+        for (j, &(node_j, image_j)) in images.iter().enumerate() {
+            let column = |b: usize| [0, 1, 2].map(|a| element.reduced(3 * i + a, 3 * j + b));
+            let own = DMat3::from_cols_array_2d(&[0, 1, 2].map(column));
+            let mut own = image_i.transpose() * own * image_j;
+            if i == j {
+                // Ways that are not open to a place are settled: it does not go them.
+                own += DMat3::IDENTITY - image_i.transpose() * image_i;
+            }
+            let (row, col) = (3 * place(node_i), 3 * place(node_j));
+            for a in 0..3 {
+                for b in 0..3 {
+                    block[(row + a) * size + col + b] += own.col(b)[a];
                 }
             }
         }

@@ -3,8 +3,9 @@
 use glam::DVec3;
 
 use super::super::regions::{Kind, Panels};
-use super::super::surface::{NONE, SPACING, Surface};
+use super::super::surface::{Held, NONE, SPACING, Surface};
 use super::Scene;
+use crate::geom::nearest_on_segment;
 
 /// What becomes of the rim.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,7 +38,8 @@ pub(in super::super) fn rim_plane_without_rim(
     surface: &Surface,
     planes: &[(DVec3, DVec3)],
 ) -> Option<usize> {
-    let rim = || (0..surface.points.len()).filter(|&v| surface.rim_next[v] != NONE);
+    let is_rim = |&v: &usize| surface.rim_next[v] != NONE && !surface.creases.has_edge(v);
+    let rim = || (0..surface.points.len()).filter(is_rim);
     let is_near = |&(normal, through): &(DVec3, DVec3)| {
         let off = |v: usize| (surface.points[v] - through).dot(normal).abs();
         rim().any(|v| off(v) < NEAR_RIM * SPACING)
@@ -73,9 +75,22 @@ impl RimRow {
                         directions.map(|d| Self::at(scene, corner, v, d.normalize_or_zero()));
                     rows.extend(rows_here);
                 }
+                Kind::Crease => rows.extend(Self::on_crease(scene.surface, corner, hint)),
+                Kind::Kept => {
+                    let point = scene.surface.points[hint];
+                    let row = |normal| Self { corner, normal, point, is_hard: true };
+                    rows.extend(DVec3::AXES.map(row));
+                }
             }
         }
         rows
+    }
+
+    /// The planes that hold a corner on the edge of a crease that begins at a vertex.
+    fn on_crease(surface: &Surface, corner: usize, v: usize) -> [Self; 2] {
+        let point = surface.points[v];
+        let row = |held: Held| Self { corner, normal: held.normal, point, is_hard: held.is_hard };
+        surface.creases.held[v].map(row)
     }
 
     /// The plane along the rim at one of its vertices.
@@ -115,7 +130,8 @@ fn is_straight(surface: &Surface, v: usize, wall: DVec3) -> bool {
 /// The direction of the rim at a vertex; at a corner of the rim that of what comes next.
 fn direction_at(surface: &Surface, v: usize) -> DVec3 {
     if surface.is_corner[v] {
-        return (surface.points[surface.rim_next[v]] - surface.points[v]).normalize_or_zero();
+        let from = if surface.creases.has_edge(v) { surface.rim_before[v] } else { v };
+        return (surface.points[surface.rim_next[from]] - surface.points[from]).normalize_or_zero();
     }
     surface.rim_direction(v)
 }
@@ -125,11 +141,35 @@ pub(super) fn nearest_on_rim(surface: &Surface, place: DVec3, from: usize) -> us
     let mut best = from;
     let distance = |v: usize| surface.points[v].distance_squared(place);
     loop {
-        let sides = [surface.rim_next[best], surface.rim_before[best]];
+        let before = surface.rim_before[best];
+        let sides = [
+            if surface.creases.has_edge(best) { best } else { surface.rim_next[best] },
+            if surface.creases.has_edge(before) { best } else { before },
+        ];
         let next = if distance(sides[0]) <= distance(sides[1]) { sides[0] } else { sides[1] };
         if distance(next) >= distance(best) {
             return best;
         }
         best = next;
+    }
+}
+
+/// The edge of a crease nearest to a place, by the vertex where it begins, by walking from one of
+/// its edges; corners at which a crease stops are not passed.
+pub(super) fn nearest_on_crease(surface: &Surface, place: DVec3, from: usize) -> usize {
+    let mut best = from;
+    let distance = |v: usize| {
+        let ends = [v, surface.rim_next[v]].map(|v| surface.points[v]);
+        nearest_on_segment(place, ends).distance_squared(place)
+    };
+    loop {
+        let next = surface.rim_next[best];
+        let next = if surface.creases.stops[next] { best } else { next };
+        let before = if surface.creases.stops[best] { best } else { surface.rim_before[best] };
+        let step = if distance(next) <= distance(before) { next } else { before };
+        if distance(step) >= distance(best) {
+            return best;
+        }
+        best = step;
     }
 }

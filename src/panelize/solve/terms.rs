@@ -7,7 +7,6 @@ use glam::{DMat3, DVec3};
 
 use super::super::regions::Kind;
 use super::super::sites::PANEL_AREA;
-use super::super::surface::NONE;
 use super::element::Element;
 use super::{RimRow, Round, Scene, State, Unknowns};
 
@@ -120,7 +119,10 @@ pub(super) struct Node {
 fn corner_way(normals: [DVec3; 3]) -> DVec3 {
     let rows = DMat3::from_cols(normals[0], normals[1], normals[2]);
     let gram = rows.transpose() * rows + DMat3::from_diagonal(DVec3::splat(1e-12));
-    rows * (gram.inverse() * DVec3::ONE)
+    // n · (mean + w) = 1, where n · mean = 1 − |n − mean|² / 2.
+    let mean = (normals[0] + normals[1] + normals[2]).normalize_or_zero();
+    let lack = DVec3::from_array(normals.map(|n| n.distance_squared(mean) / 2.0));
+    mean + rows * (gram.inverse() * lack)
 }
 
 /// A face as its terms see it.
@@ -205,7 +207,7 @@ impl State {
 
     /// Corners whose own terms this face carries: those of which it is the first face.
     fn owned(&self, view: &View) -> Vec<usize> {
-        (0..view.len()).filter(|&i| self.fans[view.corners[i]][0] == view.face).collect()
+        (0..view.len()).filter(|&i| self.owners[view.corners[i]] == view.face).collect()
     }
 
     /// Corners lie in the plane: (x − c) · n. The plane's unknowns are its tilts and its way.
@@ -223,7 +225,8 @@ impl State {
     /// Corners and the middle of the face lie on the surface (Liu, Pottmann, Wallner, Yang, Wang
     /// 2006), and the plane is tangent.
     fn closeness(&self, scene: Scene<'_>, view: &View, weights: &Weights, element: &mut Element) {
-        for i in self.owned(view) {
+        let is_off_creases = |&i: &usize| !self.panels.kinds[view.corners[i]].is_on_crease();
+        for i in self.owned(view).into_iter().filter(is_off_creases) {
             let quadric = &scene.quadrics[self.panels.hints[view.corners[i]]];
             let height = quadric.height(view.places[i]);
             element.by(i, height.normal).residual(height.distance, weights.corner);
@@ -232,7 +235,7 @@ impl State {
                 element.by(i, height.normal).residual(far, weights.far);
             }
         }
-        let height = self.height(scene, view.centre, self.panels.hints[view.corners[0]]);
+        let height = self.height(scene, view.centre, self.panels.hint(view.face));
         let share = 1.0 / view.len() as f64;
         for i in 0..view.len() {
             element.by(i, height.normal * share);
@@ -284,7 +287,7 @@ impl State {
             let j = view.next(i);
             let way = view.places[j] - view.places[i];
             let length = way.length();
-            if (other != NONE && other < view.face) || length >= limits.edge {
+            if !self.carries_edge(view.face, other) || length >= limits.edge {
                 continue;
             }
             let direction = way / length.max(1e-9);
@@ -315,7 +318,7 @@ impl State {
         let moved = |i: usize| view.places[i] - start[view.corners[i]];
         for i in 0..view.len() {
             let other = self.across[view.face][i];
-            if other != NONE && other < view.face {
+            if !self.carries_edge(view.face, other) {
                 continue;
             }
             let j = view.next(i);

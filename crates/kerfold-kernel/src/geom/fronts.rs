@@ -46,7 +46,7 @@ struct Clique {
     nodes: Vec<usize>,
     /// Where the block of a pair begins, the number of rows there, and whether the block is to be
     /// transposed.
-    targets: Vec<(usize, usize, bool)>,
+    targets: Vec<(usize, u32, bool)>,
 }
 
 /// The values of a matrix with the pattern of some [`Fronts`].
@@ -106,7 +106,7 @@ impl Fronts {
             let front = &self.fronts[home[column]];
             let rows = front.size() * self.width;
             let offset = (column - front.first) * self.width * rows + front.row(row) * self.width;
-            (front.start + offset, rows, self.place[a] < self.place[b])
+            (front.start + offset, rows as u32, self.place[a] < self.place[b])
         };
         let each = |nodes: Vec<usize>| {
             let pairs = (0..nodes.len()).flat_map(|i| (0..=i).map(move |j| (i, j)));
@@ -119,6 +119,12 @@ impl Fronts {
     /// A matrix of zeros.
     pub fn zeros(&self) -> BlockMatrix {
         BlockMatrix { values: vec![0.0; self.values] }
+    }
+
+    /// Gives back the memory that [`Self::add`] needs: for the last matrix of a pattern, before it is
+    /// factored. Nothing can be added afterwards.
+    pub fn forget_cliques(&mut self) {
+        self.cliques = Vec::new();
     }
 
     /// Adds the block of a clique: a symmetric matrix over the unknowns of its nodes in their
@@ -136,7 +142,7 @@ impl Fronts {
                         // Column a, row b of the block below the diagonal.
                         let (row, column) =
                             if turned { (j * w + b, i * w + a) } else { (i * w + b, j * w + a) };
-                        matrix.values[start + a * rows + b] += block[row * size + column];
+                        matrix.values[start + a * rows as usize + b] += block[row * size + column];
                     }
                 }
             }

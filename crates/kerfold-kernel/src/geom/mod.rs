@@ -36,5 +36,7 @@ pub use plane::Plane;
 pub use predicate::Side;
 pub use quadric::{HeightSample, fit_quadric};
 pub use rounding::RoundingBound;
-pub use triangulate::{triangulate, triangulate_contours, triangulate_region};
+pub use triangulate::{
+    triangulate, triangulate_contours, triangulate_region, triangulate_region_through,
+};
 pub use triple::{Double, triple_product};

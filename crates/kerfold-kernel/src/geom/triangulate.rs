@@ -108,7 +108,26 @@ fn by_delaunay(polygon: &[DVec2]) -> Option<Vec<[usize; 3]>> {
 ///
 /// `None` when sides cross, when a number is not finite, or when there is no area.
 pub fn triangulate_region(contours: &[&[DVec2]]) -> Option<(Vec<DVec2>, Vec<[usize; 3]>)> {
-    let all: Vec<DVec2> = contours.iter().flat_map(|c| c.iter().copied()).collect();
+    triangulate_region_through(contours, &[])
+}
+
+/// The same with further points, which become corners of triangles, after those of the contours.
+/// Points on a side divide it, and those outside are corners of no triangle.
+///
+/// # Example
+/// ```
+/// use glam::DVec2;
+/// use kerfold_kernel::geom::triangulate_region_through;
+///
+/// let square = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
+/// let made = triangulate_region_through(&[&square], &[DVec2::splat(0.5)]);
+/// assert_eq!(made.map(|(corners, triangles)| (corners.len(), triangles.len())), Some((5, 4)));
+/// ```
+pub fn triangulate_region_through(
+    contours: &[&[DVec2]],
+    points: &[DVec2],
+) -> Option<(Vec<DVec2>, Vec<[usize; 3]>)> {
+    let all: Vec<DVec2> = contours.iter().copied().flatten().chain(points).copied().collect();
     let all = scaled(&all)?;
     let mut net = ConstrainedDelaunayTriangulation::<Point2<f64>>::new();
     let mut corners = Vec::new();
@@ -133,6 +152,12 @@ pub fn triangulate_region(contours: &[&[DVec2]]) -> Option<(Vec<DVec2>, Vec<[usi
                 return None;
             }
             net.add_constraint(from, to);
+        }
+    }
+    for (p, &given) in rest.iter().zip(points) {
+        let handle = net.insert(Point2::new(p.x, p.y)).ok()?;
+        if handle.index() == corners.len() {
+            corners.push(given);
         }
     }
     let is_inside = |triangle: [usize; 3]| {

@@ -152,6 +152,15 @@ impl MeshBuilder {
         Self::default()
     }
 
+    /// A builder without elements that has room for so many vertices, faces and corners of faces.
+    pub fn with_room(vertices: usize, faces: usize, corners: usize) -> Self {
+        Self {
+            positions: Vec::with_capacity(vertices),
+            corners: Vec::with_capacity(corners),
+            ends: Vec::with_capacity(faces),
+        }
+    }
+
     /// Adds a vertex and returns its number.
     pub fn vertex(&mut self, position: DVec3) -> usize {
         self.positions.push(position);

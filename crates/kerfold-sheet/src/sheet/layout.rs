@@ -106,8 +106,10 @@ codes!(finding SheetFinding { NearScores = 631 });
 /// breaks between them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NearScores {
-    /// Number of pairs of folds.
+    /// Number of pairs of folds without a common corner.
     pub pairs: usize,
+    /// Pairs of folds that leave one corner.
+    pub fans: Fans,
     /// The least distance between two, in mm.
     pub least: f64,
     /// What it should be: twice the thickness, at least 1 mm.
@@ -116,6 +118,17 @@ pub struct NearScores {
     pub is_known: bool,
     /// The pieces that have such folds.
     pub pieces: Vec<PieceId>,
+}
+
+/// Folds that leave one corner at so small an angle that they run near each other for long.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Fans {
+    /// Number of pairs of folds.
+    pub pairs: usize,
+    /// How far from its corner the longest of them runs nearer than the limit, in mm.
+    pub longest: f64,
+    /// How far from a corner folds may run near each other, in mm: ten times the limit.
+    pub reach: f64,
 }
 
 /// What could not be drawn, in numbers; nothing here makes a sheet wrong.

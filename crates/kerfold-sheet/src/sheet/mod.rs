@@ -54,7 +54,7 @@ pub use joint_kind::Joint;
 pub use kerf::CutShape;
 pub use kerf_coupon::{cuts_of_bar, has_comb, kerf_coupon};
 pub use lay_out::{SheetSet, fits, lay_out, lay_out_watched};
-pub use layout::{Layout, NearScores, Placed, Sheet, SheetFinding, SheetId, SheetReport};
+pub use layout::{Fans, Layout, NearScores, Placed, Sheet, SheetFinding, SheetId, SheetReport};
 pub use letter::{
     Angles, CAPITAL, Labels, LetterParams, Lettering, glyph, lettering, plain_lettering,
 };

@@ -1,0 +1,160 @@
+//! What `panelize` reads: grids of heights, formulas over drawings, curves, rough surfaces.
+
+use std::fs;
+
+use serde_json::Value;
+
+use super::harness::{Folder, Ran, run};
+
+fn written(folder: &Folder, name: &str, text: &str) -> String {
+    let path = folder.path(name);
+    fs::write(&path, text).expect("a file");
+    path
+}
+
+/// The model that a run wrote: largest extents in mm, faces, and rims.
+fn model(path: &str) -> (Vec<f64>, u64, u64) {
+    let ran = run(&["info", path, "--json"]);
+    assert_eq!(ran.code, Some(0), "{}", ran.err);
+    let json = serde_json::from_str::<Value>(&ran.out).expect("JSON")["model"].clone();
+    let size = json["size_mm"].as_array().expect("a size").iter().filter_map(Value::as_f64);
+    let count = |key: &str| json[key].as_u64().expect("a count");
+    (size.collect(), count("faces"), count("rims"))
+}
+
+fn assert_panels(ran: &Ran, path: &str) {
+    assert_eq!(ran.code, Some(0), "{}", ran.err);
+    let checked = run(&["check", path, "--profile", "exact", "--require", "planar,valence3"]);
+    assert_eq!(checked.code, Some(0), "{}", checked.out);
+}
+
+/// Heights of a shallow dome over 6 by 5 metres.
+fn dome(separator: &str) -> String {
+    let heights = |y: i32| {
+        let row = (-6..=6).map(|x| {
+            let (x, y) = (f64::from(x) / 2.0, f64::from(y) / 2.0);
+            format!("{separator}{}", 1.0 - (x * x + y * y) / 16.0)
+        });
+        format!("{}{}\n", f64::from(y) / 2.0, row.collect::<String>())
+    };
+    let head: String = (-6..=6).map(|x| format!("{separator}{}", f64::from(x) / 2.0)).collect();
+    format!("y\\x{head}\n{}", (-5..=5).map(heights).collect::<String>())
+}
+
+#[test]
+fn a_grid_of_heights_becomes_panels_and_says_how_it_was_read() {
+    let folder = Folder::new("panelize-heights");
+    let out = folder.path("panels.obj");
+    let grid = written(&folder, "heights.csv", &dome(","));
+    let ran = run(&["panelize", &grid, "--units", "m", "--count", "24", "-o", &out]);
+    assert_panels(&ran, &out);
+    let told = "13 values of x by 11 of y, read from a table whose first row is x";
+    assert!(ran.err.contains(told), "{}", ran.err);
+    let (size, ..) = model(&out);
+    assert!((5900.0..6100.0).contains(&size[0]), "{size:?}");
+    // Any verb reads it; what is no grid is told with its line, column and code.
+    assert_eq!(model(&grid).1, 2 * 12 * 10);
+    for (text, told) in [
+        (dome(",").replacen("\n0,0.4375", "\n0,much", 1), ":7: column 2 is `much`"),
+        (dome(";").replacen("\n0;", "\n-2;", 1), ":7: the first column is y"),
+        ("0,0,1\n1,0,1\n0,1,2\n".to_owned(), "no whole grid"),
+    ] {
+        let bad = written(&folder, "bad.csv", &text);
+        let ran = run(&["panelize", &bad, "--count", "24", "-o", &out]);
+        assert!(ran.code == Some(2) && ran.err.contains(told), "{}", ran.err);
+        assert!(ran.err.contains("(E145)"), "{}", ran.err);
+    }
+}
+
+#[test]
+fn a_formula_lies_over_drawn_lines_with_holes() {
+    let folder = Folder::new("panelize-domain");
+    let out = folder.path("panels.obj");
+    let square = |size: f64| {
+        let corners = [(-size, -size), (size, -size), (size, size), (-size, size)];
+        corners.map(|(x, y)| format!("{x},{y}\n")).concat()
+    };
+    let list =
+        written(&folder, "yard.csv", &format!("{}\n# the eye\n{}", square(4.0), square(1.5)));
+    let svg = "<svg xmlns='http://www.w3.org/2000/svg' width='80mm' height='80mm' viewBox='0 0 80 \
+        80'><rect width='80' height='80'/><path d='M25 25h30v30h-30z'/></svg>";
+    let drawing = written(&folder, "yard.svg", svg);
+    let mut areas = Vec::new();
+    for domain in [format!("{list}@m"), format!("{drawing}@8m")] {
+        let height = ["--height", "2-(x^2+y^2)/40", "--domain", &domain, "--steps", "40"];
+        let options = ["--count", "44", "--rim", "walls", "-o", &out];
+        let ran = run(&[&["panelize"][..], &height, &options].concat());
+        assert!(matches!(ran.code, Some(0 | 1)), "{}", ran.err);
+        let (size, faces, rims) = model(&out);
+        assert!((size[0] - 8000.0).abs() < 1e-6 && rims == 2, "{size:?} {rims}");
+        areas.push(faces);
+    }
+    assert!(areas.iter().all(|faces| (40..=48).contains(faces)), "{areas:?}");
+    for (domain, code) in [
+        (written(&folder, "bow.csv", "0,0\n5,5\n5,0\n0,5\n"), "(E856)"),
+        (written(&folder, "word.csv", "0,0\n5,five\n"), "(E"),
+        (folder.path("missing.svg"), "(E"),
+        ("cirkle@8m".to_owned(), "(E"),
+    ] {
+        let ran =
+            run(&["panelize", "--height", "0", "--domain", &domain, "--count", "20", "-o", &out]);
+        assert!(ran.code == Some(2) && ran.err.contains(code), "{domain}: {}", ran.err);
+    }
+}
+
+#[test]
+fn curves_are_in_the_unit_of_the_surface() {
+    let folder = Folder::new("panelize-curves");
+    let out = folder.path("panels.obj");
+    let grid = written(&folder, "heights.csv", &dome(","));
+    let curve = written(&folder, "row.obj", "v -2 -1 0.7\nv 0 0 1\nv 2 1 0.7\nl 1 2 3\n");
+    let along = |units: &str| {
+        run(&["panelize", &grid, "--units", units, "--count", "24", "--align", &curve, "-o", &out])
+    };
+    assert_panels(&along("m"), &out);
+    let with = fs::read(&out).expect("panels");
+    let ran = run(&["panelize", &grid, "--units", "m", "--count", "24", "-o", &out]);
+    assert_eq!(ran.code, Some(0), "{}", ran.err);
+    assert_ne!(fs::read(&out).expect("panels"), with, "the curve changes nothing");
+    // A curve 3 m above.
+    let high = written(&folder, "high.obj", "v -2 -1 4\nv 0 0 4\nl 1 2\n");
+    let ran =
+        run(&["panelize", &grid, "--units", "m", "--count", "24", "--align", &high, "-o", &out]);
+    assert!(ran.code == Some(2) && ran.err.contains("(E857)"), "{}", ran.err);
+    let ran = run(&["panelize", &grid, "--count", "24", "--align", "sideways", "-o", &out]);
+    assert!(ran.code == Some(2) && ran.err.contains("flat, rim, none"), "{}", ran.err);
+}
+
+#[test]
+fn a_rough_surface_is_made_even_and_the_way_is_told() {
+    let folder = Folder::new("panelize-smooth");
+    let out = folder.path("panels.obj");
+    // Every other height 4 mm off.
+    let mut count = 0;
+    let rough: Vec<String> = dome(",")
+        .lines()
+        .map(|line| {
+            let cell = |cell: &str| {
+                count += 1;
+                match cell.parse::<f64>() {
+                    Ok(z) if count > 20 && count % 3 == 0 => format!("{}", z + 0.004),
+                    _ => cell.to_owned(),
+                }
+            };
+            let (y, rest) = line.split_once(',').expect("cells");
+            format!("{y},{}", rest.split(',').map(cell).collect::<Vec<_>>().join(","))
+        })
+        .collect();
+    let grid = written(&folder, "rough.csv", &rough.join("\n"));
+    let run = |smooth: &str| {
+        let options = ["--units", "m", "--extent", "6m", "--mend", "--count", "24"];
+        run(&[&["panelize", &grid, "--smooth", smooth, "-o", &out][..], &options].concat())
+    };
+    let ran = run("30mm");
+    assert_panels(&ran, &out);
+    assert!(ran.err.contains("the surface was made even"), "{}", ran.err);
+    assert!(!ran.err.contains("farther than --smooth allows"), "{}", ran.err);
+    assert!(run("0.5mm").err.contains("farther than --smooth allows"));
+    let refused = run("0mm");
+    assert!(refused.code == Some(2) && refused.err.contains("(E842)"), "{}", refused.err);
+}

@@ -115,7 +115,7 @@ fn all_joints_of_all_solids_pass_lint() {
                     .unwrap_or_else(|e| panic!("{name} {size} {joint:?}: {e}"));
                 // Seams may leave holes that are narrow whatever the joint; the program says so.
                 if set.report.narrow_holes > 0 {
-                    assert!(size < 100.0, "{name} {size}: narrow holes in a large model");
+                    assert!(size < 100.0, "{name} {size} {joint:?}: narrow holes in a large model");
                     continue;
                 }
                 let found = faults(&set, &params);

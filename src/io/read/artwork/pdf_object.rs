@@ -134,7 +134,7 @@ impl<'a> Lexer<'a> {
             }
         }
         self.skip();
-        if self.bytes[self.at.min(self.bytes.len())..].starts_with(b">>") {
+        if self.bytes[self.at..].starts_with(b">>") {
             self.at += 2;
         }
         Ok(dict)
@@ -168,8 +168,11 @@ impl<'a> Lexer<'a> {
             match b {
                 b'\\' => {
                     // Escapes that stand for other characters do not matter to a judge of lines.
-                    text.extend(self.bytes.get(self.at));
-                    self.at += 1;
+                    // The file may end here, and no place lies behind its end.
+                    if let Some(&escaped) = self.bytes.get(self.at) {
+                        text.push(escaped);
+                        self.at += 1;
+                    }
                     continue;
                 }
                 b'(' => open += 1,

@@ -338,3 +338,16 @@ fn dxf_curves_with_normal_down_stay_and_run_the_other_way() {
     assert_eq!(tilted.not_flat.map(|n| n.0), Some(1));
     assert_eq!(dxf(4, "", "0 LINE 10 0 20 0 30 1 11 5 21 0 31 1").not_flat, None);
 }
+
+/// What a PDF can hold, cut off at each of its bytes: every object may be the last, and half there.
+#[test]
+fn a_pdf_may_end_anywhere() {
+    let whole = b"%PDF-1.4\n1 0 obj\n<< /Type /Catalog /Na#20me [(a\\)(b)\\\\) <4a4B> 12 0 R -.5 true null] \
+        /Length 9 >>\nstream\r\n0 0 m {1} \nendstream\nendobj\n2 0 obj (\\(\\";
+    for end in 0..=whole.len() {
+        // Half a file is refused or has no lines; neither is a reason to stop.
+        if let Ok((_, pages)) = read_artwork(Path::new("half.pdf"), &whole[..end]) {
+            assert!(pages.iter().all(|page| page.paths.is_empty()), "{end}");
+        }
+    }
+}

@@ -33,14 +33,7 @@ fn metadata() -> serde_json::Value {
     let host = String::from_utf8(host.stdout).expect("text");
     let host = host.lines().find_map(|l| l.strip_prefix("host: ")).expect("a host");
     let done = Command::new(env!("CARGO"))
-        .args([
-            "metadata",
-            "--format-version",
-            "1",
-            "--locked",
-            "--filter-platform",
-            host,
-        ])
+        .args(["metadata", "--format-version", "1", "--locked", "--filter-platform", host])
         .output()
         .expect("cargo");
     assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));

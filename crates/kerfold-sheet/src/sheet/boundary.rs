@@ -83,6 +83,9 @@ impl Boundaries {
                 sides.entry(side.piece).or_default().extend(found.map(|segment| (segment, (s, k))));
             }
         }
+        for here in sides.values_mut() {
+            here.sort_by(|(x, _), (y, _)| x[0].x.total_cmp(&y[0].x));
+        }
         let mut all = Self { contours: Vec::new(), places: vec![[None; 2]; net.seams.len()] };
         for (i, piece) in net.pieces.iter().enumerate() {
             let here = sides.get(&piece.id).map_or(&[][..], Vec::as_slice);
@@ -93,6 +96,8 @@ impl Boundaries {
         all
     }
 
+    /// Adds a contour. The sides of seams are in the order of the x of their first ends, so that only
+    /// those that begin near an edge are compared with it.
     fn add(&mut self, piece: usize, corners: &[DVec2], sides: &[(Segment, (usize, usize))]) {
         let n = corners.len();
         let mut contour = Contour {
@@ -105,9 +110,13 @@ impl Boundaries {
         for i in 0..n {
             let [a, b] = contour.edge(i);
             // Corners of neighbouring faces differ by rounding, so that the nearest side is meant.
+            let near = 1e-6 * a.distance(b);
             let off = |s: &Segment| s[0].distance(a) + s[1].distance(b);
-            let nearest = sides.iter().min_by(|x, y| off(&x.0).total_cmp(&off(&y.0)));
-            if let Some((_, (s, k))) = nearest.filter(|(s, _)| off(s) <= 1e-6 * a.distance(b)) {
+            let first = sides.partition_point(|(s, _)| s[0].x < a.x - near);
+            let here = sides[first..].iter().take_while(|(s, _)| s[0].x <= a.x + near);
+            // Of equal ones the first in the net.
+            let nearest = here.min_by(|x, y| off(&x.0).total_cmp(&off(&y.0)).then(x.1.cmp(&y.1)));
+            if let Some((_, (s, k))) = nearest.filter(|(s, _)| off(s) <= near) {
                 contour.sides[i] = Some((*s, *k));
                 self.places[*s][*k] = Some(Place { contour: self.contours.len(), edge: i });
             }

@@ -22,7 +22,7 @@ use super::slit::mend;
 use super::stock::Stock;
 use super::stretch::stretches;
 use super::verify::verify;
-use crate::geom::polygon::bounds;
+use crate::geom::polygon::{Location, bounds, locate};
 use crate::net::{Net, Piece, PieceId};
 use crate::progress::{Progress, Silent};
 use crate::units::Length;
@@ -145,8 +145,8 @@ pub fn lay_out_watched(
     report.widened_pieces = widened;
     report.lost_holes = shapes.iter().map(|s| s.lost_holes).sum();
     report.closed_notches = shapes.iter().map(|s| s.closed_notches).sum();
-    report.narrow_holes =
-        bare.pieces.iter().zip(&shapes).map(|(p, s)| narrow_holes(p, s, params)).sum();
+    let narrow = |i: usize| narrow_holes([&bare.pieces[i], &net.pieces[i]], &shapes[i], params);
+    report.narrow_holes = (0..shapes.len()).map(narrow).sum();
     report.widened_notches = shapes.iter().map(|s| s.widened_notches).sum();
     report.narrow_spacing = params.stock.made_of.as_ref().and_then(|material| {
         let [left, web] = [params.stock.spacing.mm() - params.stock.kerf.mm(), material.web.mm()];
@@ -175,19 +175,31 @@ const LEAST_WEB: f64 = 1.0;
 const LEAST_HOLE: f64 = 1.5;
 
 /// How many holes of a piece are narrower than the thickness wants, or nearer to another contour of
-/// it than a web should be. A notch whose mouth is narrower than the kerf leaves a hole, too.
-fn narrow_holes(piece: &Piece, shape: &CutShape, params: &SheetParams) -> usize {
+/// it than a web should be. What joints cut is made to be so narrow and does not count; a notch whose
+/// mouth is narrower than the kerf leaves a hole that does.
+fn narrow_holes([bare, jointed]: [&Piece; 2], shape: &CutShape, params: &SheetParams) -> usize {
     let of_material = params.stock.made_of.as_ref().map(|m| m.thickness);
     let thickness = params.joint.thickness.or(of_material).map_or(0.0, Length::mm);
-    let own = narrow_among(&piece.outline, &piece.holes, (0.0, thickness));
+    let own = narrow_among(&bare.outline, &bare.holes, (0.0, thickness), |_| true);
     if shape.closed_notches == 0 {
         return own;
     }
-    own.max(narrow_among(&shape.outline, &shape.holes, (params.stock.kerf.mm(), thickness)))
+    let is_left = |cut: &[DVec2]| {
+        let is_within = |hole: &Vec<DVec2>| locate(hole, cut[0]) == Location::Inside;
+        !jointed.holes.iter().any(is_within)
+    };
+    let kerf = params.stock.kerf.mm();
+    own + narrow_among(&shape.outline, &shape.holes, (kerf, thickness), is_left)
 }
 
-/// The same for contours along which a cut of a width in mm is made in material of a thickness.
-fn narrow_among(outline: &[DVec2], holes: &[Vec<DVec2>], (kerf, thickness): (f64, f64)) -> usize {
+/// The same for those contours that count, along which a cut of a width in mm is made in material of
+/// a thickness.
+fn narrow_among(
+    outline: &[DVec2],
+    holes: &[Vec<DVec2>],
+    (kerf, thickness): (f64, f64),
+    counts: impl Fn(&[DVec2]) -> bool,
+) -> usize {
     let is_narrow = |hole: &[DVec2]| {
         let least = smallest_box(hole);
         least.width.min(least.height) + kerf < LEAST_HOLE * thickness
@@ -198,7 +210,8 @@ fn narrow_among(outline: &[DVec2], holes: &[Vec<DVec2>], (kerf, thickness): (f64
             .chain(others)
             .any(|other| contour_distance(&holes[i], other) - kerf < LEAST_WEB)
     };
-    (0..holes.len()).filter(|&i| is_narrow(&holes[i]) || is_near(i)).count()
+    let those = (0..holes.len()).filter(|&i| counts(&holes[i]));
+    those.filter(|&i| is_narrow(&holes[i]) || is_near(i)).count()
 }
 
 /// Whether all pieces that the parameters name are there.

@@ -167,3 +167,20 @@ fn chains_of_operators_are_sound_and_their_files_are_read_back() {
         targets::chains(&bytes);
     }
 }
+
+/// What fuzzing found: each file lies under the name of its target, and went wrong there once.
+#[test]
+fn old_finds_stay_mended() {
+    let mut count = 0;
+    for entry in std::fs::read_dir("fixtures/finds").expect("finds") {
+        let path = entry.expect("an entry").path();
+        let name = path.file_stem().and_then(|stem| stem.to_str()).expect("a name");
+        let (target, _) = name.split_once('-').expect("a target and a number");
+        let reader = targets::READERS.iter().find(|(name, _)| *name == target);
+        assert!(reader.is_some() || target == "chains", "{name} is for no target");
+        let body = reader.map_or(targets::chains as fn(&[u8]), |(_, body)| *body);
+        body(&std::fs::read(&path).expect("a find"));
+        count += 1;
+    }
+    assert!(count >= 2, "{count} finds");
+}

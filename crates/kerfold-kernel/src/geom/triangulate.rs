@@ -111,6 +111,9 @@ pub fn triangulate_region(contours: &[&[DVec2]]) -> Option<(Vec<DVec2>, Vec<[usi
     triangulate_region_through(contours, &[])
 }
 
+/// A triangle is flat when its height is below this share of its longest side.
+const FLAT: f64 = 1e-10;
+
 /// The same with further points, which become corners of triangles, after those of the contours.
 /// Points on a side divide it, and those outside are corners of no triangle.
 ///
@@ -164,9 +167,19 @@ pub fn triangulate_region_through(
         let middle = triangle.iter().map(|&i| corners[i]).sum::<DVec2>() / 3.0;
         contours.iter().filter(|c| locate(c, middle) == Location::Inside).count() % 2 == 1
     };
-    let faces =
-        net.inner_faces().map(|face| lowest_first(face.vertices().map(|v| v.fix().index())));
-    let mut triangles: Vec<[usize; 3]> = faces.filter(|&t| is_inside(t)).collect();
+    // Points along a straight side are off it by rounding, and what is left between them and the
+    // side has its middle anywhere. It has no area and stays outside.
+    let is_flat = |triangle: [usize; 3]| {
+        let [a, b, c] = triangle.map(|i| corners[i]);
+        let longest = [a.distance_squared(b), b.distance_squared(c), c.distance_squared(a)];
+        (b - a).perp_dot(c - a).abs() <= FLAT * longest.into_iter().fold(0.0, f64::max)
+    };
+    let faces = net.inner_faces().map(|face| {
+        let sides = face.adjacent_edges().into_iter().filter(|e| e.is_constraint_edge()).count();
+        (sides, lowest_first(face.vertices().map(|v| v.fix().index())))
+    });
+    let kept = faces.filter(|&(sides, t)| is_inside(t) && (sides < 2 || !is_flat(t)));
+    let mut triangles: Vec<[usize; 3]> = kept.map(|(_, t)| t).collect();
     triangles.sort_unstable();
     (!triangles.is_empty()).then_some((corners, triangles))
 }

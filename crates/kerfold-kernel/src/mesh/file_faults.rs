@@ -76,6 +76,24 @@ impl Mesh {
         faults
     }
 
+    /// The same of the faces at some vertices only, but for edges that join the same two vertices.
+    pub fn file_faults_at(&self, vertices: &[VertexId]) -> Vec<FileFault> {
+        let all = vertices.iter().flat_map(|&v| self.vertex_faces(v));
+        let mut faces: Vec<FaceId> = all.filter(|&f| !self.is_hole(f)).collect();
+        faces.sort_unstable();
+        faces.dedup();
+        let mut faults = Vec::new();
+        for f in faces {
+            let sides = self.face_half_edges(f);
+            let walk: Vec<HalfEdgeId> =
+                sides.filter(|&h| self.origin(h) != self.target(h)).collect();
+            if self.is_in_files(&walk) {
+                self.faults_of_face(f, &walk, &mut faults);
+            }
+        }
+        faults
+    }
+
     /// Whether a face with these sides, self-loops left out, has three different corners.
     fn is_in_files(&self, walk: &[HalfEdgeId]) -> bool {
         let Some(&first) = walk.first() else { return false };

@@ -1,8 +1,9 @@
 //! Which vertices lie together, and what is left of a face when they become one.
 
-use std::collections::HashMap;
+use std::hash::BuildHasher as _;
 
 use glam::DVec3;
+use hashbrown::HashTable;
 
 use crate::geom::Grid;
 
@@ -10,17 +11,19 @@ use crate::geom::Grid;
 /// `distance` away, in the unit of the positions; 0 takes equal positions only. Those that stay are
 /// farther apart than `distance`.
 pub fn weld_targets(positions: &[DVec3], distance: f64) -> Vec<u32> {
-    if distance > 0.0 {
-        nearest_earlier(positions, distance)
-    } else {
-        first_equal(positions.iter())
-    }
+    if distance > 0.0 { nearest_earlier(positions, distance) } else { first_equal(positions) }
 }
 
 /// The first vertex at the same position, for each.
-pub fn first_equal<'a>(positions: impl ExactSizeIterator<Item = &'a DVec3>) -> Vec<u32> {
-    let mut first = HashMap::with_capacity(positions.len());
-    positions.enumerate().map(|(v, &p)| *first.entry(position_key(p)).or_insert(v as u32)).collect()
+pub fn first_equal(positions: &[DVec3]) -> Vec<u32> {
+    // The table holds numbers of vertices only, and asks the positions themselves.
+    let hasher = foldhash::fast::RandomState::default();
+    let key = |v: u32| position_key(positions[v as usize]);
+    let hash = |&v: &u32| hasher.hash_one(key(v));
+    let mut first = HashTable::with_capacity(positions.len() / 6);
+    let first_of =
+        |v: u32| *first.entry(hash(&v), |&other| key(other) == key(v), hash).or_insert(v).get();
+    (0..positions.len() as u32).map(first_of).collect()
 }
 
 /// Equal positions have equal keys; −0 equals 0.

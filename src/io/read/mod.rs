@@ -25,6 +25,7 @@ mod off;
 mod plain;
 mod ply;
 mod points;
+mod quick;
 mod raw;
 mod rim;
 mod seams;

@@ -3,10 +3,10 @@
 
 use std::borrow::Cow;
 
-use super::ReadNote;
 use super::decode::name_text;
 use super::raw::{GroupRun, RawMesh, SeamSegment};
 use super::text::{Commas, Lines, without_comment, words};
+use super::{ReadNote, quick};
 use crate::io::error::{ContentFault, Located, excerpt};
 
 const VERTEX_EXAMPLE: &str = "v 0 1.5 2";
@@ -46,8 +46,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawMesh, Located> {
         return Err(Located::anywhere(ContentFault::NotText { format: "OBJ" }));
     }
     let mut scan = Scan::default();
-    for statement in Statements::new(bytes) {
-        scan.take(&statement)?;
+    let mut statements = Statements::new(bytes);
+    while let Some((line, text)) = statements.lines.next() {
+        if !scan.take_plain(line, text) {
+            scan.take(&statements.whole(line, text))?;
+        }
     }
     let raw = scan.finished();
     let count = raw.positions.len();
@@ -88,17 +91,22 @@ struct Statements<'a> {
     lines: Lines<'a>,
 }
 
-impl<'a> Statements<'a> {
-    fn new(bytes: &'a [u8]) -> Self {
-        Self { lines: Lines::new(bytes) }
-    }
-}
-
 impl<'a> Iterator for Statements<'a> {
     type Item = Statement<'a>;
 
     fn next(&mut self) -> Option<Statement<'a>> {
         let (line, first) = self.lines.next()?;
+        Some(self.whole(line, first))
+    }
+}
+
+impl<'a> Statements<'a> {
+    fn new(bytes: &'a [u8]) -> Self {
+        Self { lines: Lines::new(bytes) }
+    }
+
+    /// The statement that begins with a line.
+    fn whole(&mut self, line: usize, first: &'a [u8]) -> Statement<'a> {
         let mut text = Cow::Borrowed(first);
         while let Some(tied) = tied_to_next(&text) {
             let mut joined = tied.to_vec();
@@ -108,7 +116,7 @@ impl<'a> Iterator for Statements<'a> {
             }
             text = Cow::Owned(joined);
         }
-        Some(Statement { line, text })
+        Statement { line, text }
     }
 }
 
@@ -148,6 +156,26 @@ impl Counted {
 }
 
 impl Scan {
+    /// Takes a vertex or a face of the plainest form; returns whether the line is one.
+    fn take_plain(&mut self, line: usize, text: &[u8]) -> bool {
+        match text {
+            [b'v', b' ', rest @ ..] => match quick::point(rest) {
+                Some(point) => {
+                    self.raw.positions.push(point);
+                    self.raw.vertex_lines.push(line as u32);
+                    true
+                }
+                None => false,
+            },
+            [b'f', b' ', rest @ ..] if quick::corners(rest, &mut self.raw.corners) => {
+                self.raw.ends.push(self.raw.corners.len());
+                self.raw.face_lines.push(line as u32);
+                true
+            }
+            _ => false,
+        }
+    }
+
     fn take(&mut self, statement: &Statement) -> Result<(), Located> {
         let (keyword, rest) = statement.parts();
         match keyword {

@@ -3,9 +3,9 @@
 
 use glam::{DVec3, Vec3};
 
-use super::ReadNote;
 use super::raw::RawMesh;
 use super::text::{Commas, Lines, words};
+use super::{ReadNote, quick};
 use crate::io::error::{ContentFault, Located, excerpt};
 use crate::mend::first_equal;
 
@@ -86,6 +86,11 @@ fn of_text(text: &[u8]) -> Result<Soup, Located> {
     let mut soup = Soup::default();
     let mut commas = Commas::default();
     for (line, text) in Lines::new(text) {
+        if let Some(corner) = plain_vertex(text) {
+            soup.corners.push(corner);
+            soup.corner_lines.push(line as u32);
+            continue;
+        }
         let mut words = words(text);
         let Some(first) = words.next() else { continue };
         let keyword = keyword(first, &mut words);
@@ -133,6 +138,11 @@ fn of_text(text: &[u8]) -> Result<Soup, Located> {
     }
 }
 
+/// A corner of the plainest form, `vertex 0 1.5 2`.
+fn plain_vertex(text: &[u8]) -> Option<DVec3> {
+    quick::point(text.trim_ascii_start().strip_prefix(b"vertex ")?)
+}
+
 /// The keyword of a line in small letters; `end loop` is `endloop`.
 fn keyword<'a>(first: &[u8], rest: &mut impl Iterator<Item = &'a [u8]>) -> Vec<u8> {
     let mut keyword = first.to_ascii_lowercase();
@@ -145,7 +155,7 @@ fn keyword<'a>(first: &[u8], rest: &mut impl Iterator<Item = &'a [u8]>) -> Vec<u
 /// Gives equal corners one number, in the order in which they first come, and drops triangles that
 /// lose a corner.
 fn welded(soup: Soup) -> RawMesh {
-    let first = first_equal(soup.corners.iter());
+    let first = first_equal(&soup.corners);
     let mut raw =
         RawMesh { face_lines: soup.triangle_lines, notes: soup.notes, ..RawMesh::default() };
     let mut numbers = vec![0; first.len()];

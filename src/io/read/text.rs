@@ -36,8 +36,7 @@ impl<'a> Iterator for Lines<'a> {
         if self.rest.is_empty() {
             return None;
         }
-        let end =
-            self.rest.iter().position(|&b| b == b'\n' || b == b'\r').unwrap_or(self.rest.len());
+        let end = memchr::memchr2(b'\n', b'\r', self.rest).unwrap_or(self.rest.len());
         let (line, after) = self.rest.split_at(end);
         self.rest = after.strip_prefix(b"\r\n").or(after.get(1..)).unwrap_or_default();
         self.number += 1;

@@ -5,6 +5,7 @@
 //! whole or not there.
 
 mod base64;
+pub mod bloom_fold;
 pub mod bloom_glb;
 mod csv_cell;
 mod error;

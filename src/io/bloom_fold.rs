@@ -18,6 +18,10 @@ use serde::Serialize;
 use crate::bloom::Bloom;
 use crate::net::{FlatFace, FoldKind};
 
+/// The unit. FOLD has a key `frame_unit` for it, but its published schema refuses every value of that
+/// key: `mm` is both one of its names and any text, and must be exactly one of the two.
+const UNITS: &str = "units: mm";
+
 /// The text of a FOLD file. `corners` gives where the corners of a face of the model are when all
 /// is closed, in the order of the face; a face that it does not know lies where folding puts it.
 ///
@@ -57,7 +61,7 @@ pub fn fold_text(
     line(&mut text, "frame_title", &"flat");
     line(&mut text, "frame_classes", &["creasePattern"]);
     line(&mut text, "frame_attributes", &["2D", "manifold", "orientable"]);
-    line(&mut text, "frame_unit", &"mm");
+    line(&mut text, "frame_description", &UNITS);
     line(&mut text, "vertices_coords", &list(&flat, |p: &DVec2| [p.x + 0.0, p.y + 0.0]));
     line(&mut text, "vertices_kerfold:vertex", &pattern.given);
     line(&mut text, "edges_vertices", &list(&edges, |e| e.vertices));
@@ -73,7 +77,7 @@ pub fn fold_text(
     line(&mut text, "frame_title", &"closed");
     line(&mut text, "frame_classes", &["foldedForm"]);
     line(&mut text, "frame_attributes", &["3D", "manifold", "orientable"]);
-    line(&mut text, "frame_unit", &"mm");
+    line(&mut text, "frame_description", &UNITS);
     line(&mut text, "frame_parent", &0);
     line(&mut text, "frame_inherit", &true);
     let closed = list(&closed, |p: &DVec3| (*p + DVec3::ZERO).to_array());
@@ -288,6 +292,7 @@ mod tests {
         for key in file.as_object().expect("an object").keys() {
             let known = ["file_", "frame_", "vertices_", "edges_", "faces_"];
             assert!(known.iter().any(|start| key.starts_with(start)), "{key}");
+            assert_ne!(key, "frame_unit", "the schema refuses it");
         }
         let flat = numbers::<2>(&file["vertices_coords"]);
         let closed = numbers::<3>(&folded["vertices_coords"]);

@@ -163,11 +163,11 @@ impl<'a> Pattern<'a> {
             }
         }
         let model: Vec<usize> = self.faces.iter().flat_map(|f| &f.flat.vertices).copied().collect();
-        for corner in 0..count {
+        for (corner, vertex) in model.into_iter().enumerate() {
             let first = find(&mut root, corner);
             if first == corner {
                 self.vertices.push(self.given.len());
-                self.given.push(model[corner]);
+                self.given.push(vertex);
             } else {
                 self.vertices.push(self.vertices[first]);
             }

@@ -345,7 +345,7 @@ codes!(error IoError {
     BadHole = 126,
     Packing = 127,
     Workbook = 128,
-    OnlyWritten = 129,
+    OnlyWritten = 150,
 } through {
     Content.fault,
     Mesh.fault,

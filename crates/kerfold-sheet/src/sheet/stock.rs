@@ -266,7 +266,7 @@ mod tests {
         assert_eq!(mm("600mm x 40cm"), Some((600.0, 400.0)));
         assert_eq!(mm("A4"), Some((210.0, 297.0)));
         assert_eq!(mm("Letter"), Some((215.9, 279.4)));
-        assert_eq!(mm("mat-12x24"), mm("12x24in"));
+        assert_eq!(mm("mat-12x24"), Some((304.8, 609.6)));
         assert_eq!("none".parse(), Ok(SheetSize::None));
         for bad in ["", "600", "600x", "0x400", "-600x400", "B5", "600x400x2", "nanx1"] {
             let error = bad.parse::<SheetSize>().expect_err(bad);

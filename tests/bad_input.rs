@@ -18,7 +18,7 @@ const TABLE: &[(&str, &str, &[&str])] = &[
         &["same direction", "turn one of them around", "line 9"],
     ),
     ("flipped-face.stl", ": faces 0 and 1 run along", &["turn one of them around"]),
-    ("garbage.bin", ": unknown mesh format", &[".obj, .ply, .stl or .off"]),
+    ("garbage.bin", ": unknown mesh format", &[".obj, .ply, .stl, .off or .3mf"]),
     ("garbage.obj", ": this is binary data, not OBJ text", &["check the file's type"]),
     ("garbage.off", ": this is binary data, not OFF text", &["check the file's type"]),
     ("garbage.ply", ":1: this is not PLY", &["check the file's type"]),

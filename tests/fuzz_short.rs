@@ -46,6 +46,8 @@ const WORDS: &[&str] = &[
     "<use href='#a'/>",
     "ELLIPSE",
     "endobj",
+    "\"mesh\":0",
+    "\"count\":99999999999",
     "/Length",
 ];
 
@@ -94,7 +96,9 @@ impl Dice {
 /// Seeds for a target: fixtures of its format, and texts that are too short for a file.
 fn seeds(target: &str) -> Vec<Vec<u8>> {
     let (folders, ending): (&[&str], &str) = match target {
-        "obj" | "off" | "ply" | "stl" => (&["fixtures/meshes", "fixtures/bad"], target),
+        "obj" | "off" | "ply" | "stl" | "glb" | "3mf" => {
+            (&["fixtures/meshes", "fixtures/bad"], target)
+        }
         "svg" | "dxf" | "pdf" => (&["fixtures/lint"], target),
         "recipe" => (&["fixtures/recipes", "fixtures/bad-recipes"], "toml"),
         "planes" => (&["fixtures/planes"], "csv"),

@@ -221,9 +221,15 @@ fn every_preset_score_and_coupon_is_clean() {
         },
         ..SheetParams::default()
     };
-    for preset in
-        [Preset::Boxes, Preset::Lightburn, Preset::Ponoko, Preset::Glowforge, Preset::Epilog]
-    {
+    for preset in [
+        Preset::Boxes,
+        Preset::Lightburn,
+        Preset::Ponoko,
+        Preset::Glowforge,
+        Preset::Epilog,
+        Preset::Cricut,
+        Preset::Silhouette,
+    ] {
         let params = SheetParams {
             files: FileParams { preset, ..base.files.clone() },
             score: ScoreParams { style: ScoreStyle::Valleys, ..base.score.clone() },

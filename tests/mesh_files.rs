@@ -35,6 +35,17 @@ fn the_cube_is_the_same_in_every_format() {
         assert_eq!((cube.vertex_count(), cube.face_count(), cube.is_closed()), (8, 12, true));
         assert_eq!(measure::volume(&cube), 1000.0);
     }
+    for (name, scale) in [("cube.glb", 1000.0), ("cube.3mf", 1.0)] {
+        let read = read(&folder.join(name));
+        let cube = &read.mesh;
+        assert_eq!((cube.vertex_count(), cube.face_count(), cube.is_closed()), (8, 12, true));
+        assert!((measure::volume(cube) - 1000.0).abs() < 1e-3, "{name}");
+        assert!(cube.faces().all(|f| cube.group(f) == Some("cube")), "{name}");
+        let (low, high) = cube.bounds().expect("points");
+        let (want_low, want_high) = reference.mesh.bounds().expect("points");
+        assert!(low.distance(want_low) < 1e-4 && high.distance(want_high) < 1e-4, "{name}");
+        assert_eq!((read.scale, read.notes.len()), (scale, 0), "{name}: {:?}", read.notes);
+    }
     let mesh = &reference.mesh;
     let groups: Vec<_> = mesh.faces().map(|f| mesh.group(f).unwrap_or_default()).collect();
     assert_eq!(groups, ["caps", "caps", "walls", "walls", "walls", "walls"]);
@@ -75,6 +86,36 @@ fn a_real_model_is_scaled_to_the_size_asked_for() {
     assert_eq!(spot.scale, 300.0 / measure::size(&plain.mesh).max_element());
 }
 
+#[test]
+fn groups_and_digits_go_through_a_3mf_and_triangles_merge_again() {
+    let mut mesh = kerfold::shape::soccer_ball(7.1);
+    let faces: Vec<_> = mesh.faces().collect();
+    for &f in &faces[..12] {
+        mesh.set_group(f, "tops & \"tails\"");
+    }
+    let bytes = mesh_bytes(MeshFormat::ThreeMf, &mesh, &WriteOptions::default()).expect("written");
+    let again = mesh_bytes(MeshFormat::ThreeMf, &mesh, &WriteOptions::default()).expect("written");
+    assert!(bytes == again, "the same mesh gives the same bytes");
+    let options = ReadOptions { merge_flat: Some(Length::from_mm(1e-6)), ..ReadOptions::default() };
+    let merged = read_mesh_bytes(Path::new("a.3mf"), &bytes, &options).expect("read");
+    assert_eq!(merged.mesh.counts(), mesh.counts());
+    let plain = read_mesh_bytes(Path::new("a.3mf"), &bytes, &ReadOptions::default()).expect("read");
+    for v in mesh.vertices() {
+        assert_eq!(plain.mesh.position(v), mesh.position(v));
+    }
+    let named = |mesh: &kerfold::mesh::Mesh, name: Option<&str>| -> f64 {
+        let of = mesh.faces().filter(|&f| mesh.group(f) == name);
+        of.map(|f| measure::face_area(mesh, f)).sum()
+    };
+    for name in [Some("tops & \"tails\""), None] {
+        let (wanted, found) = (named(&mesh, name), named(&plain.mesh, name));
+        assert!((wanted - found).abs() < 1e-9 * wanted && wanted > 0.0, "{name:?}");
+    }
+    let error =
+        mesh_bytes(MeshFormat::Glb, &mesh, &WriteOptions::default()).expect_err("read only");
+    assert!(error.to_string().contains("not written"), "{error}");
+}
+
 /// Only where the collection of real models stands beside the project.
 #[test]
 fn the_collection_of_real_models_is_read() {
@@ -112,6 +153,8 @@ fn a_name_without_extension_is_told_by_its_content() {
         "cube-big-endian.ply",
         "cube-ascii.stl",
         "cube-binary.stl",
+        "cube.glb",
+        "cube.3mf",
     ] {
         let bytes = std::fs::read(Path::new("fixtures/meshes").join(name)).expect("a fixture");
         let cube = read_mesh_bytes(Path::new("cube"), &bytes, &ReadOptions::default()).expect(name);

@@ -214,6 +214,28 @@ fn facts(mesh: &Mesh) -> (Vec<usize>, Vec<usize>, Vec<Option<String>>) {
 const FORMATS: [(MeshFormat, &str); 3] =
     [(MeshFormat::Obj, "made.obj"), (MeshFormat::Ply, "made.ply"), (MeshFormat::Off, "made.off")];
 
+/// 3MF has triangles with the vertices of the mesh: these, rims, parts, handles and groups stay, or it
+/// is refused since triangles meet along a line that faces do not.
+fn threemf_holds(made: &Mesh, what: &str) {
+    let bytes = match mesh_bytes(MeshFormat::ThreeMf, made, &WriteOptions::default()) {
+        Ok(bytes) => bytes,
+        Err(IoError::NotForTriangles { .. }) => return,
+        Err(error) => panic!("{what}: {error}"),
+    };
+    let again = read_mesh_bytes(Path::new("made.3mf"), &bytes, &ReadOptions::default())
+        .unwrap_or_else(|error| panic!("{what}: {error}"))
+        .mesh;
+    let wanted = made.file_counts().unwrap_or_else(|| panic!("{what}: it was written"));
+    let found = again.counts();
+    assert_eq!((found.rims, found.components), (wanted.rims, wanted.components), "{what}");
+    assert_eq!((found.euler(), again.bounds()), (wanted.euler(), made.bounds()), "{what}");
+    let names = |mesh: &Mesh| -> std::collections::BTreeSet<Option<String>> {
+        let faces = mesh.faces().filter(|&f| mesh.sides(f) > 2);
+        faces.map(|f| mesh.group(f).map(str::to_owned)).collect()
+    };
+    assert_eq!(names(&again), names(made), "{what}");
+}
+
 /// STL has neither polygons nor numbers of vertices: rims, parts, handles and the volume stay, or
 /// it is refused since parts touch.
 fn stl_holds(made: &Mesh, what: &str) -> bool {
@@ -281,6 +303,7 @@ fn what_an_operator_makes_is_read_again_as_it_was() {
                     assert_eq!(groups_again, groups, "{what}");
                 }
             }
+            threemf_holds(&made, &what);
             refused_as_stl += usize::from(!stl_holds(&made, &what));
             written += 1;
         }

@@ -22,13 +22,15 @@ use golden::{assert_golden, difference};
 #[path = "golden/mod.rs"]
 mod golden;
 
-const PRESETS: [Preset; 6] = [
+const PRESETS: [Preset; 8] = [
     Preset::RedCut,
     Preset::Boxes,
     Preset::Lightburn,
     Preset::Ponoko,
     Preset::Glowforge,
     Preset::Epilog,
+    Preset::Cricut,
+    Preset::Silhouette,
 ];
 
 const COMMAND: &str = "kerfold nest \"a&b\".json --kerf 0.2mm <x> \u{1}-- \u{1b}[0m";

@@ -33,6 +33,8 @@ pub const READERS: &[Target] = &[
     ("heights", heights),
     ("ply", ply),
     ("stl", stl),
+    ("glb", glb),
+    ("3mf", threemf),
     ("planes", planes),
     ("points", points),
     ("seams", seams),
@@ -68,6 +70,16 @@ pub fn ply(bytes: &[u8]) {
 /// STL.
 pub fn stl(bytes: &[u8]) {
     mesh_file("x.stl", bytes);
+}
+
+/// Binary glTF.
+pub fn glb(bytes: &[u8]) {
+    mesh_file("x.glb", bytes);
+}
+
+/// 3MF: the model in its zip, and a zip of its own.
+pub fn threemf(bytes: &[u8]) {
+    mesh_file("x.3mf", bytes);
 }
 
 fn mesh_file(name: &str, bytes: &[u8]) {

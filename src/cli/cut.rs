@@ -64,8 +64,8 @@ struct CutOf<T: Args> {
         default_missing_value = "0.01mm"
     )]
     resolve: Option<Length>,
-    /// The mesh to write: OBJ, PLY, STL or OFF; `-` writes OBJ to standard output. With `--keep
-    /// both` two meshes are written, OUT-reverse and OUT-normal
+    /// The mesh to write: OBJ, PLY, STL, OFF, 3MF or DXF; `-` writes OBJ to standard output. With
+    /// `--keep both` two meshes are written, OUT-reverse and OUT-normal
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
 }

@@ -26,8 +26,8 @@ use crate::sheet::SheetParams;
         Example: kerfold dform --outlines ellipse-2x1@180mm --zip 0.12 -o out"
 )]
 pub(super) struct DformArgs {
-    /// A solid by name, or a closed 3-valent mesh: OBJ, PLY, STL or OFF; `-` reads OBJ from
-    /// standard input
+    /// A solid by name, or a closed 3-valent mesh: OBJ, PLY, STL, OFF, GLB or 3MF; `-` reads OBJ
+    /// from standard input
     #[arg(
         value_name = "SOLID",
         required_unless_present_any = ["outlines", "glue"],

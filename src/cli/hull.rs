@@ -19,7 +19,8 @@ use crate::progress::Progress;
 #[command(after_help = "Example: kerfold hull spot.obj --dual -o faceted.obj\n\
     Example: kerfold hull --planes planes.csv -o crystal.obj")]
 pub(super) struct HullArgs {
-    /// The mesh whose vertices count: OBJ, PLY, STL or OFF; `-` reads OBJ from standard input
+    /// The mesh whose vertices count: OBJ, PLY, STL, OFF, GLB or 3MF; `-` reads OBJ from standard
+    /// input
     #[arg(value_name = "IN", required_unless_present = "planes", conflicts_with = "planes")]
     input: Option<PathBuf>,
     #[command(flatten)]
@@ -33,8 +34,8 @@ pub(super) struct HullArgs {
     planes: Option<PathBuf>,
     #[command(flatten)]
     hull: HullParams,
-    /// The mesh to write: OBJ, PLY, STL or OFF; `-` writes OBJ to standard output. With --steps a
-    /// picture of each step is written beside it, OUT-after-20.png
+    /// The mesh to write: OBJ, PLY, STL, OFF, 3MF or DXF; `-` writes OBJ to standard output. With
+    /// --steps a picture of each step is written beside it, OUT-after-20.png
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
 }

@@ -10,7 +10,7 @@ use crate::sheet::SheetParams;
 /// A mesh file and how to read it.
 #[derive(Debug, Clone, clap::Args)]
 pub(super) struct Input {
-    /// The mesh: OBJ, PLY, STL or OFF; `-` reads OBJ from standard input
+    /// The mesh: OBJ, PLY, STL, OFF, GLB or 3MF; `-` reads OBJ from standard input
     #[arg(value_name = "IN")]
     pub input: PathBuf,
     #[command(flatten)]

@@ -20,7 +20,7 @@ pub(super) struct OperatorArgs<T: Args> {
     params: T,
     #[command(flatten)]
     input: Input,
-    /// The mesh to write: OBJ, PLY, STL or OFF; `-` writes OBJ to standard output
+    /// The mesh to write: OBJ, PLY, STL, OFF, 3MF or DXF; `-` writes OBJ to standard output
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
 }

@@ -22,7 +22,7 @@ use crate::units::Length;
         Example: kerfold panelize --height \"x*y/9\" --domain outline.svg@22m --size 1.2m -o panels.obj"
 )]
 pub(super) struct PanelizeArgs {
-    /// The surface: OBJ, PLY, STL or OFF of triangles or polygons, or a grid of heights as CSV (a
+    /// The surface: OBJ, PLY, STL, OFF, GLB or 3MF of triangles or polygons, or a grid of heights as CSV (a
     /// table whose first row is x and first column y, or rows x,y,z); `-` reads OBJ from standard
     /// input
     #[arg(value_name = "IN", required_unless_present = "height")]
@@ -44,7 +44,7 @@ pub(super) struct PanelizeArgs {
     steps: Option<u32>,
     #[command(flatten)]
     params: PanelizeParams,
-    /// The mesh to write: OBJ, PLY, STL or OFF; `-` writes OBJ to standard output
+    /// The mesh to write: OBJ, PLY, STL, OFF, 3MF or DXF; `-` writes OBJ to standard output
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
 }

@@ -18,7 +18,7 @@ pub(super) struct RepairArgs {
     input: Input,
     #[command(flatten)]
     params: RepairParams,
-    /// The mesh to write: OBJ, PLY, STL or OFF; `-` writes OBJ to standard output
+    /// The mesh to write: OBJ, PLY, STL, OFF, 3MF or DXF; `-` writes OBJ to standard output
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
 }

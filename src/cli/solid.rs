@@ -13,7 +13,7 @@ use crate::shape::{SolidParams, solid};
 pub(super) struct SolidArgs {
     #[command(flatten)]
     solid: SolidParams,
-    /// The mesh to write: OBJ, PLY, STL or OFF; `-` writes OBJ to standard output
+    /// The mesh to write: OBJ, PLY, STL, OFF, 3MF or DXF; `-` writes OBJ to standard output
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
 }

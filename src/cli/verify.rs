@@ -27,7 +27,7 @@ pub(super) struct VerifyArgs {
     /// The pieces, a pieces.json
     #[arg(value_name = "PIECES")]
     pieces: PathBuf,
-    /// The mesh that was unfolded: OBJ, PLY, STL or OFF; `-` reads OBJ from standard input. Its
+    /// The mesh that was unfolded: OBJ, PLY, STL, OFF, GLB or 3MF; `-` reads OBJ from standard input. Its
     /// numbers are taken as the pieces say, with their scale
     #[arg(value_name = "MODEL")]
     model: PathBuf,

@@ -98,6 +98,7 @@ fn piece_node(scene: &mut GlbScene, bloom: &Bloom<'_>, place: usize, origin: DVe
         translation: flat.translation,
         rotation: flat.rotation,
         surface: None,
+        extras: Vec::new(),
     });
     let times = vec![0.0, MOVING[0], MOVING[1], END];
     let places = [flat, flat, closed, closed];
@@ -147,6 +148,7 @@ fn face_node(
             lines: (0..n).map(|i| [i, (i + 1) % n]).collect(),
             line_material: Some(line),
         }),
+        extras: Vec::new(),
     });
     if is_turning {
         let values = vec![DQuat::IDENTITY, DQuat::IDENTITY, turn, turn];

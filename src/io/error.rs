@@ -4,6 +4,7 @@ use std::fmt;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+pub use super::fault::ContentFault;
 use super::format::MeshFormat;
 use crate::code::codes;
 use crate::mesh::{BuildError, FileCounts, FileFault};
@@ -64,8 +65,8 @@ pub enum IoError {
     },
     /// Neither the name nor the content shows the format.
     #[error(
-        "{}: unknown mesh format; use a name that ends in .obj, .ply, .stl or .off (or .csv for a grid \
-        of heights that is read)",
+        "{}: unknown mesh format; use a name that ends in .obj, .ply, .stl, .off or .3mf (or .glb, or \
+        .csv for a grid of heights, which are read, or .dxf, which is written)",
         path.display()
     )]
     UnknownFormat {
@@ -267,11 +268,45 @@ pub enum IoError {
         /// What happens to it.
         why: String,
     },
+    /// A mesh of which the triangles are no surface.
+    #[error(
+        "{format}, which knows triangles alone, cannot hold this mesh: {why}; write OBJ, PLY or OFF"
+    )]
+    NotForTriangles {
+        /// The format.
+        format: MeshFormat,
+        /// What happens to it.
+        why: String,
+    },
+    /// A zip that could not be made.
+    #[error("the 3MF file cannot be packed: {fault}; write OBJ or PLY")]
+    Packing {
+        /// What the packer says.
+        fault: String,
+    },
     /// A coordinate does not fit the single precision of glTF.
     #[error("{name} is too far out for GLB, which holds numbers up to 3e38; write OBJ or PLY")]
     TooFarForGlb {
         /// The name of the node that holds it.
         name: String,
+    },
+    /// A mesh was to be written in a format that is only read.
+    #[error("meshes are read as {format}, not written; write OBJ, PLY, STL, OFF, 3MF or DXF")]
+    OnlyRead {
+        /// The format.
+        format: MeshFormat,
+    },
+    /// A file of a format in which meshes are only written.
+    #[error(
+        "{}: meshes are written as {format}, not read; export the model as OBJ, PLY, STL, OFF, GLB \
+        or 3MF",
+        Shown(path)
+    )]
+    OnlyWritten {
+        /// The file.
+        path: PathBuf,
+        /// The format.
+        format: MeshFormat,
     },
     /// A table that no workbook can hold.
     #[error("schedule.xlsx cannot be written: {fault}; the CSV files hold the same tables")]
@@ -304,9 +339,13 @@ codes!(error IoError {
     NotReadBack = 120,
     ReadAsOther = 121,
     NotForStl = 122,
+    OnlyRead = 123,
+    NotForTriangles = 124,
     BadFlat = 125,
     BadHole = 126,
+    Packing = 127,
     Workbook = 128,
+    OnlyWritten = 150,
 } through {
     Content.fault,
     Mesh.fault,
@@ -380,185 +419,6 @@ impl fmt::Display for AlsoSee<'_> {
         }
     }
 }
-
-/// How the content of a mesh file breaks its format. Texts from the file are shortened.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ContentFault {
-    /// Bytes that no text has.
-    #[error(
-        "this is binary data, not {format} text; check the file's type or export the model again"
-    )]
-    NotText {
-        /// The format that was expected.
-        format: &'static str,
-    },
-    /// A line that should be a vertex.
-    #[error("`{text}` is not a vertex; it needs three numbers, as in `{example}`")]
-    NotAVertex {
-        /// The line.
-        text: String,
-        /// How it should look.
-        example: &'static str,
-    },
-    /// A line that should be a face.
-    #[error("`{text}` is not a face; it needs the numbers of its vertices, as in `{example}`")]
-    NotAFace {
-        /// The line.
-        text: String,
-        /// How it should look.
-        example: &'static str,
-    },
-    /// An OBJ face or seam names a vertex that is not there.
-    #[error(
-        "`{text}` names vertex {index}, but the file has {count}, counted from 1; correct the \
-        number or export the model again"
-    )]
-    NoSuchVertex {
-        /// The line.
-        text: String,
-        /// The number as it stands in the file.
-        index: i64,
-        /// Number of vertices.
-        count: usize,
-    },
-    /// An OBJ seam line that cannot be read.
-    #[error(
-        "`{text}` is not a seam; it needs the numbers of at least two vertices, as in `l 1 2 3`"
-    )]
-    NotASeam {
-        /// The line.
-        text: String,
-    },
-    /// A line of an edge list that cannot be read.
-    #[error(
-        "`{text}` is not an edge; it needs the numbers of its two vertices, counted from 0, as in \
-        `3 17`"
-    )]
-    NotAnEdge {
-        /// The line.
-        text: String,
-    },
-    /// A header line of a PLY or OFF file that cannot be read.
-    #[error("`{text}` does not belong in the header of a {format} file; {wanted}")]
-    BadHeader {
-        /// The line.
-        text: String,
-        /// PLY or OFF.
-        format: &'static str,
-        /// What should be there.
-        wanted: &'static str,
-    },
-    /// The header says that there are more elements than the rest of the file can hold.
-    #[error(
-        "the header announces {count} of `{element}`, but only {bytes} bytes follow; \
-         the file is cut short or its header is wrong, export the model again"
-    )]
-    CountTooLarge {
-        /// The element.
-        element: String,
-        /// What the header says.
-        count: u64,
-        /// How much is left of the file.
-        bytes: usize,
-    },
-    /// A PLY file without a property that a mesh needs.
-    #[error(
-        "`{element}` has no property `{property}`; export the model again with its vertices and \
-        faces"
-    )]
-    NoProperty {
-        /// The element.
-        element: &'static str,
-        /// The missing property.
-        property: &'static str,
-    },
-    /// The file ends within its elements.
-    #[error(
-        "the file ends within `{element}` number {index} (of {count}, counted from 0); it is cut \
-        short, export the model again"
-    )]
-    CutShort {
-        /// The element.
-        element: String,
-        /// Which one.
-        index: usize,
-        /// How many there should be.
-        count: usize,
-    },
-    /// A value of a PLY file that does not fit its property.
-    #[error(
-        "`{text}` in `{element}` number {index} (counted from 0) is not {wanted}; correct it or \
-        export the model again"
-    )]
-    BadValue {
-        /// What stands there.
-        text: String,
-        /// The element.
-        element: String,
-        /// Which one.
-        index: usize,
-        /// What should be there.
-        wanted: &'static str,
-    },
-    /// A text STL file with a word out of order.
-    #[error(
-        "`{text}` is out of place in triangle {triangle} (counted from 0); {wanted}, or export the \
-        model again"
-    )]
-    BadTriangle {
-        /// What stands there.
-        text: String,
-        /// The triangle.
-        triangle: usize,
-        /// What should be there.
-        wanted: &'static str,
-    },
-    /// An STL triangle with a NaN or an infinite coordinate.
-    #[error(
-        "triangle {triangle} (counted from 0) has a coordinate that is not a finite number; \
-        correct it or export the model again"
-    )]
-    TriangleNotFinite {
-        /// The triangle.
-        triangle: usize,
-    },
-    /// A file whose first line is not that of its format.
-    #[error("this is not {format}: it begins with `{text}`; check the file's type")]
-    NotThisFormat {
-        /// The format that was expected.
-        format: &'static str,
-        /// How the file begins.
-        text: String,
-    },
-    /// Heights that cannot be read, or that make no whole grid.
-    #[error(
-        "{what}; heights are a table whose first row is x and first column y, or rows x, y, z of \
-        the places of a whole grid"
-    )]
-    BrokenGrid {
-        /// What is wrong.
-        what: String,
-    },
-}
-
-codes!(error ContentFault {
-    NotText = 131,
-    NotAVertex = 132,
-    NotAFace = 133,
-    NoSuchVertex = 134,
-    NotASeam = 135,
-    NotAnEdge = 136,
-    BadHeader = 137,
-    CountTooLarge = 138,
-    NoProperty = 139,
-    CutShort = 140,
-    BadValue = 141,
-    BadTriangle = 142,
-    TriangleNotFinite = 143,
-    NotThisFormat = 144,
-    BrokenGrid = 145,
-});
 
 /// A fault with its line; the path is added by the caller.
 #[derive(Debug, Clone, PartialEq)]

@@ -15,6 +15,12 @@ pub enum MeshFormat {
     Stl,
     /// Object File Format: polygons, text.
     Off,
+    /// Binary glTF: triangles in a scene; read only.
+    Glb,
+    /// 3MF: triangles with a unit, groups as materials.
+    ThreeMf,
+    /// DXF: faces with a layer for each group; written only.
+    Dxf,
 }
 
 impl fmt::Display for MeshFormat {
@@ -24,6 +30,9 @@ impl fmt::Display for MeshFormat {
             Self::Ply => "PLY",
             Self::Stl => "STL",
             Self::Off => "OFF",
+            Self::Glb => "GLB",
+            Self::ThreeMf => "3MF",
+            Self::Dxf => "DXF",
         })
     }
 }
@@ -40,6 +49,9 @@ impl MeshFormat {
             "ply" => Some(Self::Ply),
             "stl" => Some(Self::Stl),
             "off" => Some(Self::Off),
+            "glb" => Some(Self::Glb),
+            "3mf" => Some(Self::ThreeMf),
+            "dxf" => Some(Self::Dxf),
             _ => None,
         }
     }
@@ -55,6 +67,7 @@ mod tests {
         assert_eq!(named("a/b.OBJ"), Some(MeshFormat::Obj));
         assert_eq!(named("-"), Some(MeshFormat::Obj));
         assert_eq!(named("x.stl"), Some(MeshFormat::Stl));
+        assert_eq!(named("x.Glb"), Some(MeshFormat::Glb));
         assert_eq!(named("x.step"), None);
         assert_eq!(named("obj"), None);
     }

@@ -1,13 +1,15 @@
 //! Files in and out, one direction of one format per file.
 //!
-//! [`read_mesh`] reads OBJ, PLY, STL and OFF, [`write_mesh`] writes them; `-` is standard output
-//! and means OBJ. Everything that kerfold writes goes through [`output`], so that a file is
-//! whole or not there.
+//! [`read_mesh`] reads OBJ, PLY, STL, OFF, GLB and 3MF, [`write_mesh`] writes all but GLB, and DXF;
+//! `-` is standard output and means OBJ. Everything that kerfold writes goes through [`output`], so
+//! that a file is whole or not there.
 
 mod base64;
+pub mod bloom_fold;
 pub mod bloom_glb;
 mod csv_cell;
 mod error;
+mod fault;
 mod format;
 pub mod map_files;
 mod number;

@@ -251,12 +251,19 @@ fn info_notes(report: &SheetReport) -> impl Iterator<Item = String> {
         })
     };
     let reference = lacks(report.sheets_without_reference, "a reference square");
+    let marks = note(report.sheets_without_marks, || {
+        let sheets = counted(report.sheets_without_marks, "sheet has", "sheets have");
+        format!(
+            "{sheets} no room for registration marks; --margin 15mm and a sheet of 65mm or more make \
+            room"
+        )
+    });
     let legend = lacks(report.sheets_without_legend, "the whole legend");
     let labels = note(report.unlabelled_lines, || {
         let lines = counted(report.unlabelled_lines, "line", "lines");
         format!("no room for the labels of {lines} on the info layer")
     });
-    [reference, legend, labels].into_iter().flatten()
+    [reference, marks, legend, labels].into_iter().flatten()
 }
 
 /// What became of the joints, in words for the user.

@@ -12,13 +12,12 @@ use crate::io::panels_csv::{cutting_list_csv, edges_csv, nodes_csv, panels_csv};
 use crate::io::panels_json::panels_json;
 use crate::io::panels_xlsx::panels_xlsx;
 use crate::io::panes::{Pane, is_bevelled, pane_drawings, pane_dxf, panes_pdf};
-use crate::io::plates::{NamedPlate, plates_glb, plates_obj, plates_stl};
+use crate::io::plates::{NamedPlate, PLATES_MTL, plates_glb, plates_mtl, plates_obj, plates_stl};
 use crate::io::step::step_bytes;
 use crate::mesh::Mesh;
 use crate::panel::{
-    EdgeFallback, EdgeKind, Hardware, NodeCut, PanelError, PanelFinding, PanelParams, PanelRow,
-    Plates, Schedule, Shallow, Solid, assembly_map, panel_findings, panel_net, plates, schedule,
-    solid,
+    EdgeFallback, EdgeKind, Hardware, NodeCut, PanelError, PanelFinding, PanelParams, Plates,
+    Schedule, Shallow, Solid, assembly_map, panel_findings, panel_net, plates, schedule, solid,
 };
 use crate::progress::Progress;
 use crate::sheet::{
@@ -72,7 +71,7 @@ pub enum SolidFile {
     None,
     /// `plates.step`: one named solid for each plate.
     Step,
-    /// `plates.obj`: one group for each plate.
+    /// `plates.obj`: one group for each plate, with its colours in `plates.mtl`.
     Obj,
     /// `plates.glb`: one named node for each plate, with its name lettered on it.
     Glb,
@@ -288,19 +287,20 @@ fn solid_files(panelled: &Panelled, command: &str) -> Result<Vec<Output>, MakeEr
         return Ok(Vec::new());
     }
     let bodies = plates.iter().map(solid).collect::<Result<Vec<Solid>, PanelError>>()?;
-    let named = |((plate, body), row): ((_, _), &PanelRow)| NamedPlate {
-        name: row.id.to_string(),
-        group: row.group,
-        plate,
-        body,
-    };
-    let named: Vec<NamedPlate<'_>> = plates.iter().zip(&bodies).zip(rows).map(named).collect();
+    let mut named: Vec<NamedPlate<'_>> = Vec::with_capacity(rows.len());
+    for ((plate, body), row) in plates.iter().zip(&bodies).zip(rows) {
+        let name = row.id.to_string();
+        named.push(NamedPlate { name, group: row.group, plate, body, row: Some(row) });
+    }
     let mut outputs = Vec::new();
     for file in &panelled.files.solids {
         let (name, bytes) = match file {
             SolidFile::None => continue,
             SolidFile::Step => ("plates.step", step_bytes(&named, command)),
-            SolidFile::Obj => ("plates.obj", plates_obj(&named, command)),
+            SolidFile::Obj => {
+                outputs.push((PLATES_MTL.to_owned(), plates_mtl(&named, command)));
+                ("plates.obj", plates_obj(&named, command))
+            }
             SolidFile::Glb => ("plates.glb", plates_glb(&named, command)?),
             SolidFile::Stl => ("plates.stl", plates_stl(&named, command)?),
         };

@@ -15,6 +15,7 @@ use super::outputs::Output;
 use super::{Fabrication, MakeError};
 use crate::bloom::{Bloom, FlatPlace, FoldTree, Leaf, Pose, state_mesh};
 use crate::code::codes;
+use crate::io::bloom_fold::fold_text;
 use crate::io::bloom_glb::bloom_scene;
 use crate::io::glb::glb_bytes;
 use crate::measure::face_area;
@@ -36,8 +37,8 @@ const LOOSE: f64 = 0.4;
 /// What is made to be looked at.
 #[derive(Debug, Clone, PartialEq, Default, clap::Args, Deserialize)]
 pub struct ShowParams {
-    /// The pieces folding themselves up from flat to closed: an animation (.glb) or a strip of
-    /// pictures (.png)
+    /// The pieces folding themselves up from flat to closed: an animation (.glb), a strip of
+    /// pictures (.png), or crease pattern and closed form for origami programs (.fold)
     #[arg(long, value_name = "FILE")]
     #[serde(default)]
     pub animate: Option<AnimationFile>,
@@ -70,13 +71,14 @@ pub struct AnimationFile {
 enum AnimationForm {
     Glb,
     Png,
+    Fold,
 }
 
 /// A name that does not say which kind of animation is meant.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "`{text}` names no animation; name the file something.glb, or something.png for a strip of \
-    pictures"
+    "`{text}` names no animation; name the file something.glb, something.png for a strip of \
+    pictures, or something.fold for origami programs"
 )]
 pub struct AnimationFileError {
     /// What was typed.
@@ -91,9 +93,10 @@ impl FromStr for AnimationFile {
         let path = PathBuf::from(text);
         let is =
             |extension: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension));
-        let form = match (is("glb"), is("png")) {
-            (true, _) => AnimationForm::Glb,
-            (_, true) => AnimationForm::Png,
+        let form = match (is("glb"), is("png"), is("fold")) {
+            (true, ..) => AnimationForm::Glb,
+            (_, true, _) => AnimationForm::Png,
+            (.., true) => AnimationForm::Fold,
             _ => return Err(AnimationFileError { text: text.to_owned() }),
         };
         Ok(Self { path, form })
@@ -145,6 +148,9 @@ pub fn show_outputs(
         let bytes = match file.form {
             AnimationForm::Glb => glb_bytes(&bloom_scene(&bloom, &stem(&file.path)), command)?,
             AnimationForm::Png => strip_of(&bloom, &render)?,
+            AnimationForm::Fold => {
+                fold_text(&bloom, corners(mesh), &stem(&file.path), command).into_bytes()
+            }
         };
         outputs.push((name, bytes));
     }
@@ -407,6 +413,7 @@ mod tests {
     fn animations_are_named_by_their_kind() {
         assert_eq!("a/b.GLB".parse::<AnimationFile>().map(|f| f.form), Ok(AnimationForm::Glb));
         assert_eq!("b.png".parse::<AnimationFile>().map(|f| f.form), Ok(AnimationForm::Png));
+        assert_eq!("b.Fold".parse::<AnimationFile>().map(|f| f.form), Ok(AnimationForm::Fold));
         for bad in ["", "glb", "b.gltf", "b"] {
             assert!(
                 bad.parse::<AnimationFile>().expect_err(bad).to_string().contains("something.glb")

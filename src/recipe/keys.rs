@@ -76,7 +76,7 @@ const STEPS: &[StepKind] = &[
     step(
         "read",
         "path",
-        "Begin with a mesh file: OBJ, PLY, STL or OFF",
+        "Begin with a mesh file: OBJ, PLY, STL, OFF, GLB or 3MF",
         &[ReadStep::augment_args],
         |s| Ok(Step::Read(s.read()?)),
     ),

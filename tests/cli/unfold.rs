@@ -21,7 +21,12 @@ fn of_several_files_all_are_written_or_none() {
 fn animations_are_written_where_they_are_named_or_nothing_is() {
     let folder = Folder::new("animate");
     let model = good_model(&folder);
-    for (name, start) in [("bloom.glb", &b"glTF"[..]), ("bloom.png", &b"\x89PNG"[..])] {
+    let animations = [
+        ("bloom.glb", &b"glTF"[..]),
+        ("bloom.png", &b"\x89PNG"[..]),
+        ("bloom.fold", &b"{\n\"file_spec\": 1.1,"[..]),
+    ];
+    for (name, start) in animations {
         let file = folder.path(name);
         let ran = run(&["unfold", &model, "--animate", &file, "-o", &folder.path("out"), "--json"]);
         assert_eq!(ran.code, Some(0), "{}", ran.err);

@@ -95,6 +95,47 @@ def test_rhino(here: Path) -> None:
         convert.from_rhino3dm(rhino3dm.File3dm())
 
 
+def test_ifc(here: Path) -> None:
+    ifcopenshell = pytest.importorskip("ifcopenshell")
+    from ifcopenshell import validate
+
+    ball = Mesh.solid("cuboctahedron", edge=300)
+    panels = ball.panels(thickness=10, sheet="3000x2000")
+    file = convert.to_ifc(panels, name="lobby")
+    assert file.to_string() == convert.to_ifc(panels, name="lobby").to_string()
+    file.write("plates.ifc")
+    read = ifcopenshell.open("plates.ifc")
+    log = validate.json_logger()
+    validate.validate(read, log, express_rules=True)
+    assert log.statements == []
+    (wall,) = read.by_type("IfcCurtainWall")
+    assert wall.Name == "lobby" and wall.ContainedInStructure
+    plates = wall.IsDecomposedBy[0].RelatedObjects
+    assert [plate.Name for plate in plates] == [plate.id for plate in panels.plates]
+    for made, plate in zip(plates, panels.plates):
+        told = {
+            item.Name: item[3]
+            for relation in made.IsDefinedBy
+            for item in getattr(relation.RelatingPropertyDefinition, "Quantities", None) or []
+        }
+        assert told["Width"] == pytest.approx(10)
+        assert told["NetArea"] == pytest.approx(plate.area / 1e6)
+        assert told["NetVolume"] == pytest.approx(plate.volume / 1e9)
+        assert told["NetWeight"] == pytest.approx(plate.mass)
+        # The body where the file puts it is the body of the plate.
+        faces = made.Representation.Representations[0].Items[0]
+        axes = made.ObjectPlacement.RelativePlacement
+        z = np.array(axes.Axis.DirectionRatios)
+        x = np.array(axes.RefDirection.DirectionRatios)
+        frame = np.array([x, np.cross(z, x), z])
+        places = np.array(faces.Coordinates.CoordList) @ frame + axes.Location.Coordinates
+        assert np.abs(places - plate.vertices).max() < 1e-6
+        corners = places[np.array(faces.CoordIndex) - 1]
+        volume = np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6
+        assert volume == pytest.approx(plate.volume)
+    assert len(read.by_type("IfcPlate")) == len(panels.plates)
+
+
 def test_shapely(here: Path) -> None:
     geometry = pytest.importorskip("shapely.geometry")
     cube = Mesh.solid("cube", edge=40)

@@ -78,7 +78,7 @@ def test_import_is_quick_and_asks_for_nothing_else() -> None:
     text = (
         "import time, sys; t = time.perf_counter(); import kerfold; "
         "print((time.perf_counter() - t) * 1000); "
-        "print([m for m in ('numpy', 'trimesh', 'compas', 'rhino3dm', 'shapely') if m in sys.modules])"
+        "print([m for m in ('numpy', 'trimesh', 'compas', 'rhino3dm', 'shapely', 'ifcopenshell') if m in sys.modules])"
     )
     best = 1e9
     for _ in range(5):

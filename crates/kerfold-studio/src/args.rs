@@ -11,7 +11,7 @@ use std::path::PathBuf;
     which it is started, or in that of FILE.\n\nExample: kerfold-studio column.toml"
 )]
 pub struct Args {
-    /// A recipe (.toml) or a mesh (OBJ, PLY, STL, OFF) to begin with
+    /// A recipe (.toml) or a mesh (OBJ, PLY, STL, OFF, GLB, 3MF) to begin with
     #[arg(value_name = "FILE")]
     pub file: Option<PathBuf>,
     /// The port to listen to; 0 takes a free one

@@ -136,7 +136,9 @@ impl Studio {
             return Ok(());
         }
         if MeshFormat::of_path(&path).is_none() {
-            return Err(failed("a mesh is a file that ends in .obj, .ply, .stl or .off".into()));
+            return Err(failed(
+                "a mesh is a file that ends in .obj, .ply, .stl, .off, .glb or .3mf".into(),
+            ));
         }
         tab.session().open(&StepDraft::new("read", file).text())?;
         tab.set_file(None);

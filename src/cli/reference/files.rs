@@ -14,7 +14,7 @@ const fn file(name: &'static str, by: &'static str, what: &'static str) -> File 
     File { name, by, what }
 }
 
-const FILES: [File; 36] = [
+const FILES: [File; 37] = [
     file("model.obj", "`run`, `dform`", "the model as it is at the end"),
     file("model.png", "`run`, `dform`", "its picture"),
     file(
@@ -76,6 +76,7 @@ const FILES: [File; 36] = [
     file("assembly-map.pdf", "`panels`", "the same on A3"),
     file("plates.step", "`panels --solids step`", "the plates as solids (AP214)"),
     file("plates.obj", "`panels --solids obj`", "the plates as meshes"),
+    file("plates.mtl", "`panels --solids obj`", "the colours of that file"),
     file("plates.glb", "`panels --solids glb`", "the plates with colours and names"),
     file("plates.stl", "`panels --solids stl`", "the plates as triangles"),
     file("kerfold.1", "`man`", "the manual page of the program"),

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 /// Endings of the drawings of sheets and parts.
 const DRAWINGS: [&str; 4] = ["svg", "dxf", "pdf", "lbrn2"];
 /// Names that are the same in every run.
-const FIXED: [&str; 19] = [
+const FIXED: [&str; 20] = [
     "pieces.json",
     "layout.json",
     "assembly.txt",
@@ -26,6 +26,7 @@ const FIXED: [&str; 19] = [
     "assembly-map.pdf",
     "plates.step",
     "plates.obj",
+    "plates.mtl",
     "plates.glb",
     "plates.stl",
     "model.obj",

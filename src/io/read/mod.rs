@@ -15,6 +15,7 @@ use source::SourceFile;
 pub mod artwork;
 mod content;
 mod decode;
+mod glb;
 mod heights;
 mod keyhole;
 mod made;
@@ -32,6 +33,7 @@ mod seams;
 mod source;
 mod stl;
 mod text;
+mod threemf;
 mod unit;
 mod weld;
 
@@ -142,7 +144,8 @@ pub struct ReadMesh {
 
 /// Reads a mesh from a file.
 ///
-/// The format is shown by the extension, or else by the content. A name that ends in `.csv` is a
+/// The format is shown by the extension, or else by the content. GLB and 3MF
+/// have a unit of their own, which is used whatever the options say. A name that ends in `.csv` is a
 /// grid of heights: a table whose first row is x and first column y, or rows x,y,z.
 ///
 /// # Errors
@@ -243,13 +246,16 @@ fn read_and_mend(
         Some(MeshFormat::Ply) => ply::read(&text),
         Some(MeshFormat::Off) => off::read(&text),
         Some(MeshFormat::Stl) => stl::read(bytes, &text),
+        Some(MeshFormat::Glb) => glb::read(bytes),
+        Some(MeshFormat::ThreeMf) => threemf::read(bytes),
+        Some(MeshFormat::Dxf) => {
+            let (path, format) = (path.to_owned(), MeshFormat::Dxf);
+            return Err(IoError::OnlyWritten { path, format });
+        }
     };
     let mut source = SourceFile { path, raw: raw.map_err(|located| located.in_file(path))? };
     let mut notes = std::mem::take(&mut source.raw.notes);
-    let is_binary = matches!(format, Some(MeshFormat::Stl)) && stl::is_binary(bytes);
-    let stated = unit::stated_unit(if is_binary { bytes } else { &text }, is_binary);
-    let other = stated.filter(|&unit| unit != options.units && options.size.is_none());
-    notes.extend(other.map(|stated| ReadNote::OtherUnit { stated, taken: options.units }));
+    notes.extend(unit::note(format, bytes, &text, &source.raw, options));
     let scale = source.scale(options)?;
     source.weld(options, &mut notes)?;
     source.raw.make_faces_simple();

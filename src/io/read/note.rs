@@ -129,6 +129,18 @@ pub enum ReadNote {
         /// What it was read with.
         taken: MeshUnit,
     },
+    /// The file has a place for its unit, which was used; another one was asked for.
+    OwnUnit {
+        /// The unit of the file.
+        unit: &'static str,
+    },
+    /// The file holds things besides meshes.
+    LeftOut {
+        /// How many.
+        count: usize,
+        /// What, in words that follow the number.
+        what: &'static str,
+    },
     /// The model is so small or so large that the unit may be wrong.
     OddSize {
         /// The largest extent, in mm.
@@ -205,21 +217,13 @@ impl fmt::Display for ReadNote {
                 line {first_line}",
                 counted(*count, "line has", "lines have")
             ),
-            Self::CoincidentRims { .. }
-            | Self::Mended(_)
-            | Self::LostSeams { .. }
-            | Self::NothingToMend
-            | Self::Merged { .. }
-            | Self::Heights { .. }
-            | Self::OtherUnit { .. }
-            | Self::OddSize { .. }
-            | Self::InsideOut { .. } => self.fmt_of_model(f),
             Self::Rest { bytes } => write!(
                 f,
                 "{} after the last element and {} passed over",
                 counted(*bytes, "byte follows", "bytes follow"),
                 were(*bytes)
             ),
+            _ => self.fmt_of_model(f),
         }
     }
 }
@@ -264,6 +268,14 @@ impl ReadNote {
                 taken.name(),
                 CheckKind::OtherUnit.code()
             ),
+            Self::OwnUnit { unit } => write!(
+                f,
+                "the unit of the file ({unit}) was used: its format has a place for it, so --units \
+                changes nothing; --size says how large the model is to be"
+            ),
+            Self::LeftOut { count, what } => {
+                write!(f, "what is no mesh was left out: {what} ({count})")
+            }
             Self::OddSize { largest } => write!(
                 f,
                 "the model is {} mm in its largest extent: is the unit right? --units m, cm or in \

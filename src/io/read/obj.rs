@@ -1,7 +1,12 @@
-//! Wavefront OBJ: polygons, groups and seams. Texture coordinates, normals and materials are not
-//! needed; what else is passed over is noted.
+//! Wavefront OBJ: polygons, groups and seams. Texture coordinates and normals are not needed; what
+//! else is passed over is noted.
+//!
+//! The group of a face is that of `g`. Without one it is the object of `o`, unless the faces of that
+//! object have several materials: then, and without an object, it is the material of `usemtl`. So
+//! what somebody coloured stays apart, and several objects stay apart as well.
 
 use std::borrow::Cow;
+use std::collections::HashMap;
 
 use super::decode::name_text;
 use super::raw::{GroupRun, RawMesh, SeamSegment};
@@ -20,13 +25,14 @@ const STRIP: &str = "strip";
 const MADE_MARK: &str = " made";
 /// What OBJ calls faces that belong to no group.
 const NO_GROUP: &str = "default";
+/// What programs write for faces that have no material.
+const NO_MATERIAL: [&str; 2] = ["None", "(null)"];
 /// Statements that make no shape, so nobody misses them.
-const LOOKS: [&[u8]; 17] = [
+const LOOKS: [&[u8]; 16] = [
     b"vt",
     b"vn",
     b"s",
     b"mg",
-    b"usemtl",
     b"mtllib",
     b"usemap",
     b"maplib",
@@ -136,9 +142,21 @@ struct Scan {
     raw: RawMesh,
     object: Option<String>,
     group: Option<String>,
+    material: Option<String>,
+    /// How often an object began.
+    objects: usize,
+    /// Of every run of faces, what may name it besides its group.
+    runs: Vec<RunNames>,
     commas: Commas,
     weights: Counted,
     passed_over: Counted,
+}
+
+/// What may name a run of faces besides `g`.
+struct RunNames {
+    object: usize,
+    is_grouped: bool,
+    material: Option<String>,
 }
 
 /// How often something came, and where first.
@@ -186,7 +204,12 @@ impl Scan {
             b"o" => {
                 self.object = name(rest);
                 self.group = None;
+                self.objects += 1;
                 self.start_group();
+            }
+            b"usemtl" => {
+                self.material = name(rest).filter(|name| !NO_MATERIAL.contains(&name.as_str()));
+                self.start_material();
             }
             b"g" => {
                 self.group = name(rest);
@@ -201,6 +224,7 @@ impl Scan {
 
     /// The raw mesh with its notes.
     fn finished(mut self) -> RawMesh {
+        self.name_by_material();
         let Counted { count, first } = self.weights;
         let weights = (count > 0).then_some(ReadNote::Weights { count, first });
         let Counted { count, first } = self.passed_over;
@@ -266,8 +290,46 @@ impl Scan {
             Some(unmarked) => (Some(unmarked.trim_end().to_owned()), true),
             None => (name, false),
         };
+        // `g default` says that there is none, so no material takes its place.
+        let is_grouped = self.group.is_some();
         let name = name.filter(|name| name != NO_GROUP);
         self.raw.groups.push(GroupRun { first_face: self.raw.face_lines.len(), name, is_made });
+        let material = self.material.clone();
+        self.runs.push(RunNames { object: self.objects, is_grouped, material });
+    }
+
+    /// Begins a run of faces, unless the last one has none yet.
+    fn start_material(&mut self) {
+        let next = self.raw.face_lines.len();
+        match self.raw.groups.last().zip(self.runs.last_mut()) {
+            Some((run, names)) if run.first_face == next => {
+                names.material.clone_from(&self.material);
+            }
+            _ => self.start_group(),
+        }
+    }
+
+    /// Gives runs without a group the name of their material, where that says more than the object.
+    fn name_by_material(&mut self) {
+        let mut materials: HashMap<usize, &Option<String>> = HashMap::new();
+        let mut mixed: Vec<usize> = Vec::new();
+        let ends = self.raw.groups.iter().skip(1).map(|run| run.first_face);
+        let ends: Vec<usize> = ends.chain([self.raw.face_lines.len()]).collect();
+        let has_faces = |(run, &end): (&GroupRun, &usize)| run.first_face < end;
+        let has_faces: Vec<bool> = self.raw.groups.iter().zip(&ends).map(has_faces).collect();
+        for (names, _) in self.runs.iter().zip(&has_faces).filter(|(n, has)| **has && !n.is_grouped)
+        {
+            if *materials.entry(names.object).or_insert(&names.material) != &names.material {
+                mixed.push(names.object);
+            }
+        }
+        mixed.dedup();
+        for (run, names) in self.raw.groups.iter_mut().zip(&self.runs) {
+            let is_mixed = mixed.binary_search(&names.object).is_ok();
+            if !names.is_grouped && (is_mixed || run.name.is_none()) {
+                run.name = names.material.clone().or(run.name.take());
+            }
+        }
     }
 
     fn is_group(&self, name: &str) -> bool {
@@ -412,6 +474,30 @@ mod tests {
         let raw = read(text).expect("an OBJ");
         assert_eq!(raw.notes, [ReadNote::PassedOver { count: 2, first_line: 4 }]);
         assert_eq!(raw.groups[0].name.as_deref(), Some("Wände"));
+    }
+
+    #[test]
+    fn materials_are_groups_where_neither_group_nor_object_tells_faces_apart() {
+        let groups = |middle: &str| {
+            let text = format!("v 0 0 0\nv 1 0 0\nv 0 1 0\n{middle}");
+            let raw = read(text.as_bytes()).expect("an OBJ");
+            let last = raw.face_lines.len();
+            let ends = raw.groups.iter().skip(1).map(|run| run.first_face).chain([last]);
+            let runs = raw.groups.iter().zip(ends).filter(|(run, end)| run.first_face < *end);
+            runs.map(|(run, _)| run.name.clone().unwrap_or_default()).collect::<Vec<_>>()
+        };
+        let f = "f 1 2 3\n";
+        // No object; one object of two colours; two objects of one colour each.
+        assert_eq!(groups(&format!("usemtl red\n{f}usemtl deep blue\n{f}")), ["red", "deep blue"]);
+        assert_eq!(groups(&format!("o box\nusemtl red\n{f}usemtl blue\n{f}")), ["red", "blue"]);
+        let two = format!("o a\nusemtl red\n{f}o b\n{f}");
+        assert_eq!(groups(&two), ["a", "b"]);
+        // A group wins, and `None` is no material.
+        assert_eq!(groups(&format!("g lid\nusemtl red\n{f}usemtl blue\n{f}")), ["lid", "lid"]);
+        assert_eq!(groups(&format!("usemtl None\n{f}usemtl (null)\n{f}")), ["", ""]);
+        assert_eq!(groups(&format!("g default\nusemtl red\n{f}g\n{f}")), ["", "red"]);
+        // Faces without a material keep the object's name.
+        assert_eq!(groups(&format!("o box\n{f}usemtl red\n{f}")), ["box", "red"]);
     }
 
     #[test]

@@ -4,7 +4,7 @@
 use glam::DVec3;
 
 use super::raw::RawMesh;
-use super::{obj, off, ply, stl};
+use super::{glb, obj, off, ply, stl, threemf};
 use crate::io::format::MeshFormat;
 
 /// Faces as the numbers of their corners.
@@ -33,6 +33,9 @@ pub(in crate::io) fn polygons_in(
         MeshFormat::Ply => ply::read(bytes),
         MeshFormat::Off => off::read(bytes),
         MeshFormat::Stl => stl::read(bytes, bytes),
+        MeshFormat::Glb => glb::read(bytes),
+        MeshFormat::ThreeMf => threemf::read(bytes),
+        MeshFormat::Dxf => return None,
     };
     let mut raw = read.ok()?;
     Some((std::mem::take(&mut raw.positions), PlainFaces(raw)))

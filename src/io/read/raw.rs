@@ -21,8 +21,18 @@ pub(super) struct RawMesh {
     pub face_lines: Vec<u32>,
     /// The number that each face has in the file, when faces were dropped or divided.
     pub face_numbers: Option<Vec<u32>>,
+    /// The unit of the format or of the file, which is used whatever the options say.
+    pub own_unit: Option<OwnUnit>,
     /// What the user should know about the file.
     pub notes: Vec<ReadNote>,
+}
+
+/// The unit of a file that has a place for one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct OwnUnit {
+    pub name: &'static str,
+    /// In millimetres.
+    pub mm: f64,
 }
 
 /// The faces from `first_face` on belong to a group, until the next run.

@@ -24,7 +24,7 @@ impl SourceFile<'_> {
         let factor = options
             .size
             .and_then(|size| Some(size.mm() / self.extent()?))
-            .unwrap_or(options.units.mm());
+            .unwrap_or_else(|| self.raw.own_unit.map_or(options.units.mm(), |unit| unit.mm));
         if factor != 1.0 {
             self.raw.positions.iter_mut().for_each(|p| *p *= factor);
         }

@@ -1,15 +1,38 @@
 //! The unit that a mesh file says its numbers have: formats have no place for it, so programs say it
 //! in a comment (`# units: mm`, `# File units = meters`).
 
-use super::MeshUnit;
+use super::raw::RawMesh;
+use super::{MeshUnit, ReadNote, ReadOptions, stl};
+use crate::io::format::MeshFormat;
 
 /// Comments at the top are looked through as far as this many bytes.
 const TOP: usize = 16 << 10;
 /// As long as the head of a binary STL file.
 const STL_HEAD: usize = 80;
 
+/// What to say when the file names another unit than the options do.
+pub(super) fn note(
+    format: Option<MeshFormat>,
+    bytes: &[u8],
+    text: &[u8],
+    raw: &RawMesh,
+    options: &ReadOptions,
+) -> Option<ReadNote> {
+    if options.size.is_some() {
+        return None;
+    }
+    if let Some(unit) = raw.own_unit {
+        let is_asked = options.units != MeshUnit::default() && options.units.name() != unit.name;
+        return is_asked.then_some(ReadNote::OwnUnit { unit: unit.name });
+    }
+    let is_binary = format == Some(MeshFormat::Stl) && stl::is_binary(bytes);
+    let stated = stated_unit(if is_binary { bytes } else { text }, is_binary);
+    let other = stated.filter(|&unit| unit != options.units);
+    other.map(|stated| ReadNote::OtherUnit { stated, taken: options.units })
+}
+
 /// What the comments at the top of a file say; `None` when they say nothing that is understood.
-pub(super) fn stated_unit(bytes: &[u8], is_binary_stl: bool) -> Option<MeshUnit> {
+fn stated_unit(bytes: &[u8], is_binary_stl: bool) -> Option<MeshUnit> {
     if is_binary_stl {
         return unit_in(&String::from_utf8_lossy(&bytes[..bytes.len().min(STL_HEAD)]));
     }

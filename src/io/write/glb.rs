@@ -50,6 +50,19 @@ pub struct GlbNode {
     pub rotation: DQuat,
     /// Its surface.
     pub surface: Option<GlbSurface>,
+    /// What programs should know about it besides, by names: the `extras` of glTF.
+    pub extras: Vec<(&'static str, GlbExtra)>,
+}
+
+/// A value of the `extras` of a node.
+#[derive(Debug, Clone, PartialEq)]
+pub enum GlbExtra {
+    /// A text.
+    Text(String),
+    /// A number.
+    Number(f64),
+    /// Several numbers, such as one for each side.
+    Numbers(Vec<f64>),
 }
 
 /// Triangles and lines between points.
@@ -242,6 +255,19 @@ fn material(material: &GlbMaterial) -> Value {
     value
 }
 
+fn extras(extras: &[(&'static str, GlbExtra)]) -> Value {
+    let value = |extra: &GlbExtra| match extra {
+        GlbExtra::Text(text) => json!(one_line(text)),
+        GlbExtra::Number(number) => json!(number),
+        GlbExtra::Numbers(numbers) => json!(numbers),
+    };
+    extras
+        .iter()
+        .map(|(name, extra)| ((*name).to_owned(), value(extra)))
+        .collect::<Map<_, _>>()
+        .into()
+}
+
 /// The lists of the file in the making.
 #[derive(Default)]
 struct File {
@@ -268,6 +294,9 @@ impl File {
             }
             if node.rotation != DQuat::IDENTITY {
                 value["rotation"] = json!(singles(node.rotation.to_array(), &node.name)?);
+            }
+            if !node.extras.is_empty() {
+                value["extras"] = extras(&node.extras);
             }
             if let Some(surface) = &node.surface {
                 value["mesh"] = json!(self.mesh(surface, &node.name)?);
@@ -422,6 +451,11 @@ mod tests {
             translation: DVec3::new(0.0, 5.0, 0.0),
             rotation: DQuat::IDENTITY,
             surface,
+            extras: vec![
+                ("id", GlbExtra::Text(name.to_owned())),
+                ("mitres", GlbExtra::Numbers(vec![20.5, -3.0])),
+                ("mass", GlbExtra::Number(0.25)),
+            ],
         };
         let arm = scene.add_node(node("arm", None, None));
         let points = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
@@ -469,6 +503,8 @@ mod tests {
         assert_eq!(root["nodes"][2]["children"], json!([0]));
         assert_eq!(root["nodes"][0]["children"], json!([1]));
         assert_eq!(root["nodes"][1]["translation"], json!([0.0, 5.0, 0.0]));
+        let extras = json!({ "id": "hand", "mass": 0.25, "mitres": [20.5, -3.0] });
+        assert_eq!(root["nodes"][1]["extras"], extras);
         assert_eq!(root["meshes"][0]["primitives"].as_array().map(Vec::len), Some(2));
         assert_eq!(
             root["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"],

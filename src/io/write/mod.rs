@@ -9,6 +9,7 @@ use super::output;
 use crate::mesh::Mesh;
 use crate::select::NewElements;
 
+mod faces_dxf;
 pub mod glb;
 mod obj;
 mod obj_check;
@@ -19,6 +20,7 @@ mod polygons;
 mod read_back;
 pub mod step;
 mod stl;
+mod threemf;
 
 /// How a mesh file is written.
 #[derive(Debug, Clone, Default)]
@@ -86,14 +88,16 @@ pub fn write_mesh(path: &Path, mesh: &Mesh, options: &WriteOptions) -> Result<()
 
 /// The content of a mesh file.
 ///
-/// OBJ, PLY and OFF keep every digit of the coordinates; OBJ alone keeps groups and seams; STL
-/// rounds to single precision and cuts faces into triangles.
+/// OBJ, PLY, OFF, 3MF and DXF keep every digit of the coordinates; OBJ, 3MF and DXF keep groups, OBJ
+/// alone keeps seams; STL rounds to single precision; STL and 3MF cut faces into triangles.
 ///
 /// # Errors
 /// [`IoError::NotForFiles`] for a mesh that would not be read again, [`IoError::ReadAsOther`] for
-/// one that would be read as another; [`IoError::NotReadBack`] for a fault of a writer: all files
+/// one that would be read as another; [`IoError::OnlyRead`] for a format of which meshes are read
+/// alone; [`IoError::NotReadBack`] for a fault of a writer: all files
 /// are read back by other code. [`IoError::TooFarForStl`] when a coordinate does not fit,
-/// [`IoError::NotForStl`] when parts touch that STL cannot tell apart.
+/// [`IoError::NotForStl`] when parts touch that STL cannot tell apart,
+/// [`IoError::NotForTriangles`] when no triangles hold the mesh.
 ///
 /// # Example
 /// ```
@@ -118,6 +122,9 @@ pub fn mesh_bytes(
         MeshFormat::Ply => ply::write(mesh, options),
         MeshFormat::Off => off::write(mesh, options),
         MeshFormat::Stl => stl::write(mesh, options)?,
+        MeshFormat::ThreeMf => threemf::write(mesh, options)?,
+        MeshFormat::Dxf => faces_dxf::write(mesh, options),
+        MeshFormat::Glb => return Err(IoError::OnlyRead { format }),
     };
     read_back::check_bytes(format, &bytes, mesh)?;
     Ok(bytes)

@@ -1,14 +1,14 @@
-//! Plates as meshes: OBJ with a group for each panel, STL, and GLB with names, colours and
-//! lettering.
+//! Plates as meshes: OBJ with a group for each panel and the colours beside it, STL, and GLB with
+//! names, colours and lettering.
 
 use std::io::Write as _;
 
 use glam::{DQuat, DVec2, DVec3};
 
-use super::glb::{GlbNode, GlbScene, GlbSurface, glb_bytes};
+use super::glb::{GlbExtra, GlbNode, GlbScene, GlbSurface, glb_bytes};
 use super::one_line;
 use crate::io::error::IoError;
-use crate::panel::{Plate, Solid, label_room};
+use crate::panel::{PanelRow, Plate, Solid, label_room};
 use crate::sheet::lettering;
 
 /// A plate with its name, its body and the number of its group of congruent panels.
@@ -22,10 +22,16 @@ pub struct NamedPlate<'a> {
     pub plate: &'a Plate,
     /// Its body, which is closed.
     pub body: &'a Solid,
+    /// What the schedule says of it, for the `extras` of GLB.
+    pub row: Option<&'a PanelRow>,
 }
 
+/// The name of the colours' file, which an OBJ of plates names.
+pub const PLATES_MTL: &str = "plates.mtl";
+
 /// An OBJ with a group for each plate. Faces stay polygons where they are convex and without holes,
-/// else they are triangles.
+/// else they are triangles. Its colours stand in a file of the name [`PLATES_MTL`] beside it
+/// ([`plates_mtl`]).
 ///
 /// # Example
 /// ```
@@ -38,7 +44,7 @@ pub struct NamedPlate<'a> {
 /// let made = plates(&cube, Length::from_mm(5.0), &params, &Silent)?;
 /// let bodies: Vec<_> = made.plates.iter().map(solid).collect::<Result<_, _>>()?;
 /// let parts = made.plates.iter().zip(&bodies);
-/// let named = |(plate, body)| NamedPlate { name: "side".to_owned(), group: 0, plate, body };
+/// let named = |(plate, body)| NamedPlate { name: "side".to_owned(), group: 0, plate, body, row: None };
 /// let parts: Vec<NamedPlate> = parts.map(named).collect();
 /// let bytes = plates_obj(&parts, "my program");
 /// assert!(bytes.windows(6).any(|w| w == b"g side"));
@@ -52,10 +58,12 @@ pub fn plates_obj(plates: &[NamedPlate<'_>], command: &str) -> Vec<u8> {
 
 fn write_obj(text: &mut Vec<u8>, plates: &[NamedPlate<'_>], command: &str) -> std::io::Result<()> {
     writeln!(text, "# {}", one_line(command))?;
+    writeln!(text, "mtllib {PLATES_MTL}")?;
     let mut before = 1;
     for named in plates {
         let body = named.body;
         writeln!(text, "g {}", named.name)?;
+        writeln!(text, "usemtl {}", material(named.group))?;
         for p in &body.points {
             writeln!(text, "v {} {} {}", p.x, p.y, p.z)?;
         }
@@ -69,6 +77,34 @@ fn write_obj(text: &mut Vec<u8>, plates: &[NamedPlate<'_>], command: &str) -> st
         before += body.points.len() as u32;
     }
     Ok(())
+}
+
+/// The material of a group of congruent panels, of which there are as many as colours.
+fn material(group: usize) -> String {
+    format!("colour-{}", group % COLOURS.len() + 1)
+}
+
+/// How many colours the plates take.
+fn colours_of(plates: &[NamedPlate<'_>]) -> usize {
+    plates.iter().map(|p| p.group + 1).max().unwrap_or(0).min(COLOURS.len())
+}
+
+/// The colours of an OBJ of the same plates, one for each group of congruent panels.
+///
+/// # Example
+/// ```
+/// use kerfold::io::plates::plates_mtl;
+///
+/// assert_eq!(plates_mtl(&[], "my program"), b"# my program\n");
+/// ```
+pub fn plates_mtl(plates: &[NamedPlate<'_>], command: &str) -> Vec<u8> {
+    let mut text = format!("# {}\n", one_line(command));
+    for (group, colour) in COLOURS.iter().enumerate().take(colours_of(plates)) {
+        let [r, g, b] = colour.map(|value| (f64::from(value) / 2.55).round() / 100.0);
+        // Diffuse colour alone, nothing that shines or is see-through.
+        text += &format!("newmtl {}\nKd {r} {g} {b}\nd 1\nillum 1\n", material(group));
+    }
+    text.into_bytes()
 }
 
 /// A face of corners that are numbered from `first`.
@@ -97,7 +133,7 @@ const STL_HEADER: usize = 80;
 /// let made = plates(&cube, Length::from_mm(5.0), &params, &Silent)?;
 /// let bodies: Vec<_> = made.plates.iter().map(solid).collect::<Result<_, _>>()?;
 /// let parts = made.plates.iter().zip(&bodies);
-/// let named = |(plate, body)| NamedPlate { name: "side".to_owned(), group: 0, plate, body };
+/// let named = |(plate, body)| NamedPlate { name: "side".to_owned(), group: 0, plate, body, row: None };
 /// let parts: Vec<NamedPlate> = parts.map(named).collect();
 /// let bytes = plates_stl(&parts, "my program")?;
 /// assert!(bytes.len() > 84);
@@ -132,7 +168,7 @@ pub fn plates_stl(plates: &[NamedPlate<'_>], command: &str) -> Result<Vec<u8>, I
 }
 
 /// Colours that are told apart; groups of congruent panels take them in turn.
-const COLOURS: [[u8; 3]; 12] = [
+pub(super) const COLOURS: [[u8; 3]; 12] = [
     [141, 188, 216],
     [244, 190, 120],
     [163, 207, 142],
@@ -147,8 +183,9 @@ const COLOURS: [[u8; 3]; 12] = [
     [180, 180, 180],
 ];
 
-/// A GLB with a node for each plate: its name, the colour of its group, its edges, and its name
-/// lettered on the front.
+/// A GLB with a node for each plate: its name, the colour of its group, its edges, its name lettered
+/// on the front, and in its `extras` what the schedule says of it, in the words and units of
+/// `panels.json`.
 ///
 /// # Errors
 /// [`IoError`] when a number does not fit into single precision.
@@ -164,7 +201,7 @@ const COLOURS: [[u8; 3]; 12] = [
 /// let made = plates(&cube, Length::from_mm(5.0), &params, &Silent)?;
 /// let bodies: Vec<_> = made.plates.iter().map(solid).collect::<Result<_, _>>()?;
 /// let parts = made.plates.iter().zip(&bodies);
-/// let named = |(plate, body)| NamedPlate { name: "side".to_owned(), group: 0, plate, body };
+/// let named = |(plate, body)| NamedPlate { name: "side".to_owned(), group: 0, plate, body, row: None };
 /// let parts: Vec<NamedPlate> = parts.map(named).collect();
 /// let bytes = plates_glb(&parts, "my program")?;
 /// assert!(bytes.starts_with(b"glTF"));
@@ -172,8 +209,7 @@ const COLOURS: [[u8; 3]; 12] = [
 /// ```
 pub fn plates_glb(plates: &[NamedPlate<'_>], command: &str) -> Result<Vec<u8>, IoError> {
     let mut scene = GlbScene::new("panels");
-    let used = plates.iter().map(|p| p.group + 1).max().unwrap_or(0).min(COLOURS.len());
-    let colours: Vec<_> = (0..used)
+    let colours: Vec<_> = (0..colours_of(plates))
         .map(|i| scene.add_material(format!("colour {}", i + 1), COLOURS[i], 1.0))
         .collect();
     let ink = scene.add_material("lines", [40, 40, 40], 1.0);
@@ -197,9 +233,27 @@ pub fn plates_glb(plates: &[NamedPlate<'_>], command: &str) -> Result<Vec<u8>, I
             translation: origin,
             rotation: DQuat::IDENTITY,
             surface: Some(surface),
+            extras: named.row.map(extras).unwrap_or_default(),
         });
     }
     glb_bytes(&scene, command)
+}
+
+/// The keys of `panels.json` that say what a plate is, whatever becomes of it.
+fn extras(row: &PanelRow) -> Vec<(&'static str, GlbExtra)> {
+    use GlbExtra::{Number, Numbers, Text};
+    let layer = row.layer.clone().map(|layer| ("layer", Text(layer)));
+    let facts = [
+        ("id", Text(row.id.to_string())),
+        ("face", Number(row.face as f64)),
+        ("thickness", Number(row.thickness)),
+        ("area", Number(row.area)),
+        ("volume", Number(row.volume)),
+        ("mass", Number(row.mass)),
+        ("mitres", Numbers(row.bevels.clone())),
+        ("side_lengths", Numbers(row.sides.clone())),
+    ];
+    facts.into_iter().chain(layer).collect()
 }
 
 /// The edges of a plate: those of front and back with their holes, and between the corners of both.

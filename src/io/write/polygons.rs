@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::geom::{Frame, triangulate};
 use crate::mesh::{FaceId, Mesh, VertexId, VertexMap};
 
 /// Vertices and faces, numbered densely.
@@ -51,6 +52,17 @@ impl Polygons {
             self.faces.push((f, self.corners.len()));
         } else {
             self.corners.truncate(start);
+        }
+    }
+
+    /// A face as triangles, by the places of their corners in `corners`.
+    pub fn triangles(&self, mesh: &Mesh, f: FaceId, corners: &[usize]) -> Vec<[usize; 3]> {
+        match mesh.plane(f).map(|plane| Frame::on_plane(&plane)) {
+            Some(frame) if corners.len() > 3 => {
+                let flat = corners.iter().map(|&c| frame.flatten(self.positions[c]));
+                triangulate(&flat.collect::<Vec<_>>())
+            }
+            _ => (2..corners.len()).map(|i| [0, i - 1, i]).collect(),
         }
     }
 

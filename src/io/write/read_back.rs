@@ -8,8 +8,8 @@
 
 use std::path::Path;
 
-use super::obj_check;
 use super::polygons::Polygons;
+use super::{faces_dxf, obj_check};
 use crate::io::error::IoError;
 use crate::io::format::MeshFormat;
 use crate::io::read::{ReadOptions, polygons_in, read_mesh_bytes};
@@ -37,6 +37,10 @@ pub(super) fn check_bytes(format: MeshFormat, bytes: &[u8], mesh: &Mesh) -> Resu
         MeshFormat::Obj => obj_check::says(bytes, mesh),
         MeshFormat::Ply | MeshFormat::Off => says(format, bytes, mesh),
         MeshFormat::Stl => return check_stl(bytes, mesh),
+        MeshFormat::ThreeMf => return check_triangles(format, bytes, mesh),
+        MeshFormat::Dxf => faces_dxf::says(bytes, mesh),
+        // None is written.
+        MeshFormat::Glb => false,
     };
     if is_right { Ok(()) } else { Err(IoError::NotReadBack { format }) }
 }
@@ -54,19 +58,35 @@ fn says(format: MeshFormat, bytes: &[u8], mesh: &Mesh) -> bool {
 }
 
 fn check_stl(bytes: &[u8], mesh: &Mesh) -> Result<(), IoError> {
-    let refused = |why: String| Err(IoError::NotForStl { why });
-    let read = match read_mesh_bytes(Path::new("STL"), bytes, &ReadOptions::default()) {
-        Ok(read) => read.mesh.counts(),
-        Err(error) => return refused(error.to_string()),
-    };
-    let Some(wanted) = mesh.file_counts() else {
-        return Err(IoError::NotReadBack { format: MeshFormat::Stl });
-    };
-    let of = |counts: crate::mesh::FileCounts| (counts.rims, counts.components, counts.euler());
-    if of(read) == of(wanted) {
-        return Ok(());
+    match other_shape(MeshFormat::Stl, bytes, mesh)? {
+        Some(why) => Err(IoError::NotForStl { why }),
+        None => Ok(()),
     }
-    refused(format!("it would be read as {read}"))
+}
+
+/// Refuses triangles of which the vertices are not those of the mesh, and a mesh that its triangles
+/// do not hold: two of them may come to run along one line where the faces did not.
+fn check_triangles(format: MeshFormat, bytes: &[u8], mesh: &Mesh) -> Result<(), IoError> {
+    let positions = polygons_in(format, bytes).map(|(positions, _)| positions);
+    if positions.as_ref() != Some(&Polygons::of(mesh).positions) {
+        return Err(IoError::NotReadBack { format });
+    }
+    match other_shape(format, bytes, mesh)? {
+        Some(why) => Err(IoError::NotForTriangles { format, why }),
+        None => Ok(()),
+    }
+}
+
+/// What keeps the file from having the rims, parts and handles of the mesh.
+fn other_shape(format: MeshFormat, bytes: &[u8], mesh: &Mesh) -> Result<Option<String>, IoError> {
+    let name = format.to_string();
+    let read = match read_mesh_bytes(Path::new(&name), bytes, &ReadOptions::default()) {
+        Ok(read) => read.mesh.counts(),
+        Err(error) => return Ok(Some(error.to_string())),
+    };
+    let wanted = mesh.file_counts().ok_or(IoError::NotReadBack { format })?;
+    let of = |counts: crate::mesh::FileCounts| (counts.rims, counts.components, counts.euler());
+    Ok((of(read) != of(wanted)).then(|| format!("it would be read as {read}")))
 }
 
 #[cfg(test)]

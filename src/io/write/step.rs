@@ -307,7 +307,8 @@ mod tests {
             holes: vec![hole(DVec2::new(5.0, 5.0)), hole(DVec2::new(15.0, 5.0))],
         };
         let body = solid(&plate).expect("closed");
-        let named = NamedPlate { name: "P01".to_owned(), group: 0, plate: &plate, body: &body };
+        let named =
+            NamedPlate { name: "P01".to_owned(), group: 0, plate: &plate, body: &body, row: None };
         let bytes = step_bytes(&[named], "kerfold panels");
         let text = String::from_utf8(bytes).expect("ASCII");
         let ids = |line: &str| -> Vec<usize> {

@@ -4,7 +4,6 @@ use glam::DVec3;
 
 use super::polygons::Polygons;
 use super::{UNITS, WriteOptions};
-use crate::geom::{Frame, triangulate};
 use crate::io::error::IoError;
 use crate::mesh::Mesh;
 
@@ -25,8 +24,7 @@ pub(super) fn write(mesh: &Mesh, options: &WriteOptions) -> Result<Vec<u8>, IoEr
         let points: Vec<DVec3> = corners.iter().map(|&c| polygons.positions[c]).collect();
         let plane = mesh.plane(f);
         let normal = plane.map_or(DVec3::ZERO, |plane| plane.normal());
-        let frame = plane.map(|plane| Frame::on_plane(&plane));
-        for triangle in triangles(&points, frame.as_ref()) {
+        for triangle in polygons.triangles(mesh, f, corners) {
             count += 1;
             for p in [normal, points[triangle[0]], points[triangle[1]], points[triangle[2]]] {
                 bytes.extend(p.as_vec3().to_array().into_iter().flat_map(f32::to_le_bytes));
@@ -36,15 +34,6 @@ pub(super) fn write(mesh: &Mesh, options: &WriteOptions) -> Result<Vec<u8>, IoEr
     }
     bytes[HEADER..HEADER + 4].copy_from_slice(&count.to_le_bytes());
     Ok(bytes)
-}
-
-fn triangles(points: &[DVec3], frame: Option<&Frame>) -> Vec<[usize; 3]> {
-    match frame {
-        Some(frame) if points.len() > 3 => {
-            triangulate(&points.iter().map(|&p| frame.flatten(p)).collect::<Vec<_>>())
-        }
-        _ => (2..points.len()).map(|i| [0, i - 1, i]).collect(),
-    }
 }
 
 /// The 80 bytes of free text. They must not begin with `solid`, as text files do, and end between

@@ -130,8 +130,8 @@ fn an_unknown_extension_is_refused() {
         write_mesh(Path::new("a.step"), &ell(), &WriteOptions::default()).expect_err("unknown");
     assert_eq!(
         error.to_string(),
-        "a.step: unknown mesh format; use a name that ends in .obj, .ply, .stl or .off (or .csv for \
-         a grid of heights that is read)"
+        "a.step: unknown mesh format; use a name that ends in .obj, .ply, .stl, .off or .3mf \
+         (or .glb, or .csv for a grid of heights, which are read, or .dxf, which is written)"
     );
 }
 

@@ -298,7 +298,7 @@ class Mesh(Steps):
         return self._job.find(str(selection), elements)
 
     def write(self, path: Path) -> None:
-        """Writes it to a file, whole or not at all: OBJ, PLY, STL or OFF, by its ending.
+        """Writes it to a file, whole or not at all: OBJ, PLY, STL, OFF, 3MF or DXF, by its ending.
 
         OBJ keeps every digit, groups, and what the last step made.
         """

@@ -1,7 +1,7 @@
 """To and from the meshes of other packages, each asked for only when it is used.
 
-``pip install kerfold[trimesh]``, ``[compas]``, ``[rhino3dm]``, ``[shapely]`` or ``[all]`` installs
-them. Lengths are millimetres on our side; where the other package knows its unit, it is followed.
+``pip install kerfold[trimesh]``, ``[compas]``, ``[rhino3dm]``, ``[shapely]``, ``[ifcopenshell]`` or
+``[all]`` installs them. Lengths are millimetres on our side; where the other package knows its unit, it is followed.
 """
 
 from __future__ import annotations
@@ -218,6 +218,23 @@ def from_rhino3dm(made: Any, *, mend: bool = False) -> Mesh:
         if name:
             groups.setdefault(name, []).extend(range(first, len(faces)))
     return Mesh(vertices, faces, groups, mend=mend)
+
+
+def to_ifc(panels: Panels, *, name: str = "panels") -> Any:
+    """The plates as an `ifcopenshell.file` (IFC4, lengths in mm), the same for the same plates.
+
+    One ``IfcCurtainWall`` of that name in a storey of a building, and for each plate an ``IfcPlate``
+    (``CURTAIN_PANEL``) named as on the sheets (``P01``), its tag the group of congruent plates, its
+    object type the group of the model. Its body is a closed surface of triangles in a placement of
+    its own, whose plane z = 0 is the front. ``Qto_PlateBaseQuantities`` has ``Width`` (the thickness)
+    and ``Perimeter`` (of the front) in mm, ``NetArea`` in m², ``NetVolume`` in m³ and ``NetWeight`` in
+    kg; ``Kerfold_Plate`` has ``Face``, ``Group``, ``Mirrored`` and ``MitresDegrees``.
+    """
+    from ._ifc import build
+
+    ifcopenshell = _need("ifcopenshell")
+    _need("ifcopenshell.guid")
+    return build(ifcopenshell, panels.plates, name)
 
 
 def to_shapely(made: Union[Net, Piece]) -> Any:

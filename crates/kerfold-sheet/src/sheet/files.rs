@@ -58,6 +58,11 @@ pub enum Preset {
     Glowforge,
     /// Epilog, Trotec, ULS: hairlines.
     Epilog,
+    /// Cricut: red is cut, blue scored, black drawn by the pen; grey is for the operation Guide.
+    Cricut,
+    /// Silhouette: red is cut, blue scored, green drawn by the pen; black is printed, with
+    /// registration marks in a margin of 15 mm or more.
+    Silhouette,
 }
 
 /// A format of sheet files.
@@ -261,6 +266,11 @@ const HAIRLINE: f64 = 0.0254;
 const PONOKO: f64 = 0.01;
 
 impl Style {
+    /// Whether the info layer is for printing, not for the eye alone: with registration marks on it.
+    pub fn prints_info(&self) -> bool {
+        self.preset == Preset::Silhouette
+    }
+
     /// The pen of a layer. Strokes are wide enough to be seen, but for machines that tell cuts from
     /// engraving by the width of the stroke: those get hairlines.
     pub fn pen(&self, layer: LayerKind) -> Pen {
@@ -273,6 +283,9 @@ impl Style {
             Preset::Lightburn => ([[0, 0xE0, 0], RED, BLUE, BLACK, [0xF3, 0x69, 0x26]], VISIBLE),
             // Black means a filled area there; single strokes are line engraving, and so red.
             Preset::Ponoko => ([RED, RED, BLUE, BLUE, GREY], PONOKO),
+            Preset::Cricut => ([BLACK, BLUE, RED, RED, GREY], VISIBLE),
+            // A sensor looks for its marks in black.
+            Preset::Silhouette => ([GREEN, BLUE, RED, RED, BLACK], VISIBLE),
         };
         let (at, own) = match layer {
             LayerKind::Engrave => (0, self.colours.engrave),

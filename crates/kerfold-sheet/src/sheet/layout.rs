@@ -166,6 +166,8 @@ pub struct SheetReport {
     pub widened_pieces: Vec<PieceId>,
     /// Sheets without room for the reference, beside the parts or in the margin.
     pub sheets_without_reference: usize,
+    /// Sheets that a plotter has to find by marks, but that have no room for them.
+    pub sheets_without_marks: usize,
     /// Sheets without room for all of the legend.
     pub sheets_without_legend: usize,
     /// Cuts from edge to edge, and borders of offcuts, without room for their label.

@@ -17,8 +17,8 @@ const MIN_SPACING: f64 = 0.01;
 /// What pieces are cut from, and how.
 #[derive(Debug, Clone, PartialEq, clap::Args, Deserialize)]
 pub struct StockParams {
-    /// Size of a sheet, width x height: 600x400, 24inx12in, A0 to A5, letter, jumbo (glass,
-    /// 6000x3210); none for no sheets
+    /// Size of a sheet, width x height: 600x400, 24inx12in, A0 to A5, letter, mat-12x12 and
+    /// mat-12x24 (the mats of cutting plotters), jumbo (glass, 6000x3210); none for no sheets
     #[arg(long, value_name = "SIZE", default_value = "600x400")]
     #[serde(default = "default_sheet")]
     pub sheet: SheetSize,
@@ -111,7 +111,7 @@ pub enum SheetSize {
 }
 
 /// Sizes with a name, width and height in mm.
-const NAMED_SIZES: [(&str, f64, f64); 8] = [
+const NAMED_SIZES: [(&str, f64, f64); 10] = [
     ("a0", 841.0, 1189.0),
     ("a1", 594.0, 841.0),
     ("a2", 420.0, 594.0),
@@ -119,6 +119,9 @@ const NAMED_SIZES: [(&str, f64, f64); 8] = [
     ("a4", 210.0, 297.0),
     ("a5", 148.0, 210.0),
     ("letter", 215.9, 279.4),
+    // The mats of cutting plotters, 12 × 12 and 12 × 24 in.
+    ("mat-12x12", 304.8, 304.8),
+    ("mat-12x24", 304.8, 609.6),
     // The largest pane of float glass that is usually traded.
     ("jumbo", 6000.0, 3210.0),
 ];
@@ -263,6 +266,7 @@ mod tests {
         assert_eq!(mm("600mm x 40cm"), Some((600.0, 400.0)));
         assert_eq!(mm("A4"), Some((210.0, 297.0)));
         assert_eq!(mm("Letter"), Some((215.9, 279.4)));
+        assert_eq!(mm("mat-12x24"), Some((304.8, 609.6)));
         assert_eq!("none".parse(), Ok(SheetSize::None));
         for bad in ["", "600", "600x", "0x400", "-600x400", "B5", "600x400x2", "nanx1"] {
             let error = bad.parse::<SheetSize>().expect_err(bad);

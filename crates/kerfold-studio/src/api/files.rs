@@ -13,7 +13,7 @@ use super::request::{FILE_LIMIT, body, length};
 use crate::{Studio, StudioError, paths};
 
 /// Endings of files that the studio takes and lists.
-const KNOWN: [&str; 8] = ["toml", "obj", "ply", "stl", "off", "csv", "svg", "dxf"];
+const KNOWN: [&str; 10] = ["toml", "obj", "ply", "stl", "off", "glb", "3mf", "csv", "svg", "dxf"];
 /// Files that are listed at most.
 const MOST: usize = 500;
 

@@ -208,7 +208,7 @@ export function left(app: App) {
       onclick: () => void app.apply([["solid", name], ["size", size.value || "180mm"]]),
     }, name.replaceAll("-", " ")))),
     h("p", {}, "largest extent ", size),
-    h("p", {}, "or drop a mesh (OBJ, PLY, STL, OFF) or a recipe here, or ", h("button", { onclick: () => byId("open").click() }, "open one…")),
+    h("p", {}, "or drop a mesh (OBJ, PLY, STL, OFF, GLB, 3MF) or a recipe here, or ", h("button", { onclick: () => byId("open").click() }, "open one…")),
   );
   app.on("recipe", () => (welcome.hidden = app.recipe.steps.length > 0));
 }

@@ -223,7 +223,7 @@ async function openFile(file: string) {
 byId("open").addEventListener("click", () => attempt(async () => {
   const { files, folder } = await api.getJson<{ files: string[]; folder: string }>("/api/files");
   const shown = files.filter((name) => /\.(toml|obj|ply|stl|off)$/i.test(name));
-  const upload = h("input", { type: "file", accept: ".toml,.obj,.ply,.stl,.off", "aria-label": "A file from elsewhere" });
+  const upload = h("input", { type: "file", accept: ".toml,.obj,.ply,.stl,.off,.glb,.3mf", "aria-label": "A file from elsewhere" });
   upload.addEventListener("change", () => {
     if (upload.files?.length) void take(upload.files[0]);
     dialog.close();

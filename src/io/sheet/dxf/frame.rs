@@ -78,7 +78,7 @@ impl Pairs {
 /// The whole file.
 pub(super) fn file(
     size: [f64; 2],
-    layers: &[DxfLayer],
+    layers: &[DxfLayer<'_>],
     command: &str,
     (entities, handles): (&Pairs, &Handles),
 ) -> String {
@@ -98,7 +98,7 @@ pub(super) fn file(
 }
 
 /// Text that every reader of R2000 takes: ASCII, other characters by their number.
-fn plain(text: &str) -> String {
+pub(in crate::io) fn plain(text: &str) -> String {
     text.chars().fold(String::new(), |mut plain, c| {
         match c {
             ' '..='~' => plain.push(c),
@@ -134,7 +134,7 @@ fn header(out: &mut Pairs, size: [f64; 2], seed: u32) {
     }
 }
 
-fn tables(out: &mut Pairs, size: [f64; 2], rows: &[DxfLayer]) {
+fn tables(out: &mut Pairs, size: [f64; 2], rows: &[DxfLayer<'_>]) {
     for (name, handle) in TABLES {
         let mut entries = Pairs::default();
         let count = match name {
@@ -258,7 +258,7 @@ pub(super) fn weight(width: f64) -> u8 {
     if width < 0.1 { 0 } else { 20 }
 }
 
-fn layers(out: &mut Pairs, table: u32, rows: &[DxfLayer]) -> usize {
+fn layers(out: &mut Pairs, table: u32, rows: &[DxfLayer<'_>]) -> usize {
     let plain = DxfLayer { name: "0", colour: 7, weight: 20, is_dashed: false, is_plotted: true };
     let all = std::iter::once((0x10, &plain)).chain((FIRST_LAYER..).zip(rows));
     for (handle, layer) in all {

@@ -13,6 +13,7 @@ use glam::DVec2;
 use crate::geom::polygon::centroid;
 use crate::io::number::{decimal, shown_points};
 use crate::sheet::{Drawing, LayerKind, Mark, MarkKind, PlateSide, Style};
+pub(in crate::io) use frame::plain;
 use frame::{Handles, Pairs, index_of, weight};
 
 /// A regular polygon with this many sides at least stands for a circle.
@@ -20,8 +21,8 @@ const ROUND: usize = 12;
 
 /// A layer of a file.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::io) struct DxfLayer {
-    pub name: &'static str,
+pub(in crate::io) struct DxfLayer<'a> {
+    pub name: &'a str,
     /// Of the index of colours.
     pub colour: u8,
     /// Hundredths of a millimetre.
@@ -73,6 +74,20 @@ impl Entities {
         out.text(40, radius);
     }
 
+    /// A plane of three or four corners, the last one twice where there are three. The sides whose
+    /// bit is set are hidden; the lowest bit is that of the first side.
+    pub fn face(&mut self, layer: &str, corners: [[String; 3]; 4], hidden: u8) {
+        self.begin("3DFACE", layer);
+        let out = &mut self.pairs;
+        out.text(100, "AcDbFace");
+        for (code, [x, y, z]) in (10..).zip(&corners) {
+            out.text(code, x);
+            out.text(code + 10, y);
+            out.text(code + 20, z);
+        }
+        out.number(70, hidden);
+    }
+
     fn begin(&mut self, kind: &str, layer: &str) {
         let out = &mut self.pairs;
         out.text(0, kind);
@@ -86,7 +101,7 @@ impl Entities {
 /// The text of a file with some layers and entities.
 pub(in crate::io) fn dxf_file(
     size: [f64; 2],
-    layers: &[DxfLayer],
+    layers: &[DxfLayer<'_>],
     command: &str,
     entities: &Entities,
 ) -> String {
@@ -128,7 +143,7 @@ pub fn write_dxf(drawing: &Drawing, style: impl Into<Style>, command: &str) -> S
             entities.polyline(side_layer(*side), &shown_points(stroke, None), stroke.closed);
         }
     }
-    let mut layers: Vec<DxfLayer> =
+    let mut layers: Vec<DxfLayer<'_>> =
         LayerKind::ALL.into_iter().map(|kind| sheet_layer(kind, &style)).collect();
     if !drawing.sides.is_empty() {
         layers.extend([PlateSide::Front, PlateSide::Back].map(|side| DxfLayer {
@@ -142,7 +157,7 @@ pub fn write_dxf(drawing: &Drawing, style: impl Into<Style>, command: &str) -> S
     dxf_file([drawing.width, drawing.height], &layers, command, &entities)
 }
 
-fn sheet_layer(kind: LayerKind, style: &Style) -> DxfLayer {
+fn sheet_layer(kind: LayerKind, style: &Style) -> DxfLayer<'static> {
     let pen = style.pen(kind);
     DxfLayer {
         name: layer_name(kind),

@@ -3,7 +3,7 @@
 //!
 //! One page as large as the sheet, user space in millimetres by one matrix, strokes as wide as in the
 //! SVG. Every operation is a layer (an optional content group) of its name; `info` is switched off
-//! for printing. See [`tiles`] for paper.
+//! for printing, unless there are registration marks on it. See [`tiles`] for paper.
 
 pub mod tiles;
 
@@ -39,7 +39,7 @@ pub fn write_pdf(drawing: &Drawing, style: impl Into<Style>, command: &str) -> V
     let mut content = String::new();
     draw_layers(&mut content, drawing, &style);
     let page = Page { width: drawing.width, height: drawing.height, content };
-    document(&[page], &drawing.file_stem(), command, None)
+    document(&[page], (&drawing.file_stem(), command), None, style.prints_info())
 }
 
 /// All strokes of a drawing, layer by layer, in millimetres.
@@ -68,8 +68,14 @@ fn path(content: &mut String, stroke: &Stroke) {
 }
 
 /// The file: catalogue, pages, layers, information.
-/// `extra` is one more layer, `/L5`, which is printed.
-fn document(pages: &[Page], title: &str, command: &str, extra: Option<&str>) -> Vec<u8> {
+/// `extra` is one more layer, `/L5`, which is printed; `prints_info` says whether the layer `info`
+/// is.
+fn document(
+    pages: &[Page],
+    (title, command): (&str, &str),
+    extra: Option<&str>,
+    prints_info: bool,
+) -> Vec<u8> {
     let mut file = Objects::default();
     let layers = LayerKind::ALL.len() + usize::from(extra.is_some());
     // 1 the catalogue, 2 the pages, 3 the information, then the layers, then two objects a page.
@@ -93,7 +99,8 @@ fn document(pages: &[Page], title: &str, command: &str, extra: Option<&str>) -> 
         text(command)
     ));
     for kind in LayerKind::ALL {
-        let state = if kind == LayerKind::Info { "OFF" } else { "ON" };
+        let is_printed = prints_info || kind != LayerKind::Info;
+        let state = if is_printed { "ON" } else { "OFF" };
         let name = kind.name();
         file.add(&format!(
             "<< /Type /OCG /Name ({name}) /Usage << /Print << /PrintState /{state} >> >> >>"

@@ -100,9 +100,9 @@ pub fn write_tiles(
     }
     Ok(document(
         &pages,
-        &format!("{} on {}", drawing.file_stem(), paper.name()),
-        command,
+        (&format!("{} on {}", drawing.file_stem(), paper.name()), command),
         Some(PAGE_LAYER),
+        style.prints_info(),
     ))
 }
 

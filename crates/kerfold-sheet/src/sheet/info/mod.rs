@@ -1,11 +1,12 @@
 //! What stands on the info layer, which is never cut: the outline of the sheet and its defects, the
-//! cuts from edge to edge, the offcut, a reference to measure, and a legend.
+//! cuts from edge to edge, the offcut, a reference to measure, a legend, and marks for plotters.
 //!
 //! Nothing of it lies on a part. What finds no place beside the parts goes into the margin, and
 //! what has no room there either is left out and counted.
 
 mod free;
 mod legend;
+mod registration;
 
 use glam::DVec2;
 
@@ -60,6 +61,10 @@ pub(super) fn draw_info(
             clear: (params.stock.spacing.mm() / 2.0).min(2.0),
             letter: sheet_letter(DVec2::new(sheet.width, sheet.height)),
         };
+        if params.style().prints_info() {
+            let is_whole = stock[sheet.stock].outline.is_empty();
+            report.sheets_without_marks += usize::from(!(is_whole && page.registration()));
+        }
         page.sheet_lines(sheet, &stock[sheet.stock], report)?;
         if params.files.reference == Reference::On {
             report.sheets_without_reference += usize::from(!page.reference()?);
@@ -165,6 +170,17 @@ impl Page<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Marks by which a plotter finds the printed sheet; whether they fit.
+    fn registration(&mut self) -> bool {
+        let size = DVec2::new(self.drawing.width, self.drawing.height);
+        let marks = registration::marks(size, self.margin);
+        for (i, (strokes, place)) in marks.iter().enumerate() {
+            self.note(&format!("registration-{}", i + 1), strokes.clone());
+            self.free.take(*place);
+        }
+        !marks.is_empty()
     }
 
     /// Writes beside a line, as near to its beginning as there is room.

@@ -4,7 +4,7 @@ use super::curvature::Quadric;
 use super::field::RowField;
 use super::lattice::lattice;
 use super::regions::{Panels, panels_of_sites};
-use super::sites::{Ground, PANEL_AREA, fill_and_thin, sites_of_lattice};
+use super::sites::{Ground, fill_and_thin, sites_of_lattice};
 use super::surface::Surface;
 
 /// The count may be off by this share before the layout is made again with a size corrected.
@@ -30,7 +30,7 @@ pub(super) fn layout(
     scale: &[f64],
     seed: u64,
 ) -> Result<Layout, Vec<usize>> {
-    let wanted = surface.area() / PANEL_AREA;
+    let wanted = surface.room();
     let mut size = 1.0;
     let mut best: Option<(f64, Panels)> = None;
     let mut failed = Vec::new();
@@ -60,6 +60,9 @@ pub(super) fn layout(
     }
     let Some((_, panels)) = best else { return Err(failed) };
     let mean = wanted / panels.faces.len() as f64;
-    let areas = panels.sites.iter().map(|&v| scale[v] * scale[v] * mean).collect();
+    let mut areas: Vec<f64> = panels.sites.iter().map(|&v| scale[v] * scale[v] * mean).collect();
+    for (own, given) in areas.iter_mut().zip(&surface.pins.areas) {
+        *own = given.unwrap_or(*own);
+    }
     Ok(Layout { panels, areas })
 }

@@ -16,6 +16,7 @@
 //! planes at a lattice with a row along k₁ meet in hexagons for k₁ = k₂, in bricks for k₁ = 0 and
 //! in bow-ties for k₁ = −k₂, without a jump. Inside, all lengths are in units of the panel size.
 
+mod choices;
 mod crease;
 mod curvature;
 mod delaunay;
@@ -28,7 +29,9 @@ mod height;
 mod kinds;
 mod lattice;
 mod layout;
+mod outcomes;
 mod params;
+mod pins;
 mod prove;
 mod refine;
 mod regions;
@@ -56,6 +59,7 @@ use self::field::RowField;
 use self::flip::turn_edges;
 use self::kinds::{ALIKE, Kinds, kinds};
 use self::layout::{Layout, layout};
+use self::pins::{Asked, Groups, Pin, check_meetings, pinned, pins_of_planes};
 use self::prove::{Measured, measure, off_folds};
 use self::refine::Triangles;
 use self::regions::Panels;
@@ -64,7 +68,9 @@ use self::ring_plan::{RingPlan, ring_plans};
 use self::rings::{RingLayout, ring_layout};
 use self::scale::scale_field;
 use self::smooth::{Moved, smoothed};
-use self::solve::{Limits, RimRule, Run, Scene, State, Symmetry, Weights, rim_plane_without_rim};
+use self::solve::{
+    FacePlane, Limits, RimRule, Run, Scene, State, Symmetry, Weights, rim_plane_without_rim,
+};
 use self::start::start;
 use self::surface::{MOST_TRIANGLES, SPACING, Surface, triangles_of};
 use self::wishes::targets;
@@ -73,9 +79,11 @@ use crate::measure::crossings;
 use crate::mesh::{FaceId, Mesh, MeshBuilder};
 use crate::progress::Progress;
 
+pub use choices::{FixChoice, FixedPlane};
 pub use domain::Domain;
 pub use error::{PanelizeError, PanelizeFinding};
 pub use height::{HeightParams, height_field};
+pub use outcomes::FixedPanel;
 pub use params::{Align, LayoutChoice, PanelizeParams, RimChoice, SheetSize};
 pub use report::{CreaseReport, PanelizeReport, Place};
 
@@ -111,6 +119,11 @@ struct Model {
     /// Edges of the input that fold, and whether they are kept.
     folds: Vec<Fold>,
     keeps_creases: bool,
+    /// Panels whose planes are given: the first ones.
+    pins: Vec<Pin>,
+    fixed: Vec<FacePlane>,
+    /// What of that could not be, in words.
+    pin_notes: Vec<String>,
 }
 
 /// How panels are laid out.
@@ -198,6 +211,13 @@ impl Model {
             return Err(PanelizeError::Cancelled);
         }
         let quadrics = quadrics(&surface);
+        let groups = Groups::new(mesh, &given, &params.fix)?;
+        let must = matches!(params.fix, FixChoice::Group(_));
+        let (mut pins, pin_notes) = groups.pins(&surface, (size, origin), must)?;
+        if let FixChoice::Planes(planes) = &params.fix {
+            pins = pins_of_planes(&surface, &quadrics, planes, (size, origin))?;
+        }
+        surface.pins = pinned(&surface, &pins);
         progress.report("laying out rows", 0, 0);
         let way = match revolution {
             None => Way::free(&surface, &quadrics, params, (size, origin))?,
@@ -225,8 +245,22 @@ impl Model {
             deviation: Limits::default().deviation.max(report::sag(&quadrics)),
             ..Limits::default()
         };
-        let keeps_creases = params.crease.is_some();
-        Ok(Self { size, origin, surface, moved, quadrics, way, rule, limits, folds, keeps_creases })
+        let fixed = pins.iter().map(Pin::face_plane).collect();
+        Ok(Self {
+            size,
+            origin,
+            surface,
+            moved,
+            quadrics,
+            way,
+            rule,
+            limits,
+            folds,
+            keeps_creases: params.crease.is_some(),
+            pins,
+            fixed,
+            pin_notes,
+        })
     }
 
     fn scene(&self) -> Scene<'_> {
@@ -235,6 +269,7 @@ impl Model {
             quadrics: &self.quadrics,
             limits: &self.limits,
             rule: &self.rule,
+            fixed: &self.fixed,
         }
     }
 
@@ -250,7 +285,7 @@ impl Model {
         progress: &dyn Progress,
     ) -> Result<Solved, PanelizeError> {
         let mut best: Option<(f64, Solved)> = None;
-        let mut failed = None;
+        let (mut failed, mut clash) = (None, None);
         for attempt in 0..ATTEMPTS {
             if best.is_none() && progress.is_cancelled() {
                 return Err(PanelizeError::Cancelled);
@@ -259,7 +294,14 @@ impl Model {
             let seed = params.seed.wrapping_add(attempt * 1_000_003);
             let solved = match self.draft(attempt, seed) {
                 None => break,
-                Some(Ok(draft)) => self.solve(draft, progress),
+                Some(Ok(draft)) => {
+                    let met = check_meetings(&draft.panels, &self.pins, (self.size, self.origin));
+                    if let Err(error) = met {
+                        clash = clash.or(Some(error));
+                        continue;
+                    }
+                    self.solve(draft, progress)
+                }
                 Some(Err(bad)) => {
                     failed = failed.or(bad.first().copied());
                     continue;
@@ -282,6 +324,14 @@ impl Model {
             ..solved
         });
         solved.ok_or_else(|| {
+            if let Some(error) = clash {
+                return error;
+            }
+            let group = self.pins.iter().find(|pin| failed.is_some_and(|v| pin.is_group_at(v)));
+            if let Some(Asked::Group(name)) = group.map(|pin| pin.asked.clone()) {
+                let what = "it has a hole, touches itself, or has too little surface around it";
+                return PanelizeError::BadGroup { name, what: what.to_owned() };
+            }
             let place = failed.map_or(DVec3::ZERO, |v| self.surface.points[v]);
             PanelizeError::TooNarrow { size: self.size, place: self.place(place) }
         })
@@ -312,7 +362,7 @@ impl Model {
     fn solve(&self, draft: Draft, progress: &dyn Progress) -> Solved {
         let scene = self.scene();
         let Draft { mut panels, areas, symmetry, rings } = draft;
-        start(&mut panels, &self.quadrics);
+        start(&mut panels, &self.quadrics, &self.surface.pins);
         let may_turn = symmetry.is_none();
         let mut state = State::new(panels, areas, symmetry, scene);
         let weights = Weights::default();
@@ -358,15 +408,16 @@ impl Model {
         let lost = solved.off_folds.iter().filter(is_lost).count();
         let lost = if self.keeps_creases { lost } else { 0 };
         let sag = report::sag(&self.quadrics);
-        let odd = |m: &&Measured| {
+        let room = |f: usize| self.surface.pins.areas.get(f).copied().flatten().unwrap_or(1.0);
+        let odd = |&(f, m): &(usize, &Measured)| {
             m.deviation > (2.5 * sag).max(0.05)
                 || m.least_angle < 12.0
                 || m.largest_angle > 300.0
                 || m.area < 0.2
-                || m.area > 2.4
+                || m.area > 2.4 * room(f)
         };
         let far = report::far_nodes(self, solved, reach).len();
-        let odd = m.iter().filter(odd).count() + lost + far;
+        let odd = m.iter().enumerate().filter(odd).count() + lost + far;
         let short = m.iter().filter(|m| m.shortest < 0.1).count().saturating_sub(m.len() / 50);
         let deviations: Vec<f64> = m.iter().map(|m| m.deviation).collect();
         let most = report::percentile(&deviations, 0.95);
@@ -400,7 +451,13 @@ impl Model {
         }
         if solved.lack <= EXACT {
             for (f, plane) in solved.state.planes.iter().enumerate() {
-                if let Some(plane) = Plane::new(plane.normal, self.place(plane.point)) {
+                let given =
+                    self.pins.get(f).map(|pin| match plane.normal.dot(pin.given.normal()) {
+                        ..0.0 => pin.given.flipped(),
+                        _ => pin.given,
+                    });
+                let found = || Plane::new(plane.normal, self.place(plane.point));
+                if let Some(plane) = given.or_else(found) {
                     mesh.set_plane(FaceId::new(f), plane);
                 }
             }
@@ -425,7 +482,7 @@ impl Way {
     }
 
     fn rings(surface: &Surface, revolution: Revolution, size: f64) -> Result<Self, PanelizeError> {
-        let wanted = surface.area() / sites::PANEL_AREA;
+        let wanted = surface.area() / surface::PANEL_AREA;
         let plans = ring_plans(&revolution, size, wanted);
         if plans.is_empty() {
             return Err(PanelizeError::NoRings { size });
@@ -440,7 +497,7 @@ fn fine_surface(given: &Triangles, size: f64, origin: DVec3) -> Result<Surface, 
     let (corners, creases) = (given.corners.clone(), given.creases.clone());
     let mut triangles = Triangles { points, corners, creases };
     let area = triangles.area();
-    let count = area / sites::PANEL_AREA;
+    let count = area / surface::PANEL_AREA;
     let too_fine = || PanelizeError::TooFine { size, count: count as usize, limit: MOST_TRIANGLES };
     // A triangle for each thirtieth of a panel is the least that is needed.
     if count * 30.0 > MOST_TRIANGLES as f64 || !triangles.refine(SPACING, MOST_TRIANGLES) {

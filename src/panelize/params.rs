@@ -7,7 +7,7 @@ use std::str::FromStr;
 use glam::DVec3;
 use serde::{Deserialize, Deserializer, de};
 
-use super::PanelizeError;
+use super::{FixChoice, PanelizeError};
 use crate::units::{Angle, Length};
 
 /// What the rows of panels follow.
@@ -191,6 +191,12 @@ pub struct PanelizeParams {
     #[arg(long, default_value_t = RimChoice::Free)]
     #[serde(default)]
     pub rim: RimChoice,
+    /// What stays: a CSV file of planes, nx,ny,nz,d on each line for n·x = d in the unit of the
+    /// surface's file, each that of the panel where the surface comes nearest to it; groups (every flat
+    /// part of a named group of faces is one panel), or group:NAME (of this one).
+    #[arg(long, default_value_t = FixChoice::None, value_name = "none|FILE|groups|group:NAME")]
+    #[serde(default)]
+    pub fix: FixChoice,
     /// Keep edges of the surface that fold by more than this, 5 to 170 degrees: panels end there on
     /// both sides, and their corners lie on them. Without it creases are rounded.
     #[arg(long, value_name = "ANGLE")]
@@ -304,6 +310,7 @@ impl Default for PanelizeParams {
             align: Align::default(),
             even: default_even(),
             rim: RimChoice::default(),
+            fix: FixChoice::default(),
             crease: None,
             smooth: None,
             min_edge: default_edge(),
@@ -325,10 +332,16 @@ impl PanelizeParams {
             return Err(PanelizeError::NoSize { given });
         }
         let rings = (self.layout != LayoutChoice::Free, "--layout rings");
-        for (is_given, other) in [rings, (self.smooth.is_some(), "--smooth")] {
-            if self.crease.is_some() && is_given {
-                return Err(PanelizeError::Together { one: "--crease", other });
+        let smooth = (self.smooth.is_some(), "--smooth");
+        let crease = (self.crease.is_some(), "--crease");
+        let fix = (self.fix != FixChoice::None, "--fix");
+        for (one, other) in [(crease, rings), (crease, smooth), (fix, rings)] {
+            if one.0 && other.0 {
+                return Err(PanelizeError::Together { one: one.1, other: other.1 });
             }
+        }
+        if let FixChoice::File(path) = &self.fix {
+            return Err(PanelizeError::PlanesUnread { path: path.clone() });
         }
         let largest = f64::MAX;
         let least = f64::MIN_POSITIVE;

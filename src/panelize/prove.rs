@@ -6,7 +6,7 @@ use glam::{DMat3, DVec2, DVec3};
 
 use super::curvature::Quadric;
 use super::regions::{Kind, Panels};
-use super::sites::PANEL_AREA;
+use super::surface::PANEL_AREA;
 use super::surface::{Links, NONE, Surface};
 use crate::geom::polygon::{segments_meet, signed_area, smallest_rectangle};
 use crate::geom::{Frame, Grid, Plane, nearest_on_segment, nearest_on_triangle};

@@ -108,7 +108,8 @@ pub(super) fn panels_of_sites(
         bad = faulty.iter().map(|&k| sites[k]).collect();
         if round + 2 < TRIES {
             let areas = region_areas(surface, &labels, sites.len());
-            let mut order = faulty;
+            let is_pinned = |k: usize| k < surface.pins.sites.len();
+            let mut order: Vec<usize> = faulty.into_iter().filter(|&k| !is_pinned(k)).collect();
             order.sort_by(|&a, &b| areas[a].total_cmp(&areas[b]).then(a.cmp(&b)));
             let dropped = apart(surface, sites, &order, 1.5);
             let mut keep = dropped.iter();

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::curvature::Quadric;
+use super::outcomes::{FixedPanel, fixed_note};
 use super::prove::node_reach;
 use super::{ALIKE, EXACT, Model, PanelizeFinding, PanelizeParams, Solved};
 use crate::check::short;
@@ -13,6 +14,8 @@ use crate::code::Coded;
 const MOST_OFF: f64 = 0.2;
 /// Creases that are kept may be so far from the edges of panels, in panel sizes.
 pub(super) const CREASE_OFF: f64 = 0.1;
+/// Corners farther from a given plane have left it, in panel sizes.
+const PLANE_OFF: f64 = 1e-9;
 /// The sag counts where it is largest but for this share of the surface.
 const SHARE: f64 = 0.99;
 /// Panels may be so much more or fewer than were asked for, or so many.
@@ -77,6 +80,10 @@ pub struct PanelizeReport {
     pub rings: usize,
     /// What became of edges of the surface that fold by more than `crease`, or 40 degrees.
     pub creases: CreaseReport,
+    /// The panels whose planes were given.
+    pub fixed: Vec<FixedPanel>,
+    /// What was to stay and could not, in words.
+    pub not_fixed: Vec<String>,
     /// What is wrong, by kind, the worst first.
     pub findings: Vec<Place>,
     /// Whether the work was stopped.
@@ -109,7 +116,7 @@ impl PanelizeReport {
         let mut made = Self {
             size_mm: size,
             panels: m.len(),
-            wanted: model.surface.area() / super::sites::PANEL_AREA,
+            wanted: model.surface.room(),
             asked: params.count,
             deviation_mm: [1.0, 0.95].map(|share| percentile(&deviations, share) * size),
             sag_mm: sag(&model.quadrics) * size,
@@ -130,6 +137,8 @@ impl PanelizeReport {
                 is_kept: model.keeps_creases,
                 off_mm: solved.off_folds.iter().map(|(off, _)| *off).fold(0.0, f64::max) * size,
             },
+            fixed: fixed_panels(model, solved),
+            not_fixed: model.pin_notes.clone(),
             findings: Vec::new(),
             was_stopped: solved.was_stopped,
         };
@@ -153,6 +162,8 @@ impl PanelizeReport {
         let mut notes = vec![self.summary(), self.shape(), self.repeats()];
         notes.extend(self.creases.note());
         notes.extend(self.smoothed_mm.map(smoothing));
+        notes.extend(fixed_note(&self.fixed));
+        notes.extend(self.not_fixed.iter().cloned());
         let mut rest = &self.findings[..];
         while let Some(first) = rest.first() {
             let count = rest.iter().take_while(|place| place.finding == first.finding).count();
@@ -267,6 +278,10 @@ impl PanelizeReport {
             PanelizeFinding::UnevenRing => (
                 "rings of which the panels are not congruent, by their first panels",
                 "take another size, or `--layout free`",
+            ),
+            PanelizeFinding::PlaneLost => (
+                "panels that left the planes that were given for them",
+                "change one of the planes that meet there, or take a smaller size",
             ),
             PanelizeFinding::Stopped | PanelizeFinding::OtherCount => {
                 ("panels that are not finished", "run it to the end")
@@ -394,6 +409,7 @@ fn findings(model: &Model, solved: &Solved, params: &PanelizeParams) -> Vec<Plac
     }
     all.extend(far_nodes(model, solved, params.max_reach));
     all.extend(lost_creases(model, solved));
+    all.extend(lost_planes(model, solved));
     all.extend(full_nodes(model, solved));
     all.extend(uneven_rings(model, solved));
     all
@@ -419,6 +435,33 @@ fn lost_creases(model: &Model, solved: &Solved) -> Vec<Place> {
         .collect();
     found.sort_by(|a, b| b.measured.total_cmp(&a.measured).then(a.element.cmp(&b.element)));
     found
+}
+
+/// The panels whose planes were given, and how far their corners are from these.
+fn fixed_panels(model: &Model, solved: &Solved) -> Vec<FixedPanel> {
+    let panels = &solved.state.panels;
+    let off = |f: usize| {
+        let away = |&v: &usize| model.pins[f].plane.signed_distance(panels.points[v]).abs();
+        panels.faces[f].iter().map(away).fold(0.0, f64::max) * model.size
+    };
+    let fixed = |f: usize| {
+        let asked = model.pins[f].asked.to_string();
+        FixedPanel { asked, panel: f, off_mm: off(f) }
+    };
+    (0..model.pins.len()).map(fixed).collect()
+}
+
+/// Panels that left the planes that were given for them.
+fn lost_planes(model: &Model, solved: &Solved) -> Vec<Place> {
+    let fixed = fixed_panels(model, solved).into_iter();
+    let lost = fixed.filter(|panel| panel.off_mm > PLANE_OFF * model.size);
+    lost.map(|panel| Place {
+        finding: PanelizeFinding::PlaneLost,
+        element: panel.panel,
+        measured: panel.off_mm,
+        place: model.place(solved.state.panels.centre(panel.panel)),
+    })
+    .collect()
 }
 
 /// Vertices at which more than three panels meet: there more than three creases do.

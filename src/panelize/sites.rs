@@ -5,11 +5,9 @@ use std::collections::BinaryHeap;
 
 use glam::DVec3;
 
-use super::surface::{NONE, Surface};
+use super::surface::{NONE, PANEL_AREA, Surface};
 use crate::geom::Grid;
 
-/// The area of a panel of size 1: that of a hexagon in the regular lattice.
-pub(super) const PANEL_AREA: f64 = 0.866_025_403_784_438_6;
 /// Vertices hold one lattice point when theirs are nearer than this, in local panel sizes.
 const SAME: f64 = 0.35;
 /// Clusters with a smaller share of a panel's area are none.
@@ -102,13 +100,21 @@ fn nearest_members(surface: &Surface, group: &[usize], places: &[DVec3]) -> Vec<
     best.into_iter().map(|(_, v)| v).collect()
 }
 
-/// Without the candidates that come too near to an earlier one on the same side of the surface.
+/// The pins, and the candidates that do not come too near to an earlier one on the same side of the
+/// surface.
 fn thinned(ground: Ground<'_>, candidates: &[usize]) -> Vec<usize> {
     let Ground { surface, sizes } = ground;
     let widest = sizes.iter().fold(0.0, |a: f64, &b| a.max(b));
     let mut grid = Grid::new([0.0; 3], widest * TOO_NEAR);
     let mut kept: Vec<usize> = Vec::new();
+    for &v in &surface.pins.sites {
+        grid.insert(surface.points[v].to_array());
+        kept.push(v);
+    }
     for &v in candidates {
+        if surface.pins.is_shadow.get(v) == Some(&true) {
+            continue;
+        }
         let place = surface.points[v];
         let is_free = grid.around(place.to_array()).all(|k| {
             let u = kept[k as usize];
@@ -156,6 +162,10 @@ pub(super) fn regions(surface: &Surface, sites: &[usize]) -> Vec<usize> {
         .enumerate()
         .map(|(label, &vertex)| Reverse(Growing { distance: 0.0, vertex, label }))
         .collect();
+    // Panels of given vertices have these and no others.
+    for (vertex, label) in labels.iter_mut().enumerate() {
+        *label = surface.pins.owner(vertex).unwrap_or(NONE);
+    }
     while let Some(Reverse(Growing { vertex, label, .. })) = front.pop() {
         if labels[vertex] != NONE {
             continue;
@@ -185,6 +195,7 @@ pub(super) fn region_areas(surface: &Surface, labels: &[usize], count: usize) ->
 
 /// Moves sites to the middle of their regions (Lloyd 1982), only those at a rim when `rim_only`.
 pub(super) fn relax(surface: &Surface, sites: &mut [usize], rounds: usize, rim_only: bool) {
+    let pinned = surface.pins.sites.len();
     for _ in 0..rounds {
         let labels = regions(surface, sites);
         let areas = region_areas(surface, &labels, sites.len());
@@ -198,7 +209,7 @@ pub(super) fn relax(surface: &Surface, sites: &mut [usize], rounds: usize, rim_o
         }
         let nearest = nearest_members(surface, &labels, &means);
         for (k, site) in sites.iter_mut().enumerate() {
-            if moves[k] && nearest[k] != NONE {
+            if k >= pinned && moves[k] && nearest[k] != NONE {
                 *site = nearest[k];
             }
         }
@@ -235,9 +246,10 @@ fn holes(ground: Ground<'_>, sites: &[usize], labels: &[usize]) -> Vec<usize> {
             surface.points[v].distance(surface.points[sites[label]])
         })
         .collect();
+    let is_free = |v: usize| surface.pins.owner(v).is_none();
     let mut added = Vec::new();
     let mut open: Vec<usize> =
-        (0..labels.len()).filter(|&v| distances[v] >= HOLE * sizes[v]).collect();
+        (0..labels.len()).filter(|&v| distances[v] >= HOLE * sizes[v] && is_free(v)).collect();
     while let Some(&farthest) =
         open.iter().max_by(|&&a, &&b| distances[a].total_cmp(&distances[b]).then(b.cmp(&a)))
     {
@@ -255,7 +267,7 @@ fn holes(ground: Ground<'_>, sites: &[usize], labels: &[usize]) -> Vec<usize> {
 fn too_small(ground: Ground<'_>, sites: &[usize], labels: &[usize]) -> Vec<bool> {
     let Ground { surface, sizes } = ground;
     let areas = region_areas(surface, labels, sites.len());
-    let mut small: Vec<usize> = (0..sites.len())
+    let mut small: Vec<usize> = (surface.pins.sites.len()..sites.len())
         .filter(|&k| areas[k] < LEAST_AREA * PANEL_AREA * sizes[sites[k]].powi(2))
         .collect();
     small.sort_by(|&a, &b| areas[a].total_cmp(&areas[b]).then(a.cmp(&b)));

@@ -3,7 +3,7 @@
 use super::curvature::quadrics;
 use super::refine::Triangles;
 use super::report::sag;
-use super::sites::PANEL_AREA;
+use super::surface::PANEL_AREA;
 use super::{PanelizeError, PanelizeParams, fine_surface};
 
 /// Rounds of finding the size for a sag: curvature is seen at the scale of the panels.

@@ -14,6 +14,8 @@ pub(super) const SPACING: f64 = 1.0 / 6.0;
 pub(super) const CORNER_TURN: f64 = 40.0;
 /// More triangles are refused before they are made.
 pub(super) const MOST_TRIANGLES: usize = 3_000_000;
+/// The area of a panel of size 1: that of a hexagon in the regular lattice.
+pub(super) const PANEL_AREA: f64 = 0.866_025_403_784_438_6;
 /// No vertex.
 pub(super) const NONE: usize = usize::MAX;
 
@@ -37,6 +39,30 @@ pub(super) struct Surface {
     pub is_corner: Vec<bool>,
     /// Where it was cut open along creases.
     pub creases: Creases,
+    /// Panels whose place is settled.
+    pub pins: Pins,
+}
+
+/// Panels whose place is settled before the others are laid out: they come first among all, and
+/// are neither moved nor dropped. All lists are empty when there are none.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Pins {
+    /// The vertex in the middle of each.
+    pub sites: Vec<usize>,
+    /// For each vertex of the surface the pin whose panel consists of it and others like it;
+    /// [`NONE`] for vertices that go to whichever panel is nearest.
+    pub owners: Vec<usize>,
+    /// Vertices that are too near to such a panel to be the middle of another.
+    pub is_shadow: Vec<bool>,
+    /// The area of each that consists of given vertices, over that of a regular hexagon.
+    pub areas: Vec<Option<f64>>,
+}
+
+impl Pins {
+    /// The pin whose panel a vertex is part of.
+    pub(super) fn owner(&self, v: usize) -> Option<usize> {
+        self.owners.get(v).copied().filter(|&k| k != NONE)
+    }
 }
 
 /// What is known of creases, by the vertices of the surface that was cut open along them; all lists
@@ -194,6 +220,7 @@ impl Surface {
             rim_before,
             is_corner,
             creases: Creases::default(),
+            pins: Pins::default(),
         };
         made.is_corner = (0..count).map(|v| made.turns_at(v)).collect();
         made
@@ -216,6 +243,12 @@ impl Surface {
     /// The area, in squared panel sizes.
     pub(super) fn area(&self) -> f64 {
         self.areas.iter().sum()
+    }
+
+    /// For how many panels there is room, those of given size counted as one.
+    pub(super) fn room(&self) -> f64 {
+        let whole = self.area() / PANEL_AREA;
+        self.pins.areas.iter().flatten().fold(whole, |room, area| room - area + 1.0)
     }
 
     /// The unit direction of the rim at a vertex on it: from the vertex before to the next.

@@ -39,6 +39,8 @@ pub(super) struct Scene<'a> {
     pub quadrics: &'a [Quadric],
     pub limits: &'a Limits,
     pub rule: &'a RimRule,
+    /// The planes of the first faces, which are given.
+    pub fixed: &'a [FacePlane],
 }
 
 /// The panels with their planes, and what is known of them between rounds.
@@ -46,6 +48,8 @@ pub(super) struct Scene<'a> {
 pub(super) struct State {
     pub panels: Panels,
     pub planes: Vec<FacePlane>,
+    /// The planes of the first faces, if they are given: they are no unknowns.
+    pub fixed: Vec<FacePlane>,
     /// The area that each face should have.
     pub areas: Vec<f64>,
     /// Faces whose hinges were broken for long weigh more.
@@ -90,9 +94,9 @@ impl State {
     ) -> Self {
         let stress = vec![1.0; panels.faces.len()];
         let (fans, across, planes, owners) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let shift = LEAST_SHIFT;
+        let (shift, fixed) = (LEAST_SHIFT, scene.fixed.to_vec());
         let mut made =
-            Self { panels, planes, areas, stress, fans, across, symmetry, owners, shift };
+            Self { panels, planes, fixed, areas, stress, fans, across, symmetry, owners, shift };
         if let Some(symmetry) = &made.symmetry {
             symmetry.spread(&mut made.panels.points);
         }
@@ -144,7 +148,13 @@ impl State {
                 let centre = self.panels.centre(f);
                 let hint = self.panels.hint(f);
                 let up = self.height(scene, centre, hint).normal;
-                FacePlane::fit(&self.panels, f, up)
+                match self.fixed.get_mut(f) {
+                    None => FacePlane::fit(&self.panels, f, up),
+                    Some(fixed) => {
+                        *fixed = fixed.facing(up);
+                        fixed.moved_to(centre)
+                    }
+                }
             })
             .collect();
     }
@@ -276,7 +286,9 @@ impl State {
         }
         self.follow_firsts();
         for &f in &unknowns.faces {
-            self.planes[f] = self.planes[f].moved_to(self.panels.centre(f));
+            // A given plane is never written anew, so it stays to the last digit.
+            let plane = self.fixed.get(f).unwrap_or(&self.planes[f]);
+            self.planes[f] = plane.moved_to(self.panels.centre(f));
         }
     }
 

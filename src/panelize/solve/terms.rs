@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use glam::{DMat3, DVec3};
 
 use super::super::regions::Kind;
-use super::super::sites::PANEL_AREA;
+use super::super::surface::PANEL_AREA;
 use super::element::Element;
 use super::{RimRow, Round, Scene, State, Unknowns};
 
@@ -171,7 +171,7 @@ impl State {
         round: &Round<'_>,
     ) -> Element {
         let view = View::new(self, f);
-        let mut element = Element::new(view.len());
+        let mut element = Element::new(view.len(), f < self.fixed.len());
         self.planarity(&view, weights.planarity, &mut element);
         self.closeness(scene, &view, weights, &mut element);
         self.star_shape(&view, scene.limits, weights.star, &mut element);
@@ -195,7 +195,7 @@ impl State {
     /// Planarity and hard rims alone.
     pub(super) fn polish_element(&self, f: usize, rim: &[RimRow]) -> Element {
         let view = View::new(self, f);
-        let mut element = Element::new(view.len());
+        let mut element = Element::new(view.len(), f < self.fixed.len());
         self.planarity(&view, 1.0, &mut element);
         for i in self.owned(&view) {
             for row in rows_of(rim, view.corners[i]).iter().filter(|row| row.is_hard) {

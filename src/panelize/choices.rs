@@ -1,4 +1,4 @@
-//! What stays as it is: planes and flat groups of faces.
+//! What stays as it is, planes and flat groups of faces, and what is mirrored.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -69,6 +69,44 @@ impl<'de> Deserialize<'de> for FixChoice {
     }
 }
 
+/// Planes across which panels are mirrored: square to x, y or z (0 to 2), through the middle of the
+/// surface's bounding box; ascending.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct SymmetryChoice(pub Vec<usize>);
+
+/// The names of the axes.
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+impl FromStr for SymmetryChoice {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text == "none" {
+            return Ok(Self::default());
+        }
+        let axis = |part: &str| AXES.iter().position(|axis| *axis == part.trim());
+        let axes: Option<Vec<usize>> = text.split(',').map(axis).collect();
+        let mut axes =
+            axes.ok_or_else(|| format!("`{text}` is not none, x, y, z, or several like x,y"))?;
+        axes.sort_unstable();
+        axes.dedup();
+        Ok(Self(axes))
+    }
+}
+
+impl fmt::Display for SymmetryChoice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let names: Vec<&str> = self.0.iter().map(|&axis| AXES[axis]).collect();
+        write!(f, "{}", if names.is_empty() { "none".to_owned() } else { names.join(",") })
+    }
+}
+
+impl<'de> Deserialize<'de> for SymmetryChoice {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        String::deserialize(deserializer)?.parse().map_err(de::Error::custom)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -80,6 +118,12 @@ mod tests {
         }
         for text in ["", "group:", "planes.json", "all"] {
             assert!(text.parse::<FixChoice>().is_err(), "{text}");
+        }
+        for text in ["none", "y", "x,z"] {
+            assert_eq!(text.parse::<SymmetryChoice>().expect(text).to_string(), text);
+        }
+        for text in ["", "xy", "w", "x,"] {
+            assert!(text.parse::<SymmetryChoice>().is_err(), "{text}");
         }
     }
 }

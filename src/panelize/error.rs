@@ -260,6 +260,25 @@ pub enum PanelizeError {
         /// How far they may, in mm.
         allowed_mm: f64,
     },
+    /// No mirror image of itself.
+    #[error(
+        "the surface is not its own image across {axis} = {at:.1} mm, the middle of its bounding box: the \
+        image of ({:.1}, {:.1}, {:.1}) is {off:.1} mm off it, and {most:.1} mm are allowed; name another \
+        axis, mend the model there, or leave `--symmetry` out",
+        place.x, place.y, place.z
+    )]
+    NotMirrored {
+        /// The axis that the plane is square to.
+        axis: &'static str,
+        /// Where the plane is, in mm.
+        at: f64,
+        /// By how much, in mm.
+        off: f64,
+        /// What is allowed, in mm.
+        most: f64,
+        /// Where, in mm.
+        place: DVec3,
+    },
     /// Ctrl-C before there was a result.
     #[error("stopped before there were any panels")]
     Cancelled,
@@ -288,6 +307,7 @@ codes!(error PanelizeError {
     PlanesUnread = 861,
     PlanesTooNear = 862,
     PlanesDoNotMeet = 863,
+    NotMirrored = 864,
 });
 
 /// What is wrong with panels that were made all the same.
@@ -320,6 +340,14 @@ pub enum PanelizeFinding {
     UnevenRing,
     /// A panel left the plane that was given for it.
     PlaneLost,
+    /// A panel is no image of another across a mirror plane.
+    Unpaired,
+    /// An edge has the length of no family.
+    ManyLengths,
+    /// Neighbours fold by more than is allowed.
+    SharpFold,
+    /// A concave panel is deeper than is allowed.
+    DeepHollow,
     /// The panels are not as many as were asked for.
     OtherCount,
 }
@@ -338,5 +366,9 @@ codes!(finding PanelizeFinding {
     FullNode = 611,
     UnevenRing = 612,
     PlaneLost = 613,
+    Unpaired = 614,
+    ManyLengths = 615,
+    SharpFold = 616,
+    DeepHollow = 617,
     OtherCount = 620,
 });

@@ -22,6 +22,7 @@ mod curvature;
 mod delaunay;
 mod domain;
 mod error;
+mod families;
 mod field;
 mod flip;
 mod formula;
@@ -29,6 +30,7 @@ mod height;
 mod kinds;
 mod lattice;
 mod layout;
+mod mirror;
 mod outcomes;
 mod params;
 mod pins;
@@ -45,6 +47,7 @@ mod size;
 mod smooth;
 mod solve;
 mod start;
+mod stays;
 mod surface;
 mod wishes;
 
@@ -58,7 +61,8 @@ use self::curvature::{Quadric, quadrics};
 use self::field::RowField;
 use self::flip::turn_edges;
 use self::kinds::{ALIKE, Kinds, kinds};
-use self::layout::{Layout, layout};
+use self::layout::{Layout, Rows, layout};
+use self::mirror::{Mirror, check_mirrored};
 use self::pins::{Asked, Groups, Pin, check_meetings, pinned, pins_of_planes};
 use self::prove::{Measured, measure, off_folds};
 use self::refine::Triangles;
@@ -79,13 +83,13 @@ use crate::measure::crossings;
 use crate::mesh::{FaceId, Mesh, MeshBuilder};
 use crate::progress::Progress;
 
-pub use choices::{FixChoice, FixedPlane};
+pub use choices::{FixChoice, FixedPlane, SymmetryChoice};
 pub use domain::Domain;
 pub use error::{PanelizeError, PanelizeFinding};
 pub use height::{HeightParams, height_field};
-pub use outcomes::FixedPanel;
+pub use outcomes::{FamilyReport, FixedPanel, MirrorReport, Place};
 pub use params::{Align, LayoutChoice, PanelizeParams, RimChoice, SheetSize};
-pub use report::{CreaseReport, PanelizeReport, Place};
+pub use report::{CreaseReport, PanelizeReport};
 
 /// Rounds of solving.
 const ROUNDS: usize = 40;
@@ -119,6 +123,8 @@ struct Model {
     /// Edges of the input that fold, and whether they are kept.
     folds: Vec<Fold>,
     keeps_creases: bool,
+    /// The axes along which it is mirrored.
+    mirrors: Vec<usize>,
     /// Panels whose planes are given: the first ones.
     pins: Vec<Pin>,
     fixed: Vec<FacePlane>,
@@ -129,7 +135,8 @@ struct Model {
 /// How panels are laid out.
 enum Way {
     /// By a field of rows and the sizes of panels along them.
-    Free { field: RowField, scale: Vec<f64> },
+    /// With mirror planes, on one side of them.
+    Free { field: RowField, scale: Vec<f64>, mirror: Option<Box<Mirror>> },
     /// In rings.
     Rings { revolution: Revolution, plans: Vec<RingPlan> },
 }
@@ -158,6 +165,8 @@ struct Solved {
     /// Of panels in rings: the ring of each.
     rings: Vec<usize>,
     was_stopped: bool,
+    /// What became of families of lengths.
+    families: Option<FamilyReport>,
 }
 
 /// Makes planar panels of a surface: a mesh with a face for each panel, planar up to rounding, with
@@ -173,7 +182,10 @@ pub fn panelize(
 ) -> Result<(Mesh, PanelizeReport), PanelizeError> {
     params.check()?;
     let model = Model::new(mesh, params, progress)?;
-    let solved = model.solve_best(params, progress)?;
+    let mut solved = model.solve_best(params, progress)?;
+    if let Some(count) = params.families {
+        solved = model.with_families(solved, count as usize, progress);
+    }
     let made = model.mesh(&solved)?;
     let report = PanelizeReport::new(&model, &solved, params);
     Ok((made, report))
@@ -201,8 +213,14 @@ impl Model {
             LayoutChoice::Rings(axis) => Some(Revolution::find(&given, axis, size)?),
         };
         let origin = revolution.as_ref().map_or(low.midpoint(high), |found| found.origin);
-        let mut surface = fine_surface(&given, size, origin)?;
-        let mut moved = None;
+        let axes = &params.symmetry.0[..];
+        let mut surface = fine_surface(&given, (size, origin), axes)?;
+        let (mut moved, mut mirror) = (None, None);
+        if !axes.is_empty() {
+            check_mirrored(&given, axes, (size, origin))?;
+            let (whole, made) = Mirror::whole(surface, axes);
+            (surface, mirror) = (whole, Some(Box::new(made)));
+        }
         if let Some(most) = params.smooth {
             let (even, how_far) = smoothed(surface, most.mm() / size);
             (surface, moved) = (even, Some(how_far));
@@ -210,7 +228,10 @@ impl Model {
         if progress.is_cancelled() {
             return Err(PanelizeError::Cancelled);
         }
-        let quadrics = quadrics(&surface);
+        let quadrics = match &mirror {
+            None => quadrics(&surface),
+            Some(mirror) => mirror.quadrics(&surface),
+        };
         let groups = Groups::new(mesh, &given, &params.fix)?;
         let must = matches!(params.fix, FixChoice::Group(_));
         let (mut pins, pin_notes) = groups.pins(&surface, (size, origin), must)?;
@@ -220,7 +241,7 @@ impl Model {
         surface.pins = pinned(&surface, &pins);
         progress.report("laying out rows", 0, 0);
         let way = match revolution {
-            None => Way::free(&surface, &quadrics, params, (size, origin))?,
+            None => Way::free(&surface, &quadrics, params, (size, origin))?.with(mirror),
             Some(revolution) => Way::rings(&surface, revolution, size)?,
         };
         if progress.is_cancelled() {
@@ -257,6 +278,7 @@ impl Model {
             limits,
             folds,
             keeps_creases: params.crease.is_some(),
+            mirrors: params.symmetry.0.clone(),
             pins,
             fixed,
             pin_notes,
@@ -341,12 +363,13 @@ impl Model {
     fn draft(&self, attempt: u64, seed: u64) -> Option<Result<Draft, Vec<usize>>> {
         let (surface, quadrics) = (&self.surface, &self.quadrics[..]);
         match &self.way {
-            Way::Free { field, scale } => {
-                let made = layout(surface, quadrics, field, scale, seed);
-                Some(made.map(|Layout { panels, areas }| Draft {
+            Way::Free { field, scale, mirror } => {
+                let rows = Rows { field, scale };
+                let made = layout(surface, quadrics, rows, mirror.as_deref(), seed);
+                Some(made.map(|Layout { panels, areas, symmetry }| Draft {
                     panels,
                     areas,
-                    symmetry: None,
+                    symmetry,
                     rings: Vec::new(),
                 }))
             }
@@ -363,10 +386,12 @@ impl Model {
         let scene = self.scene();
         let Draft { mut panels, areas, symmetry, rings } = draft;
         start(&mut panels, &self.quadrics, &self.surface.pins);
-        let may_turn = symmetry.is_none();
+        // What is turned in one panel of a ring would have to be in all of them.
+        let may_turn = rings.is_empty();
         let mut state = State::new(panels, areas, symmetry, scene);
         let weights = Weights::default();
-        let run = Run { rounds: ROUNDS, from: 1.0, to: 300.0, weights, active: None };
+        let (active, families) = (None, None);
+        let run = Run { rounds: ROUNDS, from: 1.0, to: 300.0, weights, active, families };
         let mut was_stopped = false;
         state.run(scene, run, |round| {
             progress.report("solving for panels", round, ROUNDS);
@@ -378,14 +403,20 @@ impl Model {
             turn_edges(&mut state, scene, weights, || progress.is_cancelled());
         }
         progress.report("making planes exact", 0, 0);
-        let lack = state.polish(scene, POLISH);
+        self.finish(state, rings, was_stopped)
+    }
+
+    /// Planes made exact, and everything measured.
+    fn finish(&self, mut state: State, rings: Vec<usize>, was_stopped: bool) -> Solved {
+        let lack = state.polish(self.scene(), POLISH);
         let measured = measure(&self.surface, &self.quadrics, &state.panels);
         let folds =
             self.folds.iter().map(|fold| fold.places.map(|p| (p - self.origin) / self.size));
         let off_folds = off_folds(&state.panels, folds, self.keeps_creases);
         let through = self.through(&state, &measured);
         let kinds = kinds(&state.panels, ALIKE);
-        Solved { kinds, rings, state, measured, lack, through, off_folds, was_stopped }
+        let families = None;
+        Solved { kinds, rings, state, measured, lack, through, off_folds, was_stopped, families }
     }
 
     /// Pairs of panels that go through each other, beside those that cross themselves.
@@ -478,7 +509,15 @@ impl Way {
         let field = RowField::new(surface, quadrics, follows_curvature, &targets)
             .ok_or(PanelizeError::NoField)?;
         let scale = scale_field(surface, quadrics, &field, params.even);
-        Ok(Self::Free { field, scale })
+        Ok(Self::Free { field, scale, mirror: None })
+    }
+
+    /// The same on one side of mirror planes.
+    fn with(self, by: Option<Box<Mirror>>) -> Self {
+        match self {
+            Self::Free { field, scale, .. } => Self::Free { field, scale, mirror: by },
+            rings => rings,
+        }
     }
 
     fn rings(surface: &Surface, revolution: Revolution, size: f64) -> Result<Self, PanelizeError> {
@@ -491,11 +530,16 @@ impl Way {
     }
 }
 
-/// The surface in units of the panel size, about the origin, with fine triangles.
-fn fine_surface(given: &Triangles, size: f64, origin: DVec3) -> Result<Surface, PanelizeError> {
+/// The surface in units of the panel size, about the origin, with fine triangles; of a surface with
+/// mirror planes the part on the positive side of them.
+fn fine_surface(
+    given: &Triangles,
+    (size, origin): (f64, DVec3),
+    mirrors: &[usize],
+) -> Result<Surface, PanelizeError> {
     let points = given.points.iter().map(|&p| (p - origin) / size).collect();
     let (corners, creases) = (given.corners.clone(), given.creases.clone());
-    let mut triangles = Triangles { points, corners, creases };
+    let mut triangles = Triangles { points, corners, creases }.one_side(mirrors);
     let area = triangles.area();
     let count = area / surface::PANEL_AREA;
     let too_fine = || PanelizeError::TooFine { size, count: count as usize, limit: MOST_TRIANGLES };

@@ -3,8 +3,9 @@
 use glam::DVec3;
 
 use super::curvature::Quadric;
-use super::outcomes::{FixedPanel, fixed_note};
+use super::outcomes::{FamilyReport, FixedPanel, MirrorReport, Place, fixed_note};
 use super::prove::node_reach;
+use super::stays::{fixed_panels, lost_planes, mirrors, unpaired};
 use super::{ALIKE, EXACT, Model, PanelizeFinding, PanelizeParams, Solved};
 use crate::check::short;
 use crate::code::Coded;
@@ -14,28 +15,15 @@ use crate::code::Coded;
 const MOST_OFF: f64 = 0.2;
 /// Creases that are kept may be so far from the edges of panels, in panel sizes.
 pub(super) const CREASE_OFF: f64 = 0.1;
-/// Corners farther from a given plane have left it, in panel sizes.
-const PLANE_OFF: f64 = 1e-9;
 /// The sag counts where it is largest but for this share of the surface.
 const SHARE: f64 = 0.99;
 /// Panels may be so much more or fewer than were asked for, or so many.
 const MOST_OTHER: f64 = 0.1;
 const FEW_OTHER: f64 = 5.0;
+/// So many of the panels that are farthest off are named.
+const WORST: usize = 3;
 /// So many places of one kind are named.
 const NAMED: usize = 6;
-
-/// A place of the result with what was measured there.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Place {
-    /// What is wrong.
-    pub finding: PanelizeFinding,
-    /// The face, or the vertex for [`PanelizeFinding::FarNode`].
-    pub element: usize,
-    /// What was measured: mm, degrees or thicknesses.
-    pub measured: f64,
-    /// Where, in mm.
-    pub place: DVec3,
-}
 
 /// What was reached. Lengths are in mm, angles in degrees, areas in those of a regular hexagon of
 /// the panel size.
@@ -67,6 +55,12 @@ pub struct PanelizeReport {
     pub inner: [usize; 2],
     /// How many panels are concave.
     pub concave: usize,
+    /// How deep a concave corner lies within the convex hull of its panel, at most.
+    pub hollow_mm: f64,
+    /// The largest angle by which neighbours fold.
+    pub largest_fold: f64,
+    /// The panels that are farthest off the surface, and by how much, in mm; the worst first.
+    pub worst: Vec<(usize, f64)>,
     /// How far plates reach from a node, at most, in thicknesses.
     pub node_reach: f64,
     /// The largest distance of a corner from its planes.
@@ -84,6 +78,10 @@ pub struct PanelizeReport {
     pub fixed: Vec<FixedPanel>,
     /// What was to stay and could not, in words.
     pub not_fixed: Vec<String>,
+    /// The mirror planes.
+    pub mirrors: Vec<MirrorReport>,
+    /// What became of families of lengths, if they were asked for.
+    pub families: Option<FamilyReport>,
     /// What is wrong, by kind, the worst first.
     pub findings: Vec<Place>,
     /// Whether the work was stopped.
@@ -126,6 +124,9 @@ impl PanelizeReport {
             areas: [least(&|f| m[f].area), most(&|f| m[f].area)],
             inner: [inner.len(), inner.iter().filter(|m| m.sides == 6).count()],
             concave: m.iter().filter(|m| m.concave > 0).count(),
+            hollow_mm: most(&|f| m[f].hollow) * size,
+            largest_fold: most(&|f| m[f].fold),
+            worst: worst(&deviations, size),
             node_reach: reaches(solved).map(|(_, reach)| reach).fold(0.0, f64::max),
             planarity_mm: solved.lack * size,
             panel_kinds: solved.kinds.panels,
@@ -139,6 +140,8 @@ impl PanelizeReport {
             },
             fixed: fixed_panels(model, solved),
             not_fixed: model.pin_notes.clone(),
+            families: solved.families.clone(),
+            mirrors: mirrors(model, solved).into_iter().map(|(report, _)| report).collect(),
             findings: Vec::new(),
             was_stopped: solved.was_stopped,
         };
@@ -163,6 +166,8 @@ impl PanelizeReport {
         notes.extend(self.creases.note());
         notes.extend(self.smoothed_mm.map(smoothing));
         notes.extend(fixed_note(&self.fixed));
+        notes.extend(self.mirrors.iter().map(MirrorReport::note));
+        notes.extend(self.families.as_ref().map(FamilyReport::note));
         notes.extend(self.not_fixed.iter().cloned());
         let mut rest = &self.findings[..];
         while let Some(first) = rest.first() {
@@ -189,13 +194,14 @@ impl PanelizeReport {
 
     fn summary(&self) -> String {
         format!(
-            "{} panels of {} mm (room for {:.0}); off the surface by {} mm at most and {} mm for \
-            95 % (a flat panel of the size leaves it by {} mm); corners off their planes by {} mm \
+            "{} panels of {} mm (room for {:.0}); off the surface by {} mm at most (panels {}) and {} mm \
+            for 95 % (a flat panel of the size leaves it by {} mm); corners off their planes by {} mm \
             at most",
             self.panels,
             short(self.size_mm),
             self.wanted,
             short(self.deviation_mm[0]),
+            self.worst.iter().map(|(f, _)| f.to_string()).collect::<Vec<_>>().join(", "),
             short(self.deviation_mm[1]),
             short(self.sag_mm),
             short(self.planarity_mm),
@@ -205,8 +211,8 @@ impl PanelizeReport {
     fn shape(&self) -> String {
         format!(
             "shortest edge {} mm; angles {:.0} to {:.0}°; areas {:.2} to {:.2} of a regular \
-            hexagon; {} of {} inner panels are hexagons; {} concave; plates reach at most {:.2} \
-            thicknesses from a node",
+            hexagon; {} of {} inner panels are hexagons; {} concave, up to {} mm deep; neighbours fold by \
+            up to {:.1}°; plates reach at most {:.2} thicknesses from a node",
             short(self.shortest_mm),
             self.angles[0],
             self.angles[1],
@@ -215,6 +221,8 @@ impl PanelizeReport {
             self.inner[1],
             self.inner[0],
             self.concave,
+            short(self.hollow_mm),
+            self.largest_fold,
             self.node_reach,
         )
     }
@@ -283,6 +291,23 @@ impl PanelizeReport {
                 "panels that left the planes that were given for them",
                 "change one of the planes that meet there, or take a smaller size",
             ),
+            PanelizeFinding::Unpaired => (
+                "panels that are no images of others across a mirror plane",
+                "take another seed or a smaller size",
+            ),
+            PanelizeFinding::ManyLengths => (
+                "edges that have the length of no family",
+                "ask for more families, or for fewer panels",
+            ),
+            PanelizeFinding::SharpFold => (
+                "panels that fold against a neighbour by more than is allowed",
+                "take a smaller size, or allow more (--max-fold)",
+            ),
+            PanelizeFinding::DeepHollow => (
+                "concave panels that are deeper than is allowed, as they must be where the surface is a \
+                saddle",
+                "take a smaller size, or allow more (--max-hollow)",
+            ),
             PanelizeFinding::Stopped | PanelizeFinding::OtherCount => {
                 ("panels that are not finished", "run it to the end")
             }
@@ -318,10 +343,11 @@ impl PanelizeReport {
 /// What is measured where a panel has this finding; nothing where nothing is.
 fn unit_of(kind: PanelizeFinding) -> &'static str {
     match kind {
-        PanelizeFinding::SharpAngle => "°",
+        PanelizeFinding::SharpAngle | PanelizeFinding::SharpFold => "°",
         PanelizeFinding::FarNode => " thicknesses",
         PanelizeFinding::FullNode => " panels",
         PanelizeFinding::UnevenRing => " kinds",
+        PanelizeFinding::Unpaired => " panels",
         PanelizeFinding::Crosses | PanelizeFinding::GoesThrough => "",
         _ => " mm",
     }
@@ -402,6 +428,13 @@ fn findings(model: &Model, solved: &Solved, params: &PanelizeParams) -> Vec<Plac
     });
     sharp.reverse();
     all.extend(sharp);
+    if let Some(most) = params.max_fold.map(|angle| angle.degrees()) {
+        all.extend(faces(PanelizeFinding::SharpFold, &|f| (m[f].fold > most).then(|| m[f].fold)));
+    }
+    if let Some(most) = params.max_hollow.map(|depth| depth.mm() / size) {
+        let hollow = |f: usize| (m[f].hollow > most).then(|| m[f].hollow * size);
+        all.extend(faces(PanelizeFinding::DeepHollow, &hollow));
+    }
     if let Some(sheet) = params.max_panel {
         all.extend(faces(PanelizeFinding::TooLarge, &|f| {
             (!fits(m[f].extent.map(|x| x * size), sheet.0)).then(|| m[f].diameter * size)
@@ -410,6 +443,8 @@ fn findings(model: &Model, solved: &Solved, params: &PanelizeParams) -> Vec<Plac
     all.extend(far_nodes(model, solved, params.max_reach));
     all.extend(lost_creases(model, solved));
     all.extend(lost_planes(model, solved));
+    all.extend(unpaired(model, solved));
+    all.extend(solved.families.iter().flat_map(|families| families.missed.clone()));
     all.extend(full_nodes(model, solved));
     all.extend(uneven_rings(model, solved));
     all
@@ -435,33 +470,6 @@ fn lost_creases(model: &Model, solved: &Solved) -> Vec<Place> {
         .collect();
     found.sort_by(|a, b| b.measured.total_cmp(&a.measured).then(a.element.cmp(&b.element)));
     found
-}
-
-/// The panels whose planes were given, and how far their corners are from these.
-fn fixed_panels(model: &Model, solved: &Solved) -> Vec<FixedPanel> {
-    let panels = &solved.state.panels;
-    let off = |f: usize| {
-        let away = |&v: &usize| model.pins[f].plane.signed_distance(panels.points[v]).abs();
-        panels.faces[f].iter().map(away).fold(0.0, f64::max) * model.size
-    };
-    let fixed = |f: usize| {
-        let asked = model.pins[f].asked.to_string();
-        FixedPanel { asked, panel: f, off_mm: off(f) }
-    };
-    (0..model.pins.len()).map(fixed).collect()
-}
-
-/// Panels that left the planes that were given for them.
-fn lost_planes(model: &Model, solved: &Solved) -> Vec<Place> {
-    let fixed = fixed_panels(model, solved).into_iter();
-    let lost = fixed.filter(|panel| panel.off_mm > PLANE_OFF * model.size);
-    lost.map(|panel| Place {
-        finding: PanelizeFinding::PlaneLost,
-        element: panel.panel,
-        measured: panel.off_mm,
-        place: model.place(solved.state.panels.centre(panel.panel)),
-    })
-    .collect()
 }
 
 /// Vertices at which more than three panels meet: there more than three creases do.
@@ -524,6 +532,14 @@ pub(super) fn far_nodes(model: &Model, solved: &Solved, most: f64) -> Vec<Place>
         .collect();
     found.sort_by(|a, b| b.measured.total_cmp(&a.measured).then(a.element.cmp(&b.element)));
     found
+}
+
+/// The panels that are farthest off the surface.
+fn worst(deviations: &[f64], size: f64) -> Vec<(usize, f64)> {
+    let mut order: Vec<usize> = (0..deviations.len()).collect();
+    order.sort_by(|&f, &g| deviations[g].total_cmp(&deviations[f]).then(f.cmp(&g)));
+    order.truncate(WORST);
+    order.into_iter().map(|f| (f, deviations[f] * size)).collect()
 }
 
 /// The reach of every inner node.

@@ -18,6 +18,8 @@ const TOO_NEAR: f64 = 0.62;
 const LEAST_AREA: f64 = 0.45;
 /// A vertex farther from its site gets a site of its own, in local panel sizes.
 const HOLE: f64 = 0.86;
+/// Panels whose middle is nearer to a mirror plane lie across it, in local panel sizes.
+const ACROSS: f64 = 0.35;
 /// The most rounds of filling and thinning.
 const ROUNDS: usize = 6;
 
@@ -40,12 +42,17 @@ pub(super) fn sites_of_lattice(ground: Ground<'_>, held: &[DVec3]) -> Vec<usize>
         areas[c] += surface.areas[v];
         points[c] += held[v] * surface.areas[v];
         means[c] += surface.points[v] * surface.areas[v];
-        is_rim[c] |= surface.is_rim(v);
+        is_rim[c] |= surface.is_outer_rim(v);
     }
     // At a rim the lattice point may lie outside; the middle of what is there does not.
     let middle = |c: usize| if is_rim[c] { means[c] / areas[c] } else { points[c] / areas[c] };
     let middles: Vec<DVec3> = (0..count).map(middle).collect();
-    let nearest = nearest_members(surface, &cluster, &middles);
+    let mut nearest = nearest_members(surface, &cluster, &middles, |_, _| true);
+    for v in nearest.iter_mut().filter(|v| **v != NONE) {
+        *v = surface.snapped(*v, ACROSS * sizes[*v]);
+    }
+    // Of a panel across a mirror plane there is a part on either side.
+    let areas: Vec<f64> = (0..count).map(|c| areas[c] / surface.share(nearest[c])).collect();
     let full = |c: usize| PANEL_AREA * sizes[nearest[c]].powi(2);
     let mut order: Vec<usize> =
         (0..count).filter(|&c| areas[c] > 0.0 && areas[c] > LEAST_CLUSTER * full(c)).collect();
@@ -85,11 +92,16 @@ fn root(parent: &mut [usize], mut v: usize) -> usize {
     v
 }
 
-/// For each group of vertices the one nearest to a place.
-fn nearest_members(surface: &Surface, group: &[usize], places: &[DVec3]) -> Vec<usize> {
+/// For each group of vertices the one nearest to a place, of those that may be.
+fn nearest_members(
+    surface: &Surface,
+    group: &[usize],
+    places: &[DVec3],
+    may: impl Fn(usize, usize) -> bool,
+) -> Vec<usize> {
     let mut best = vec![(f64::INFINITY, NONE); places.len()];
     for (v, &g) in group.iter().enumerate() {
-        if g == NONE {
+        if g == NONE || !may(v, g) {
             continue;
         }
         let distance = surface.points[v].distance_squared(places[g]);
@@ -204,10 +216,12 @@ pub(super) fn relax(surface: &Surface, sites: &mut [usize], rounds: usize, rim_o
         for (v, &label) in labels.iter().enumerate() {
             if label != NONE {
                 means[label] += surface.points[v] * surface.areas[v] / areas[label];
-                moves[label] |= surface.is_rim(v);
+                moves[label] |= surface.is_outer_rim(v);
             }
         }
-        let nearest = nearest_members(surface, &labels, &means);
+        // Panels across mirror planes stay there.
+        let stays = |v: usize, k: usize| surface.mask(v) == surface.mask(sites[k]);
+        let nearest = nearest_members(surface, &labels, &means, stays);
         for (k, site) in sites.iter_mut().enumerate() {
             if k >= pinned && moves[k] && nearest[k] != NONE {
                 *site = nearest[k];
@@ -253,7 +267,8 @@ fn holes(ground: Ground<'_>, sites: &[usize], labels: &[usize]) -> Vec<usize> {
     while let Some(&farthest) =
         open.iter().max_by(|&&a, &&b| distances[a].total_cmp(&distances[b]).then(b.cmp(&a)))
     {
-        added.push(farthest);
+        let reach = ACROSS * sizes[farthest];
+        added.push(surface.snapped(farthest, reach));
         for &v in &open {
             let distance = surface.points[v].distance(surface.points[farthest]);
             distances[v] = distances[v].min(distance);
@@ -268,7 +283,10 @@ fn too_small(ground: Ground<'_>, sites: &[usize], labels: &[usize]) -> Vec<bool>
     let Ground { surface, sizes } = ground;
     let areas = region_areas(surface, labels, sites.len());
     let mut small: Vec<usize> = (surface.pins.sites.len()..sites.len())
-        .filter(|&k| areas[k] < LEAST_AREA * PANEL_AREA * sizes[sites[k]].powi(2))
+        .filter(|&k| {
+            let share = LEAST_AREA * surface.share(sites[k]);
+            areas[k] < share * PANEL_AREA * sizes[sites[k]].powi(2)
+        })
         .collect();
     small.sort_by(|&a, &b| areas[a].total_cmp(&areas[b]).then(a.cmp(&b)));
     apart(surface, sites, &small, 1.2)

@@ -41,6 +41,9 @@ pub(super) struct Surface {
     pub creases: Creases,
     /// Panels whose place is settled.
     pub pins: Pins,
+    /// Of the part on one side of mirror planes, for each vertex those that it lies on: a bit for each
+    /// axis. Empty for others.
+    pub masks: Vec<u8>,
 }
 
 /// Panels whose place is settled before the others are laid out: they come first among all, and
@@ -221,6 +224,7 @@ impl Surface {
             is_corner,
             creases: Creases::default(),
             pins: Pins::default(),
+            masks: Vec::new(),
         };
         made.is_corner = (0..count).map(|v| made.turns_at(v)).collect();
         made
@@ -243,6 +247,37 @@ impl Surface {
     /// The area, in squared panel sizes.
     pub(super) fn area(&self) -> f64 {
         self.areas.iter().sum()
+    }
+
+    /// The mirror planes that a vertex lies on.
+    pub(super) fn mask(&self, v: usize) -> u8 {
+        self.masks.get(v).copied().unwrap_or(0)
+    }
+
+    /// How much of a panel in the middle of a vertex there is: the rest lies across mirror planes.
+    pub(super) fn share(&self, v: usize) -> f64 {
+        0.5_f64.powi(self.mask(v).count_ones() as i32)
+    }
+
+    /// Whether a vertex lies on a rim that is no mirror plane.
+    pub(super) fn is_outer_rim(&self, v: usize) -> bool {
+        self.is_rim(v) && self.mask(v) == 0
+    }
+
+    /// A vertex, or one on the mirror planes that it is within `reach` of.
+    pub(super) fn snapped(&self, v: usize, reach: f64) -> usize {
+        let place = self.points[v];
+        let planes = self.masks.iter().fold(0, |all, mask| all | mask);
+        let is_near = |axis: &usize| planes >> axis & 1 == 1 && place[*axis] < reach;
+        let wanted = (0..3).filter(is_near).fold(self.mask(v), |mask, axis| mask | 1 << axis);
+        if wanted == self.mask(v) { v } else { self.nearest_with(wanted, place).unwrap_or(v) }
+    }
+
+    /// The vertex on some mirror planes that is nearest to a place.
+    pub(super) fn nearest_with(&self, mask: u8, place: DVec3) -> Option<usize> {
+        let off = |v: usize| self.points[v].distance_squared(place);
+        let on = (0..self.masks.len()).filter(|&v| self.masks[v] & mask == mask);
+        on.min_by(|&a, &b| off(a).total_cmp(&off(b)).then(a.cmp(&b)))
     }
 
     /// For how many panels there is room, those of given size counted as one.

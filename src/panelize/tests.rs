@@ -34,6 +34,12 @@ fn sized(mm: f64) -> PanelizeParams {
 
 /// What must hold for every result that is not complained of.
 fn assert_good(made: &Mesh, report: &PanelizeReport) {
+    assert_clean(made, report);
+    assert!((report.panels as f64 / report.wanted - 1.0).abs() < 0.1, "{report:?}");
+}
+
+/// The same for so few panels that their number says little.
+fn assert_clean(made: &Mesh, report: &PanelizeReport) {
     assert_sound(made);
     assert!(report.is_clean(), "{:?}", report.notes());
     for v in made.vertices() {
@@ -44,7 +50,6 @@ fn assert_good(made: &Mesh, report: &PanelizeReport) {
         let off = crate::measure::planarity(made, f).mm;
         assert!(off < 1e-12 * report.size_mm, "face {f} is off by {off} mm");
     }
-    assert!((report.panels as f64 / report.wanted - 1.0).abs() < 0.1, "{report:?}");
 }
 
 #[test]
@@ -421,4 +426,116 @@ fn a_flat_group_of_faces_stays_one_panel() {
     let params = PanelizeParams { fix: FixChoice::Groups, ..sized(700.0) };
     let (_, report) = panelize(&bent, &params, &Silent).expect("panels");
     assert!(report.fixed.is_empty() && report.not_fixed.len() == 1, "{report:?}");
+}
+
+fn mirrored(mm: f64, axes: &str) -> PanelizeParams {
+    PanelizeParams { symmetry: axes.parse().expect("axes"), ..sized(mm) }
+}
+
+/// Pairs of panels that are images of each other across x = `at`, and panels across it, by corners
+/// that are rounded to a thousandth of a millimetre.
+fn pairs_across(made: &Mesh, axis: usize, at: f64) -> [usize; 2] {
+    let key = |f: FaceId, sign: f64| {
+        let place = |p: &DVec3| {
+            let mut p = *p;
+            p[axis] = sign * (p[axis] - at);
+            (p * 1000.0).round().to_array().map(|x| x as i64)
+        };
+        let mut corners: Vec<[i64; 3]> = made.face_positions(f).iter().map(place).collect();
+        corners.sort_unstable();
+        corners
+    };
+    let own: Vec<_> = made.faces().map(|f| key(f, 1.0)).collect();
+    let image: Vec<_> = made.faces().map(|f| key(f, -1.0)).collect();
+    let across = own.iter().zip(&image).filter(|(a, b)| a == b).count();
+    let with_image = own.iter().filter(|face| image.contains(face)).count();
+    [(with_image - across) / 2, across]
+}
+
+#[test]
+fn mirror_symmetric_surfaces_give_mirrored_pairs() {
+    type Height = fn(f64, f64) -> f64;
+    let roofs: [(Height, &str); 4] = [
+        (|x, y| -x * x / 12_000.0 - y * y / 17_000.0, "x"),
+        (|x, y| (x * x - y * y) / 14_000.0, "x,y"),
+        (|x, _| -x * x / 12_000.0, "y"),
+        (|x, y| 300.0 * (y / 900.0).sin() * (1.0 + x * x / 9e6), "x"),
+    ];
+    for (k, (height, axes)) in roofs.into_iter().enumerate() {
+        let mesh = roof(6000.0, 5000.0, 240.0, height);
+        let (made, report) = panelize(&mesh, &mirrored(800.0, axes), &Silent).expect("panels");
+        assert_clean(&made, &report);
+        for mirror in &report.mirrors {
+            let found = pairs_across(&made, mirror.axis, mirror.at_mm);
+            assert_eq!([mirror.pairs, mirror.across], found, "roof {k}");
+            let all = 2 * mirror.pairs + mirror.across;
+            assert!(mirror.alone == 0 && all == report.panels, "roof {k}: {mirror:?}");
+        }
+        assert_eq!(report.mirrors.len(), axes.split(',').count());
+        let free = panelize(&mesh, &sized(800.0), &Silent).expect("panels").0;
+        assert!(pairs_across(&free, report.mirrors[0].axis, 0.0)[0] < report.panels / 4);
+    }
+}
+
+#[test]
+fn what_is_no_image_of_itself_is_refused() {
+    let lean = roof(5000.0, 4000.0, 250.0, |x, y| -(x * x + y * y) / 12_000.0 + x / 20.0);
+    match panelize(&lean, &mirrored(900.0, "x"), &Silent).expect_err("it leans") {
+        PanelizeError::NotMirrored { axis: "x", off, at, .. } => {
+            assert!((100.0..260.0).contains(&off) && at.abs() < 1e-9, "{off}");
+        }
+        error => panic!("{error}"),
+    }
+    assert!(panelize(&lean, &mirrored(900.0, "y"), &Silent).is_ok());
+    let both = PanelizeParams { fix: FixChoice::Groups, ..mirrored(900.0, "y") };
+    let error = panelize(&lean, &both, &Silent).expect_err("two options");
+    assert!(matches!(error, PanelizeError::Together { .. }), "{error}");
+}
+
+#[test]
+fn edges_are_drawn_to_few_lengths_and_how_far_is_told() {
+    let mesh = roof(5000.0, 4000.0, 250.0, |x, y| -(x * x + y * y) / 12_000.0);
+    let params = PanelizeParams { families: Some(12), ..sized(900.0) };
+    let (made, report) = panelize(&mesh, &params, &Silent).expect("panels");
+    assert_sound(&made);
+    assert!(report.planarity_mm < 1e-13 * report.size_mm, "{report:?}");
+    let found = report.families.as_ref().expect("families");
+    // The edges that are alike are counted here anew: within a thousandth of some length.
+    let mut lengths: Vec<f64> =
+        made.edges().map(|e| made.edge_positions(e)).map(|[a, b]| a.distance(b)).collect();
+    lengths.sort_by(f64::total_cmp);
+    assert_eq!(found.edges, lengths.len());
+    let (free, _) = panelize(&mesh, &sized(900.0), &Silent).expect("panels");
+    let spread = |made: &Mesh| {
+        let mut all: Vec<f64> =
+            made.edges().map(|e| made.edge_positions(e)).map(|[a, b]| a.distance(b)).collect();
+        all.sort_by(f64::total_cmp);
+        all.windows(2).filter(|pair| pair[1] - pair[0] < 0.05).count()
+    };
+    assert!(spread(&made) > 2 * spread(&free), "{} {}", spread(&made), spread(&free));
+    assert!(found.off_mm[1] < found.off_mm[0], "{found:?}");
+    assert!(found.lengths[1] < found.lengths[0], "{found:?}");
+    let is_missed = report.findings.iter().any(|f| f.finding == PanelizeFinding::ManyLengths);
+    assert_eq!(is_missed, found.lengths[1] > 12, "{found:?}");
+}
+
+#[test]
+fn folds_and_hollows_beyond_their_limits_are_named() {
+    let mesh = roof(5000.0, 4000.0, 250.0, |x, y| (x * x - y * y) / 14_000.0);
+    let (_, report) = panelize(&mesh, &sized(1000.0), &Silent).expect("panels");
+    assert!((200.0..600.0).contains(&report.hollow_mm), "{report:?}");
+    assert!((2.0..20.0).contains(&report.largest_fold), "{report:?}");
+    assert_eq!(report.worst[0].1, report.deviation_mm[0]);
+    let params = PanelizeParams {
+        max_hollow: Some(Length::from_mm(report.hollow_mm * 0.99)),
+        max_fold: Some(crate::units::Angle::from_degrees(report.largest_fold * 0.99)),
+        ..sized(1000.0)
+    };
+    let (_, strict) = panelize(&mesh, &params, &Silent).expect("panels");
+    let named = |kind| strict.findings.iter().find(|p| p.finding == kind).map(|p| p.measured);
+    assert_eq!(named(PanelizeFinding::DeepHollow), Some(report.hollow_mm));
+    assert_eq!(named(PanelizeFinding::SharpFold), Some(report.largest_fold));
+    let dome = roof(5000.0, 4000.0, 250.0, |x, y| -(x * x + y * y) / 12_000.0);
+    let (_, report) = panelize(&dome, &sized(1000.0), &Silent).expect("panels");
+    assert!(report.hollow_mm < 1e-9, "a dome has convex panels: {report:?}");
 }

@@ -188,3 +188,30 @@ fn planes_of_a_file_are_those_of_panels_in_the_unit_of_the_surface() {
     let ran = run(&["run", &recipe, "-o", &folder.path("made")]);
     assert!(ran.err.contains("(line 3)"), "{}", ran.err);
 }
+
+#[test]
+fn panels_are_mirrored_and_edges_drawn_to_few_lengths() {
+    let folder = Folder::new("panelize-symmetry");
+    let out = folder.path("panels.obj");
+    let grid = written(&folder, "heights.csv", &dome(","));
+    let made = |options: &[&str]| {
+        let usual = ["panelize", &grid, "--units", "m", "--count", "24", "-o", &out];
+        run(&[&usual[..], options].concat())
+    };
+    let ran = made(&["--symmetry", "x,y"]);
+    assert_panels(&ran, &out);
+    for axis in ["mirrored across x = 0 mm", "mirrored across y = 0 mm"] {
+        assert!(ran.err.contains(axis), "{}", ran.err);
+    }
+    assert!(!ran.err.contains("neither"), "{}", ran.err);
+    // Ten lengths are more than planar panels can have here: that is told, with what was reached.
+    let ran = made(&["--families", "10"]);
+    assert!(ran.code == Some(1) && ran.err.contains("(F615)"), "{}", ran.err);
+    assert!(ran.err.contains("10 families of lengths asked for"), "{}", ran.err);
+    let checked = run(&["check", &out, "--profile", "exact", "--require", "planar,valence3"]);
+    assert_eq!(checked.code, Some(0), "{}", checked.out);
+    let ran = made(&["--max-fold", "1deg", "--max-hollow", "0.01mm"]);
+    assert!(ran.code == Some(1) && ran.err.contains("(F616)"), "{}", ran.err);
+    let ran = made(&["--symmetry", "z"]);
+    assert!(ran.code == Some(2) && ran.err.contains("(E864)"), "{}", ran.err);
+}

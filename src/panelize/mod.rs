@@ -232,12 +232,12 @@ impl Model {
             None => quadrics(&surface),
             Some(mirror) => mirror.quadrics(&surface),
         };
-        let groups = Groups::new(mesh, &given, &params.fix)?;
-        let must = matches!(params.fix, FixChoice::Group(_));
-        let (mut pins, pin_notes) = groups.pins(&surface, (size, origin), must)?;
-        if let FixChoice::Planes(planes) = &params.fix {
-            pins = pins_of_planes(&surface, &quadrics, planes, (size, origin))?;
-        }
+        let (pins, pin_notes) = match &params.fix {
+            FixChoice::Planes(planes) => {
+                (pins_of_planes(&surface, &quadrics, planes, (size, origin))?, Vec::new())
+            }
+            fix => Groups::new(mesh, &given, fix)?.pins(&surface, (size, origin), fix)?,
+        };
         surface.pins = pinned(&surface, &pins);
         progress.report("laying out rows", 0, 0);
         let way = match revolution {
@@ -247,19 +247,7 @@ impl Model {
         if progress.is_cancelled() {
             return Err(PanelizeError::Cancelled);
         }
-        let rule = match &params.rim {
-            RimChoice::Free => RimRule::Curve,
-            // Rims that turn about an axis have no straight stretches but those of the file.
-            RimChoice::Walls if params.layout != LayoutChoice::Free => RimRule::Curve,
-            RimChoice::Walls => RimRule::Walls,
-            RimChoice::Planes(_) => {
-                let planes = params.rim_planes(origin, size).unwrap_or_default();
-                if let Some(plane) = rim_plane_without_rim(&surface, &planes) {
-                    return Err(PanelizeError::NoRimThere { plane });
-                }
-                RimRule::Planes(planes)
-            }
-        };
+        let rule = rim_rule(&surface, params, (size, origin))?;
         let limits = Limits {
             edge: params.min_edge,
             angle: params.min_angle.radians(),
@@ -528,6 +516,27 @@ impl Way {
         }
         Ok(Self::Rings { revolution, plans })
     }
+}
+
+/// What becomes of the rim.
+fn rim_rule(
+    surface: &Surface,
+    params: &PanelizeParams,
+    (size, origin): (f64, DVec3),
+) -> Result<RimRule, PanelizeError> {
+    Ok(match &params.rim {
+        RimChoice::Free => RimRule::Curve,
+        // Rims that turn about an axis have no straight stretches but those of the file.
+        RimChoice::Walls if params.layout != LayoutChoice::Free => RimRule::Curve,
+        RimChoice::Walls => RimRule::Walls,
+        RimChoice::Planes(_) => {
+            let planes = params.rim_planes(origin, size).unwrap_or_default();
+            if let Some(plane) = rim_plane_without_rim(surface, &planes) {
+                return Err(PanelizeError::NoRimThere { plane });
+            }
+            RimRule::Planes(planes)
+        }
+    })
 }
 
 /// The surface in units of the panel size, about the origin, with fine triangles; of a surface with

@@ -125,19 +125,21 @@ impl<'a> Groups<'a> {
     /// The panels that the flat parts of groups are; and in words which are not.
     ///
     /// # Errors
-    /// When `must` be one panel, what is in the way.
+    /// Of a group that is asked for by name, what is in the way.
     pub(super) fn pins(
         &self,
         surface: &Surface,
         (size, origin): (f64, DVec3),
-        must: bool,
+        fix: &FixChoice,
     ) -> Result<(Vec<Pin>, Vec<String>), PanelizeError> {
         let (mut pins, mut notes) = (Vec::new(), Vec::new());
         for part in self.parts(surface, (size, origin)) {
             let name = self.mesh.group(part.face).unwrap_or_default().to_owned();
             match part.pin(surface, &name, self.mesh, (size, origin)) {
                 Ok(pin) => pins.push(pin),
-                Err(what) if must => return Err(PanelizeError::BadGroup { name, what }),
+                Err(what) if matches!(fix, FixChoice::Group(_)) => {
+                    return Err(PanelizeError::BadGroup { name, what });
+                }
                 Err(what) => notes.push(format!("group `{name}` does not stay one panel: {what}")),
             }
         }

@@ -2,7 +2,8 @@
 //!
 //! Surfaces by formula, each with three sizes and five seeds. A run is kept when every panel is
 //! simple, planar and goes through no other, nodes have three members, and deviation, edges,
-//! angles, areas, nodes and count are within the bars; 95 of 100 runs are to be. Then other ways to
+//! angles, areas, nodes and count are within the bars; 95 of 100 runs are to be. Then mirrored pairs
+//! (`mirrored`) and families of lengths (`families`). Then other ways to
 //! the same (`baselines`): triangles, quads made planar, and the dual of a triangulation made
 //! planar, with cells as large as the panels. Then the CPU seconds for 500, 1 000 and 5 000 panels.
 //! No peer is known that proves planes, so none is compared.
@@ -21,8 +22,8 @@ use kerfold::measure::{crossings, planarity};
 use kerfold::mesh::{FaceId, Mesh};
 use kerfold::op::{OpContext, PlanarizeParams, planarize};
 use kerfold::panelize::{
-    HeightParams, PanelizeFinding, PanelizeParams, PanelizeReport, RimChoice, height_field,
-    panelize,
+    HeightParams, MirrorReport, PanelizeFinding, PanelizeParams, PanelizeReport, RimChoice,
+    height_field, panelize,
 };
 use kerfold::progress::Silent;
 use kerfold::units::Length;
@@ -67,6 +68,12 @@ fn main() {
     }
     if runs > 0 {
         println!("{kept} of {runs} runs kept; bar 95 of 100");
+    }
+    if is_meant("mirrored") {
+        mirrored();
+    }
+    if is_meant("families") {
+        families();
     }
     if is_meant("baselines") {
         baselines();
@@ -179,6 +186,79 @@ fn missed(made: &Mesh, report: &PanelizeReport) -> Vec<&'static str> {
     .into_iter()
     .filter_map(|(name, is_kept)| (!is_kept).then_some(name))
     .collect()
+}
+
+/// Surfaces that are their own images, and the axes along which they are: pairs are counted on the
+/// result, and the bars hold as for others.
+fn mirrored() {
+    for (place, axes) in [(0, "x"), (0, "x,y"), (2, "x,y"), (4, "x"), (5, "x,y"), (7, "y")] {
+        let (name, formula, domain, size) = FIELDS[place];
+        let mesh = field(formula, domain);
+        for seed in 1..=3 {
+            let params = PanelizeParams {
+                size: Some(Length::from_mm(size)),
+                rim: RimChoice::Walls,
+                symmetry: axes.parse().expect("axes"),
+                seed,
+                ..PanelizeParams::default()
+            };
+            let (made, report) = match panelize(&mesh, &params, &Silent) {
+                Ok(made) => made,
+                Err(error) => {
+                    println!("{name} mirrored along {axes}, seed {seed}: {error}");
+                    continue;
+                }
+            };
+            let count = |mirror: &MirrorReport| {
+                format!(
+                    "{} pairs, {} across, {} neither",
+                    mirror.pairs, mirror.across, mirror.alone
+                )
+            };
+            let counts: Vec<String> = report.mirrors.iter().map(count).collect();
+            let missed = missed(&made, &report);
+            let verdict =
+                if missed.is_empty() { "kept".into() } else { format!("MISSED {missed:?}") };
+            println!(
+                "{name} mirrored along {axes}, seed {seed}: {} panels, {}, {} kinds; deviation {:.3} L; \
+                {verdict}",
+                report.panels,
+                counts.join("; "),
+                report.panel_kinds,
+                report.deviation_mm[0] / report.size_mm,
+            );
+        }
+    }
+}
+
+/// How few lengths edges can have.
+fn families() {
+    for place in [0, 2, 4] {
+        let (name, formula, domain, size) = FIELDS[place];
+        let mesh = field(formula, domain);
+        for count in [5, 20, 60] {
+            let params = PanelizeParams {
+                size: Some(Length::from_mm(size)),
+                rim: RimChoice::Walls,
+                families: Some(count),
+                ..PanelizeParams::default()
+            };
+            let (_, report) = panelize(&mesh, &params, &Silent).expect("panels");
+            let Some(found) = &report.families else { continue };
+            println!(
+                "{name}, {count} families: {:?} lengths, {} of {} edges alike, off {:.4} L before and \
+                {:.4} L now; {:?} kinds of panels; deviation {:.3} L before and {:.3} L now",
+                found.lengths,
+                found.alike,
+                found.edges,
+                found.off_mm[0] / size,
+                found.off_mm[1] / size,
+                found.panels,
+                found.deviation_mm[0] / size,
+                found.deviation_mm[1] / size,
+            );
+        }
+    }
 }
 
 /// A height field of the table of baselines: its place in [`FIELDS`], and the same formula.

@@ -3,18 +3,19 @@
 use std::path::Path;
 
 use super::MakeError;
+use crate::io::planes_csv::read_planes;
 use crate::io::read_curves;
 use crate::mesh::{EdgeId, Mesh, VertexMap};
 use crate::op::{OpContext, Operate, OperatorOutput};
 use crate::seam::piece_count;
 use crate::select::NewElements;
 
-/// Reads the file of points that the parameters name, if any, relative to `folder`, and carries the
-/// operator out. `scale` is the factor from the numbers of the model's file to millimetres, which
+/// Reads the files of points and of planes that the parameters name, if any, relative to `folder`, and
+/// carries the operator out. `scale` is the factor from the numbers of the model's file to millimetres, which
 /// curves that were drawn on it share.
 ///
 /// # Errors
-/// [`MakeError::Io`] for the file, [`MakeError::Op`] for the operator.
+/// [`MakeError::Io`] and [`MakeError::Planes`] for the files, [`MakeError::Op`] for the operator.
 pub fn operate(
     params: &dyn Operate,
     (folder, scale): (&Path, f64),
@@ -25,7 +26,16 @@ pub fn operate(
         Some(file) => params.with_points(read_curves(&folder.join(file))?, scale),
         None => None,
     };
-    Ok(with_points.as_deref().unwrap_or(params).operate(mesh, context)?)
+    let params = with_points.as_deref().unwrap_or(params);
+    let with_planes = match params.planes_file() {
+        Some(file) => {
+            let read = read_planes(&folder.join(file))?;
+            let planes: Vec<_> = read.half_spaces.into_iter().zip(read.lines).collect();
+            params.with_planes(&planes, scale)
+        }
+        None => None,
+    };
+    Ok(with_planes.as_deref().unwrap_or(params).operate(mesh, context)?)
 }
 
 /// Into how many pieces the strips of edges come apart that were cut off one by one.

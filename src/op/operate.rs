@@ -14,8 +14,9 @@ use super::{
     sierpinski, sierpinski_preview, simplify, slice, subdivide, truncate_edges, truncate_faces,
     truncate_vertices,
 };
+use crate::geom::hull::HalfSpace;
 use crate::mesh::Mesh;
-use crate::panelize::{Align, PanelizeParams, panelize};
+use crate::panelize::{Align, FixChoice, FixedPlane, PanelizeParams, panelize};
 use crate::select::NewElements;
 
 /// What an operator made of a mesh.
@@ -78,6 +79,17 @@ pub trait Operate: fmt::Debug + Send + Sync {
     /// take none. `_scale` is the factor from the numbers of the model's file to millimetres, for
     /// curves that were drawn on it.
     fn with_points(&self, _curves: Vec<Vec<DVec3>>, _scale: f64) -> Option<Box<dyn Operate>> {
+        None
+    }
+
+    /// A file with planes that has to be read first.
+    fn planes_file(&self) -> Option<&Path> {
+        None
+    }
+
+    /// The same parameters with the planes of their file in its place, each with its line; `None`
+    /// when they take none. `_scale` as for [`Self::with_points`].
+    fn with_planes(&self, _planes: &[(HalfSpace, usize)], _scale: f64) -> Option<Box<dyn Operate>> {
         None
     }
 }
@@ -168,6 +180,22 @@ impl Operate for PanelizeParams {
     fn with_points(&self, mut curves: Vec<Vec<DVec3>>, scale: f64) -> Option<Box<dyn Operate>> {
         curves.iter_mut().flatten().for_each(|p| *p *= scale);
         Some(Box::new(Self { align: Align::Curves(curves), ..self.clone() }))
+    }
+
+    fn planes_file(&self) -> Option<&Path> {
+        match &self.fix {
+            FixChoice::File(path) => Some(path),
+            _ => None,
+        }
+    }
+
+    fn with_planes(&self, planes: &[(HalfSpace, usize)], scale: f64) -> Option<Box<dyn Operate>> {
+        let fixed = |&(plane, line): &(HalfSpace, usize)| {
+            let HalfSpace { normal, offset } = plane;
+            FixedPlane { normal, offset: offset * scale, line }
+        };
+        let planes = planes.iter().map(fixed).collect();
+        Some(Box::new(Self { fix: FixChoice::Planes(planes), ..self.clone() }))
     }
 }
 

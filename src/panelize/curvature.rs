@@ -86,10 +86,15 @@ impl Quadric {
 /// The quadrics of all vertices. Looking along the surface, not through space, keeps sheets apart
 /// that lie near each other.
 pub(super) fn quadrics(surface: &Surface) -> Vec<Quadric> {
+    first_quadrics(surface, surface.points.len())
+}
+
+/// The quadrics of so many vertices.
+pub(super) fn first_quadrics(surface: &Surface, count: usize) -> Vec<Quadric> {
     let used = used_in_fits(surface);
     let mut seen = vec![usize::MAX; surface.points.len()];
     let mut near = Vec::new();
-    (0..surface.points.len())
+    (0..count)
         .map(|v| {
             around(surface, v, &mut seen, &mut near);
             fit(surface, v, near.iter().copied().filter(|&u| used[u] || u == v))

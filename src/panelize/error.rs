@@ -189,6 +189,96 @@ pub enum PanelizeError {
         /// The panel size in mm.
         size: f64,
     },
+    /// A given plane that the surface comes nowhere near to.
+    #[error(
+        "the plane on line {line} of `--fix` fits the surface nowhere: at best, around ({:.1}, \
+        {:.1}, {:.1}), it is {distance_mm:.1} mm off and tilted by {degrees:.1}°, and a panel on it \
+        would leave the surface by more than {allowed_mm:.1} mm; mend the plane (n·x = d, in the unit \
+        of the surface's file), leave it out, or take larger panels",
+        place.x, place.y, place.z
+    )]
+    NoPlaneThere {
+        /// The line of the file.
+        line: usize,
+        /// How far the plane is from the surface there, in mm.
+        distance_mm: f64,
+        /// How far it is tilted against the surface there, in degrees.
+        degrees: f64,
+        /// Where it fits best, in mm.
+        place: DVec3,
+        /// How far a panel may leave the surface, in mm.
+        allowed_mm: f64,
+    },
+    /// A group of faces that cannot be one panel.
+    #[error(
+        "group `{name}` cannot stay one panel: {what}; name another one (`--fix group:NAME`), or mend \
+        the model"
+    )]
+    BadGroup {
+        /// The group; `*` for all.
+        name: String,
+        /// What is in the way.
+        what: String,
+    },
+    /// Planes are still the name of a file.
+    #[error("the planes of {} have to be read before panels are made on them", path.display())]
+    PlanesUnread {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Two given planes want the same panel.
+    #[error(
+        "the planes on lines {} and {} of `--fix` ask for one panel: both fit the surface best around \
+        ({:.1}, {:.1}, {:.1}), {distance_mm:.1} mm apart; leave one of them out, or take smaller panels",
+        lines[0], lines[1], place.x, place.y, place.z
+    )]
+    PlanesTooNear {
+        /// Their lines.
+        lines: [usize; 2],
+        /// How far apart their places are, in mm.
+        distance_mm: f64,
+        /// The place of the second, in mm.
+        place: DVec3,
+    },
+    /// Given planes of panels that meet do not.
+    #[error(
+        "the panels of {} meet around ({:.1}, {:.1}, {:.1}), but their planes {}; change one of the \
+        planes, or take a size with which another panel comes between",
+        asked.join(" and "), place.x, place.y, place.z,
+        match distance_mm {
+            Some(off) => format!("do {off:.1} mm from there, and {allowed_mm:.1} mm are allowed"),
+            None => "have no point in common".to_owned(),
+        }
+    )]
+    PlanesDoNotMeet {
+        /// What asked for the planes.
+        asked: Vec<String>,
+        /// Where the panels meet, in mm.
+        place: DVec3,
+        /// How far from there the planes do, in mm; `None` when they do nowhere.
+        distance_mm: Option<f64>,
+        /// How far they may, in mm.
+        allowed_mm: f64,
+    },
+    /// No mirror image of itself.
+    #[error(
+        "the surface is not its own image across {axis} = {at:.1} mm, the middle of its bounding box: the \
+        image of ({:.1}, {:.1}, {:.1}) is {off:.1} mm off it, and {most:.1} mm are allowed; name another \
+        axis, mend the model there, or leave `--symmetry` out",
+        place.x, place.y, place.z
+    )]
+    NotMirrored {
+        /// The axis that the plane is square to.
+        axis: &'static str,
+        /// Where the plane is, in mm.
+        at: f64,
+        /// By how much, in mm.
+        off: f64,
+        /// What is allowed, in mm.
+        most: f64,
+        /// Where, in mm.
+        place: DVec3,
+    },
     /// Ctrl-C before there was a result.
     #[error("stopped before there were any panels")]
     Cancelled,
@@ -212,6 +302,12 @@ codes!(error PanelizeError {
     BadDomain = 856,
     NoCurveThere = 857,
     CurvesUnread = 858,
+    NoPlaneThere = 859,
+    BadGroup = 860,
+    PlanesUnread = 861,
+    PlanesTooNear = 862,
+    PlanesDoNotMeet = 863,
+    NotMirrored = 864,
 });
 
 /// What is wrong with panels that were made all the same.
@@ -242,6 +338,16 @@ pub enum PanelizeFinding {
     FullNode,
     /// Panels of one ring are not congruent.
     UnevenRing,
+    /// A panel left the plane that was given for it.
+    PlaneLost,
+    /// A panel is no image of another across a mirror plane.
+    Unpaired,
+    /// An edge has the length of no family.
+    ManyLengths,
+    /// Neighbours fold by more than is allowed.
+    SharpFold,
+    /// A concave panel is deeper than is allowed.
+    DeepHollow,
     /// The panels are not as many as were asked for.
     OtherCount,
 }
@@ -259,5 +365,10 @@ codes!(finding PanelizeFinding {
     CreaseLost = 610,
     FullNode = 611,
     UnevenRing = 612,
+    PlaneLost = 613,
+    Unpaired = 614,
+    ManyLengths = 615,
+    SharpFold = 616,
+    DeepHollow = 617,
     OtherCount = 620,
 });

@@ -1,7 +1,7 @@
 //! Turning edges: where an edge is too short, or a panel does not become star-shaped, two panels
 //! part and two others meet (the T1 move of foams; Weaire, Hutzler 1999).
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::regions::Kind;
 use super::solve::{Run, Scene, State, Weights};
@@ -57,12 +57,13 @@ pub(super) fn turn_edges(
         for turn in &worse {
             let [u, v] = turn.edge;
             // Turned twice, the ends of an edge have changed places.
-            if turn_edge(state, u, v) {
+            if turn_images(state, u, v) {
                 let [at_u, at_v] = turn.places;
                 (state.panels.points[u], state.panels.points[v]) = (at_v, at_u);
             }
         }
         state.link();
+        state.spread();
         solve_near(state, scene, weights, &worse);
     }
 }
@@ -81,13 +82,14 @@ fn turn_some(state: &mut State, scene: Scene<'_>, tried: &mut Vec<[usize; 2]>) -
         tried.push(pair);
         let places = [u, v].map(|c| state.panels.points[c]);
         let turn = Turn { edge: [u, v], score: score(state, &ring), ring, places };
-        if turn_edge(state, u, v) {
+        if turn_images(state, u, v) {
             turn.ring.iter().for_each(|&f| used[f] = true);
             place_ends(state, scene, [u, v], sides);
             turns.push(turn);
         }
     }
     state.link();
+    state.spread();
     turns
 }
 
@@ -167,6 +169,45 @@ fn ring_of(state: &State, sides: &[usize; 4]) -> Vec<usize> {
     ring
 }
 
+/// Turns an edge and all its images across mirror planes, if it has any and they are far enough from
+/// each other. Whether they were turned.
+fn turn_images(state: &mut State, u: usize, v: usize) -> bool {
+    let Some(symmetry) = &state.symmetry else { return turn_edge(state, u, v) };
+    let is_first = |c: usize| symmetry.first[c] == c && symmetry.image[c] == DMat3::IDENTITY;
+    if !is_first(u) || !is_first(v) {
+        return false;
+    }
+    let images = |c: usize| {
+        let all = 0..symmetry.first.len();
+        all.filter(move |&d| symmetry.first[d] == c).map(|d| (d, symmetry.image[d]))
+    };
+    let of_v: Vec<(usize, DMat3)> = images(v).collect();
+    let pair = |(a, way): (usize, DMat3)| {
+        of_v.iter().find(|(_, other)| *other == way).map(|&(b, _)| ([a, b], way))
+    };
+    let pairs: Vec<([usize; 2], DMat3)> = images(u).filter_map(pair).collect();
+    let mut around: Vec<usize> = Vec::new();
+    for &([a, b], _) in &pairs {
+        let Some(sides) = sides_of(state, a, b) else { return false };
+        if sides.iter().any(|f| around.contains(f)) {
+            return false;
+        }
+        around.extend(sides);
+    }
+    if !turn_edge(state, u, v) {
+        return false;
+    }
+    for ([a, b], way) in pairs.into_iter().filter(|&([a, _], _)| a != u) {
+        turn_edge(state, a, b);
+        // A mirror image turns the other way, so its ends change places.
+        if let (Some(symmetry), true) = (&mut state.symmetry, way.determinant() < 0.0) {
+            symmetry.first.swap(a, b);
+            symmetry.image.swap(a, b);
+        }
+    }
+    true
+}
+
 /// Turns an edge: the faces along it lose a corner each, the others gain one. Whether it could be
 /// turned; the links of the state are not brought up to date.
 fn turn_edge(state: &mut State, u: usize, v: usize) -> bool {
@@ -230,7 +271,8 @@ fn solve_near(state: &mut State, scene: Scene<'_>, weights: Weights, turns: &[Tu
         }
         front = next;
     }
-    let run = Run { rounds: ROUNDS, from: 10.0, to: 300.0, weights, active: Some(&active) };
+    let active = Some(&active[..]);
+    let run = Run { rounds: ROUNDS, from: 10.0, to: 300.0, weights, active, families: None };
     state.run(scene, run, |_| false);
 }
 

@@ -25,6 +25,8 @@ struct Level {
     rows: Vec<DVec3>,
     areas: Vec<f64>,
     sizes: Vec<f64>,
+    /// The mirror planes that each lies on.
+    masks: Vec<u8>,
     /// Pairs of neighbours, the lower first, ascending, with their weights.
     pairs: Vec<([usize; 2], f64)>,
     /// The vertex of the next coarser level that each belongs to.
@@ -58,6 +60,11 @@ pub(super) fn lattice(
         let sweeps = if depth == 0 { 2 * SWEEPS } else { SWEEPS };
         level.relax(&mut held, sweeps, &mut rng);
     }
+    // Beyond a mirror plane stand images.
+    let planes = surface.masks.iter().fold(0, |all, mask| all | mask);
+    for axis in (0..3).filter(|axis| planes >> axis & 1 == 1) {
+        held.iter_mut().for_each(|p| p[axis] = p[axis].abs());
+    }
     held
 }
 
@@ -69,6 +76,7 @@ impl Level {
             rows: (0..quadrics.len()).map(|v| field.direction(quadrics, v)).collect(),
             areas: surface.areas.clone(),
             sizes: sizes.to_vec(),
+            masks: (0..quadrics.len()).map(|v| surface.mask(v)).collect(),
             pairs: surface.edges.iter().map(|&e| (e, 1.0)).collect(),
             parents: Vec::new(),
         }
@@ -118,7 +126,8 @@ impl Level {
         Self {
             points: all.clone().map(|k| mean(&self.points, k)).collect(),
             rows: all.clone().map(row).collect(),
-            sizes: all.map(size).collect(),
+            sizes: all.clone().map(size).collect(),
+            masks: all.map(|k| self.masks[children[k][0]] | self.masks[children[k][1]]).collect(),
             pairs: joined_pairs(&self.pairs, parents),
             normals,
             areas,
@@ -144,9 +153,24 @@ impl Level {
                     total += weight;
                     sum -= self.normals[v] * (sum - self.points[v]).dot(self.normals[v]);
                 }
+                let sum = self.on_mirrors(v, sum);
                 held[v] = sum + self.lattice_step(v, self.points[v] - sum);
             }
         }
+    }
+
+    /// A lattice point moved so that the lattice is its own image across the mirror planes that a
+    /// vertex lies on: one of the lines of points that run along a plane lies in it.
+    fn on_mirrors(&self, v: usize, mut place: DVec3) -> DVec3 {
+        for axis in (0..3).filter(|axis| self.masks[v] >> axis & 1 == 1) {
+            let across = self.normals[v].cross(self.rows[v]);
+            let angle = self.rows[v][axis].atan2(across[axis]).to_degrees().rem_euclid(60.0);
+            // Lines across a row are half a step apart, lines along one as far as rows.
+            let is_across = (angle - 30.0).abs() < 15.0;
+            let step = self.sizes[v] * if is_across { 0.5 } else { 0.75_f64.sqrt() };
+            place[axis] = step * (place[axis] / step).round();
+        }
+        place
     }
 
     /// The vector of the lattice at a vertex that is nearest to a given one.

@@ -16,11 +16,13 @@
 //! planes at a lattice with a row along k₁ meet in hexagons for k₁ = k₂, in bricks for k₁ = 0 and
 //! in bow-ties for k₁ = −k₂, without a jump. Inside, all lengths are in units of the panel size.
 
+mod choices;
 mod crease;
 mod curvature;
 mod delaunay;
 mod domain;
 mod error;
+mod families;
 mod field;
 mod flip;
 mod formula;
@@ -28,7 +30,10 @@ mod height;
 mod kinds;
 mod lattice;
 mod layout;
+mod mirror;
+mod outcomes;
 mod params;
+mod pins;
 mod prove;
 mod refine;
 mod regions;
@@ -42,6 +47,7 @@ mod size;
 mod smooth;
 mod solve;
 mod start;
+mod stays;
 mod surface;
 mod wishes;
 
@@ -55,7 +61,9 @@ use self::curvature::{Quadric, quadrics};
 use self::field::RowField;
 use self::flip::turn_edges;
 use self::kinds::{ALIKE, Kinds, kinds};
-use self::layout::{Layout, layout};
+use self::layout::{Layout, Rows, layout};
+use self::mirror::{Mirror, check_mirrored};
+use self::pins::{Asked, Groups, Pin, check_meetings, pinned, pins_of_planes};
 use self::prove::{Measured, measure, off_folds};
 use self::refine::Triangles;
 use self::regions::Panels;
@@ -64,7 +72,9 @@ use self::ring_plan::{RingPlan, ring_plans};
 use self::rings::{RingLayout, ring_layout};
 use self::scale::scale_field;
 use self::smooth::{Moved, smoothed};
-use self::solve::{Limits, RimRule, Run, Scene, State, Symmetry, Weights, rim_plane_without_rim};
+use self::solve::{
+    FacePlane, Limits, RimRule, Run, Scene, State, Symmetry, Weights, rim_plane_without_rim,
+};
 use self::start::start;
 use self::surface::{MOST_TRIANGLES, SPACING, Surface, triangles_of};
 use self::wishes::targets;
@@ -73,11 +83,13 @@ use crate::measure::crossings;
 use crate::mesh::{FaceId, Mesh, MeshBuilder};
 use crate::progress::Progress;
 
+pub use choices::{FixChoice, FixedPlane, SymmetryChoice};
 pub use domain::Domain;
 pub use error::{PanelizeError, PanelizeFinding};
 pub use height::{HeightParams, height_field};
+pub use outcomes::{FamilyReport, FixedPanel, MirrorReport, Place};
 pub use params::{Align, LayoutChoice, PanelizeParams, RimChoice, SheetSize};
-pub use report::{CreaseReport, PanelizeReport, Place};
+pub use report::{CreaseReport, PanelizeReport};
 
 /// Rounds of solving.
 const ROUNDS: usize = 40;
@@ -111,12 +123,20 @@ struct Model {
     /// Edges of the input that fold, and whether they are kept.
     folds: Vec<Fold>,
     keeps_creases: bool,
+    /// The axes along which it is mirrored.
+    mirrors: Vec<usize>,
+    /// Panels whose planes are given: the first ones.
+    pins: Vec<Pin>,
+    fixed: Vec<FacePlane>,
+    /// What of that could not be, in words.
+    pin_notes: Vec<String>,
 }
 
 /// How panels are laid out.
 enum Way {
     /// By a field of rows and the sizes of panels along them.
-    Free { field: RowField, scale: Vec<f64> },
+    /// With mirror planes, on one side of them.
+    Free { field: RowField, scale: Vec<f64>, mirror: Option<Box<Mirror>> },
     /// In rings.
     Rings { revolution: Revolution, plans: Vec<RingPlan> },
 }
@@ -145,6 +165,8 @@ struct Solved {
     /// Of panels in rings: the ring of each.
     rings: Vec<usize>,
     was_stopped: bool,
+    /// What became of families of lengths.
+    families: Option<FamilyReport>,
 }
 
 /// Makes planar panels of a surface: a mesh with a face for each panel, planar up to rounding, with
@@ -160,7 +182,10 @@ pub fn panelize(
 ) -> Result<(Mesh, PanelizeReport), PanelizeError> {
     params.check()?;
     let model = Model::new(mesh, params, progress)?;
-    let solved = model.solve_best(params, progress)?;
+    let mut solved = model.solve_best(params, progress)?;
+    if let Some(count) = params.families {
+        solved = model.with_families(solved, count as usize, progress);
+    }
     let made = model.mesh(&solved)?;
     let report = PanelizeReport::new(&model, &solved, params);
     Ok((made, report))
@@ -188,8 +213,14 @@ impl Model {
             LayoutChoice::Rings(axis) => Some(Revolution::find(&given, axis, size)?),
         };
         let origin = revolution.as_ref().map_or(low.midpoint(high), |found| found.origin);
-        let mut surface = fine_surface(&given, size, origin)?;
-        let mut moved = None;
+        let axes = &params.symmetry.0[..];
+        let mut surface = fine_surface(&given, (size, origin), axes)?;
+        let (mut moved, mut mirror) = (None, None);
+        if !axes.is_empty() {
+            check_mirrored(&given, axes, (size, origin))?;
+            let (whole, made) = Mirror::whole(surface, axes);
+            (surface, mirror) = (whole, Some(Box::new(made)));
+        }
         if let Some(most) = params.smooth {
             let (even, how_far) = smoothed(surface, most.mm() / size);
             (surface, moved) = (even, Some(how_far));
@@ -197,36 +228,49 @@ impl Model {
         if progress.is_cancelled() {
             return Err(PanelizeError::Cancelled);
         }
-        let quadrics = quadrics(&surface);
+        let quadrics = match &mirror {
+            None => quadrics(&surface),
+            Some(mirror) => mirror.quadrics(&surface),
+        };
+        let (pins, pin_notes) = match &params.fix {
+            FixChoice::Planes(planes) => {
+                (pins_of_planes(&surface, &quadrics, planes, (size, origin))?, Vec::new())
+            }
+            fix => Groups::new(mesh, &given, fix)?.pins(&surface, (size, origin), fix)?,
+        };
+        surface.pins = pinned(&surface, &pins);
         progress.report("laying out rows", 0, 0);
         let way = match revolution {
-            None => Way::free(&surface, &quadrics, params, (size, origin))?,
+            None => Way::free(&surface, &quadrics, params, (size, origin))?.with(mirror),
             Some(revolution) => Way::rings(&surface, revolution, size)?,
         };
         if progress.is_cancelled() {
             return Err(PanelizeError::Cancelled);
         }
-        let rule = match &params.rim {
-            RimChoice::Free => RimRule::Curve,
-            // Rims that turn about an axis have no straight stretches but those of the file.
-            RimChoice::Walls if params.layout != LayoutChoice::Free => RimRule::Curve,
-            RimChoice::Walls => RimRule::Walls,
-            RimChoice::Planes(_) => {
-                let planes = params.rim_planes(origin, size).unwrap_or_default();
-                if let Some(plane) = rim_plane_without_rim(&surface, &planes) {
-                    return Err(PanelizeError::NoRimThere { plane });
-                }
-                RimRule::Planes(planes)
-            }
-        };
+        let rule = rim_rule(&surface, params, (size, origin))?;
         let limits = Limits {
             edge: params.min_edge,
             angle: params.min_angle.radians(),
             deviation: Limits::default().deviation.max(report::sag(&quadrics)),
             ..Limits::default()
         };
-        let keeps_creases = params.crease.is_some();
-        Ok(Self { size, origin, surface, moved, quadrics, way, rule, limits, folds, keeps_creases })
+        let fixed = pins.iter().map(Pin::face_plane).collect();
+        Ok(Self {
+            size,
+            origin,
+            surface,
+            moved,
+            quadrics,
+            way,
+            rule,
+            limits,
+            folds,
+            keeps_creases: params.crease.is_some(),
+            mirrors: params.symmetry.0.clone(),
+            pins,
+            fixed,
+            pin_notes,
+        })
     }
 
     fn scene(&self) -> Scene<'_> {
@@ -235,6 +279,7 @@ impl Model {
             quadrics: &self.quadrics,
             limits: &self.limits,
             rule: &self.rule,
+            fixed: &self.fixed,
         }
     }
 
@@ -250,7 +295,7 @@ impl Model {
         progress: &dyn Progress,
     ) -> Result<Solved, PanelizeError> {
         let mut best: Option<(f64, Solved)> = None;
-        let mut failed = None;
+        let (mut failed, mut clash) = (None, None);
         for attempt in 0..ATTEMPTS {
             if best.is_none() && progress.is_cancelled() {
                 return Err(PanelizeError::Cancelled);
@@ -259,7 +304,14 @@ impl Model {
             let seed = params.seed.wrapping_add(attempt * 1_000_003);
             let solved = match self.draft(attempt, seed) {
                 None => break,
-                Some(Ok(draft)) => self.solve(draft, progress),
+                Some(Ok(draft)) => {
+                    let met = check_meetings(&draft.panels, &self.pins, (self.size, self.origin));
+                    if let Err(error) = met {
+                        clash = clash.or(Some(error));
+                        continue;
+                    }
+                    self.solve(draft, progress)
+                }
                 Some(Err(bad)) => {
                     failed = failed.or(bad.first().copied());
                     continue;
@@ -282,6 +334,14 @@ impl Model {
             ..solved
         });
         solved.ok_or_else(|| {
+            if let Some(error) = clash {
+                return error;
+            }
+            let group = self.pins.iter().find(|pin| failed.is_some_and(|v| pin.is_group_at(v)));
+            if let Some(Asked::Group(name)) = group.map(|pin| pin.asked.clone()) {
+                let what = "it has a hole, touches itself, or has too little surface around it";
+                return PanelizeError::BadGroup { name, what: what.to_owned() };
+            }
             let place = failed.map_or(DVec3::ZERO, |v| self.surface.points[v]);
             PanelizeError::TooNarrow { size: self.size, place: self.place(place) }
         })
@@ -291,12 +351,13 @@ impl Model {
     fn draft(&self, attempt: u64, seed: u64) -> Option<Result<Draft, Vec<usize>>> {
         let (surface, quadrics) = (&self.surface, &self.quadrics[..]);
         match &self.way {
-            Way::Free { field, scale } => {
-                let made = layout(surface, quadrics, field, scale, seed);
-                Some(made.map(|Layout { panels, areas }| Draft {
+            Way::Free { field, scale, mirror } => {
+                let rows = Rows { field, scale };
+                let made = layout(surface, quadrics, rows, mirror.as_deref(), seed);
+                Some(made.map(|Layout { panels, areas, symmetry }| Draft {
                     panels,
                     areas,
-                    symmetry: None,
+                    symmetry,
                     rings: Vec::new(),
                 }))
             }
@@ -312,11 +373,13 @@ impl Model {
     fn solve(&self, draft: Draft, progress: &dyn Progress) -> Solved {
         let scene = self.scene();
         let Draft { mut panels, areas, symmetry, rings } = draft;
-        start(&mut panels, &self.quadrics);
-        let may_turn = symmetry.is_none();
+        start(&mut panels, &self.quadrics, &self.surface.pins);
+        // What is turned in one panel of a ring would have to be in all of them.
+        let may_turn = rings.is_empty();
         let mut state = State::new(panels, areas, symmetry, scene);
         let weights = Weights::default();
-        let run = Run { rounds: ROUNDS, from: 1.0, to: 300.0, weights, active: None };
+        let (active, families) = (None, None);
+        let run = Run { rounds: ROUNDS, from: 1.0, to: 300.0, weights, active, families };
         let mut was_stopped = false;
         state.run(scene, run, |round| {
             progress.report("solving for panels", round, ROUNDS);
@@ -328,14 +391,20 @@ impl Model {
             turn_edges(&mut state, scene, weights, || progress.is_cancelled());
         }
         progress.report("making planes exact", 0, 0);
-        let lack = state.polish(scene, POLISH);
+        self.finish(state, rings, was_stopped)
+    }
+
+    /// Planes made exact, and everything measured.
+    fn finish(&self, mut state: State, rings: Vec<usize>, was_stopped: bool) -> Solved {
+        let lack = state.polish(self.scene(), POLISH);
         let measured = measure(&self.surface, &self.quadrics, &state.panels);
         let folds =
             self.folds.iter().map(|fold| fold.places.map(|p| (p - self.origin) / self.size));
         let off_folds = off_folds(&state.panels, folds, self.keeps_creases);
         let through = self.through(&state, &measured);
         let kinds = kinds(&state.panels, ALIKE);
-        Solved { kinds, rings, state, measured, lack, through, off_folds, was_stopped }
+        let families = None;
+        Solved { kinds, rings, state, measured, lack, through, off_folds, was_stopped, families }
     }
 
     /// Pairs of panels that go through each other, beside those that cross themselves.
@@ -358,15 +427,16 @@ impl Model {
         let lost = solved.off_folds.iter().filter(is_lost).count();
         let lost = if self.keeps_creases { lost } else { 0 };
         let sag = report::sag(&self.quadrics);
-        let odd = |m: &&Measured| {
+        let room = |f: usize| self.surface.pins.areas.get(f).copied().flatten().unwrap_or(1.0);
+        let odd = |&(f, m): &(usize, &Measured)| {
             m.deviation > (2.5 * sag).max(0.05)
                 || m.least_angle < 12.0
                 || m.largest_angle > 300.0
                 || m.area < 0.2
-                || m.area > 2.4
+                || m.area > 2.4 * room(f)
         };
         let far = report::far_nodes(self, solved, reach).len();
-        let odd = m.iter().filter(odd).count() + lost + far;
+        let odd = m.iter().enumerate().filter(odd).count() + lost + far;
         let short = m.iter().filter(|m| m.shortest < 0.1).count().saturating_sub(m.len() / 50);
         let deviations: Vec<f64> = m.iter().map(|m| m.deviation).collect();
         let most = report::percentile(&deviations, 0.95);
@@ -400,7 +470,13 @@ impl Model {
         }
         if solved.lack <= EXACT {
             for (f, plane) in solved.state.planes.iter().enumerate() {
-                if let Some(plane) = Plane::new(plane.normal, self.place(plane.point)) {
+                let given =
+                    self.pins.get(f).map(|pin| match plane.normal.dot(pin.given.normal()) {
+                        ..0.0 => pin.given.flipped(),
+                        _ => pin.given,
+                    });
+                let found = || Plane::new(plane.normal, self.place(plane.point));
+                if let Some(plane) = given.or_else(found) {
                     mesh.set_plane(FaceId::new(f), plane);
                 }
             }
@@ -421,11 +497,19 @@ impl Way {
         let field = RowField::new(surface, quadrics, follows_curvature, &targets)
             .ok_or(PanelizeError::NoField)?;
         let scale = scale_field(surface, quadrics, &field, params.even);
-        Ok(Self::Free { field, scale })
+        Ok(Self::Free { field, scale, mirror: None })
+    }
+
+    /// The same on one side of mirror planes.
+    fn with(self, by: Option<Box<Mirror>>) -> Self {
+        match self {
+            Self::Free { field, scale, .. } => Self::Free { field, scale, mirror: by },
+            rings => rings,
+        }
     }
 
     fn rings(surface: &Surface, revolution: Revolution, size: f64) -> Result<Self, PanelizeError> {
-        let wanted = surface.area() / sites::PANEL_AREA;
+        let wanted = surface.area() / surface::PANEL_AREA;
         let plans = ring_plans(&revolution, size, wanted);
         if plans.is_empty() {
             return Err(PanelizeError::NoRings { size });
@@ -434,13 +518,39 @@ impl Way {
     }
 }
 
-/// The surface in units of the panel size, about the origin, with fine triangles.
-fn fine_surface(given: &Triangles, size: f64, origin: DVec3) -> Result<Surface, PanelizeError> {
+/// What becomes of the rim.
+fn rim_rule(
+    surface: &Surface,
+    params: &PanelizeParams,
+    (size, origin): (f64, DVec3),
+) -> Result<RimRule, PanelizeError> {
+    Ok(match &params.rim {
+        RimChoice::Free => RimRule::Curve,
+        // Rims that turn about an axis have no straight stretches but those of the file.
+        RimChoice::Walls if params.layout != LayoutChoice::Free => RimRule::Curve,
+        RimChoice::Walls => RimRule::Walls,
+        RimChoice::Planes(_) => {
+            let planes = params.rim_planes(origin, size).unwrap_or_default();
+            if let Some(plane) = rim_plane_without_rim(surface, &planes) {
+                return Err(PanelizeError::NoRimThere { plane });
+            }
+            RimRule::Planes(planes)
+        }
+    })
+}
+
+/// The surface in units of the panel size, about the origin, with fine triangles; of a surface with
+/// mirror planes the part on the positive side of them.
+fn fine_surface(
+    given: &Triangles,
+    (size, origin): (f64, DVec3),
+    mirrors: &[usize],
+) -> Result<Surface, PanelizeError> {
     let points = given.points.iter().map(|&p| (p - origin) / size).collect();
     let (corners, creases) = (given.corners.clone(), given.creases.clone());
-    let mut triangles = Triangles { points, corners, creases };
+    let mut triangles = Triangles { points, corners, creases }.one_side(mirrors);
     let area = triangles.area();
-    let count = area / sites::PANEL_AREA;
+    let count = area / surface::PANEL_AREA;
     let too_fine = || PanelizeError::TooFine { size, count: count as usize, limit: MOST_TRIANGLES };
     // A triangle for each thirtieth of a panel is the least that is needed.
     if count * 30.0 > MOST_TRIANGLES as f64 || !triangles.refine(SPACING, MOST_TRIANGLES) {

@@ -7,7 +7,7 @@ use std::str::FromStr;
 use glam::DVec3;
 use serde::{Deserialize, Deserializer, de};
 
-use super::PanelizeError;
+use super::{FixChoice, PanelizeError, SymmetryChoice};
 use crate::units::{Angle, Length};
 
 /// What the rows of panels follow.
@@ -191,6 +191,22 @@ pub struct PanelizeParams {
     #[arg(long, default_value_t = RimChoice::Free)]
     #[serde(default)]
     pub rim: RimChoice,
+    /// What stays: a CSV file of planes, nx,ny,nz,d on each line for n·x = d in the unit of the
+    /// surface's file, each that of the panel where the surface comes nearest to it; groups (every flat
+    /// part of a named group of faces is one panel), or group:NAME (of this one).
+    #[arg(long, default_value_t = FixChoice::None, value_name = "none|FILE|groups|group:NAME")]
+    #[serde(default)]
+    pub fix: FixChoice,
+    /// Panels in mirrored pairs: across the plane square to x, y or z through the middle of the surface's
+    /// bounding box, or several, such as x,y. The surface has to be its own image.
+    #[arg(long, default_value_t = SymmetryChoice::default(), value_name = "none|x|y|z|x,y")]
+    #[serde(default)]
+    pub symmetry: SymmetryChoice,
+    /// Draw edges into so many families of one length each, 1 to 1000, as far as planar panels on the
+    /// surface allow; how far is told.
+    #[arg(long, value_name = "N")]
+    #[serde(default)]
+    pub families: Option<u32>,
     /// Keep edges of the surface that fold by more than this, 5 to 170 degrees: panels end there on
     /// both sides, and their corners lie on them. Without it creases are rounded.
     #[arg(long, value_name = "ANGLE")]
@@ -221,6 +237,15 @@ pub struct PanelizeParams {
     #[arg(long, default_value_t = 1.5, value_name = "N", value_parser = crate::units::parse_number)]
     #[serde(default = "default_reach")]
     pub max_reach: f64,
+    /// By how much neighbouring panels may fold, above 0 and up to 180 degrees; more is a finding.
+    #[arg(long, value_name = "ANGLE")]
+    #[serde(default)]
+    pub max_fold: Option<Angle>,
+    /// How deep a concave panel may be: how far a corner lies within the convex hull; deeper ones are
+    /// findings. Panels of a saddle are always concave.
+    #[arg(long, value_name = "LENGTH")]
+    #[serde(default)]
+    pub max_hollow: Option<Length>,
     /// The sheet that every panel must fit, in mm: 3210x6000.
     #[arg(long, value_name = "WIDTHxHEIGHT")]
     #[serde(default)]
@@ -304,12 +329,17 @@ impl Default for PanelizeParams {
             align: Align::default(),
             even: default_even(),
             rim: RimChoice::default(),
+            fix: FixChoice::default(),
+            symmetry: SymmetryChoice::default(),
+            families: None,
             crease: None,
             smooth: None,
             min_edge: default_edge(),
             min_angle: default_angle(),
             max_off: None,
             max_reach: default_reach(),
+            max_fold: None,
+            max_hollow: None,
             max_panel: None,
             seed: default_seed(),
         }
@@ -325,10 +355,26 @@ impl PanelizeParams {
             return Err(PanelizeError::NoSize { given });
         }
         let rings = (self.layout != LayoutChoice::Free, "--layout rings");
-        for (is_given, other) in [rings, (self.smooth.is_some(), "--smooth")] {
-            if self.crease.is_some() && is_given {
-                return Err(PanelizeError::Together { one: "--crease", other });
+        let smooth = (self.smooth.is_some(), "--smooth");
+        let crease = (self.crease.is_some(), "--crease");
+        let fix = (self.fix != FixChoice::None, "--fix");
+        let symmetry = (!self.symmetry.0.is_empty(), "--symmetry");
+        let apart = [
+            (crease, rings),
+            (crease, smooth),
+            (fix, rings),
+            (symmetry, rings),
+            (symmetry, crease),
+            (symmetry, smooth),
+            (symmetry, fix),
+        ];
+        for (one, other) in apart {
+            if one.0 && other.0 {
+                return Err(PanelizeError::Together { one: one.1, other: other.1 });
             }
+        }
+        if let FixChoice::File(path) = &self.fix {
+            return Err(PanelizeError::PlanesUnread { path: path.clone() });
         }
         let largest = f64::MAX;
         let least = f64::MIN_POSITIVE;
@@ -347,7 +393,20 @@ impl PanelizeParams {
                 least,
                 largest,
             ),
+            (
+                "the depth of concave panels in mm",
+                self.max_hollow.map_or(1.0, |l| l.mm()),
+                0.0,
+                largest,
+            ),
+            (
+                "the fold of neighbours in degrees",
+                self.max_fold.map_or(1.0, |a| a.degrees()),
+                least,
+                180.0,
+            ),
             ("the reach of plates", self.max_reach, 1.0, 1000.0),
+            ("the number of families", self.families.map_or(1.0, f64::from), 1.0, 1000.0),
             ("the count", self.count.map_or(4.0, f64::from), 4.0, 100_000.0),
             ("`even`", self.even, 0.0, 0.4),
             ("the shortest edge", self.min_edge, 0.05, 0.3),

@@ -1,14 +1,16 @@
 //! What was reached, measured on the result by code that shares nothing with the solver.
 
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use glam::{DMat3, DVec2, DVec3};
 
 use super::curvature::Quadric;
+use super::refine::edge;
 use super::regions::{Kind, Panels};
-use super::sites::PANEL_AREA;
+use super::surface::PANEL_AREA;
 use super::surface::{Links, NONE, Surface};
-use crate::geom::polygon::{segments_meet, signed_area, smallest_rectangle};
+use crate::geom::polygon::{convex_hull, segments_meet, signed_area, smallest_rectangle};
 use crate::geom::{Frame, Grid, Plane, nearest_on_segment, nearest_on_triangle};
 
 /// What was measured of one panel. Lengths in panel sizes, angles in degrees.
@@ -26,6 +28,12 @@ pub(super) struct Measured {
     pub deviation: f64,
     /// Corners where it is concave.
     pub concave: usize,
+    /// How deep they lie within its convex hull, at most.
+    pub hollow: f64,
+    /// The normal of its plane.
+    pub normal: DVec3,
+    /// The largest angle by which it folds against a neighbour.
+    pub fold: f64,
     pub diameter: f64,
     /// The sides of the smallest box around it, the longer first.
     pub extent: [f64; 2],
@@ -36,7 +44,22 @@ pub(super) struct Measured {
 /// Measures every panel.
 pub(super) fn measure(surface: &Surface, quadrics: &[Quadric], panels: &Panels) -> Vec<Measured> {
     let around = triangles_around(surface);
-    (0..panels.faces.len()).map(|f| measure_one(surface, quadrics, &around, panels, f)).collect()
+    let count = panels.faces.len();
+    let mut made: Vec<Measured> =
+        (0..count).map(|f| measure_one(surface, quadrics, &around, panels, f)).collect();
+    let mut sides: BTreeMap<[usize; 2], usize> = BTreeMap::new();
+    for (f, face) in panels.faces.iter().enumerate() {
+        for i in 0..face.len() {
+            let ends = edge(face[i], face[(i + 1) % face.len()]);
+            if let Some(&g) = sides.get(&ends) {
+                let (n, m) = (made[f].normal, made[g].normal);
+                let fold = n.cross(m).length().atan2(n.dot(m)).to_degrees();
+                [f, g].iter().for_each(|&f| made[f].fold = made[f].fold.max(fold));
+            }
+            sides.insert(ends, f);
+        }
+    }
+    made
 }
 
 fn measure_one(
@@ -76,6 +99,9 @@ fn measure_one(
         largest_angle: angles.iter().copied().fold(0.0, f64::max),
         deviation: samples.map(off).fold(0.0, f64::max),
         concave: angles.iter().filter(|&&a| a > 180.5).count(),
+        hollow: hollow(&flat),
+        normal,
+        fold: 0.0,
         diameter: (0..count).map(apart).fold(0.0, f64::max),
         extent: smallest_rectangle(&flat),
         is_rim: face.iter().any(|&v| panels.kinds[v] != Kind::Inner),
@@ -88,6 +114,20 @@ fn flattened(corners: &[DVec3], normal: DVec3, centre: DVec3) -> Vec<DVec2> {
     let Some(plane) = Plane::new(normal, centre) else { return vec![DVec2::ZERO; corners.len()] };
     let frame = Frame::on_plane(&plane);
     corners.iter().map(|&p| frame.flatten(p)).collect()
+}
+
+/// How deep corners lie within the convex hull, at most.
+fn hollow(flat: &[DVec2]) -> f64 {
+    let hull = convex_hull(flat);
+    let inside = |&q: &DVec2| {
+        let side = |i: usize| {
+            let (a, b) = (hull[i], hull[(i + 1) % hull.len()]);
+            ((b - a).normalize_or_zero().perp_dot(q - a)).abs()
+        };
+        (0..hull.len()).map(side).fold(f64::INFINITY, f64::min)
+    };
+    let depth = flat.iter().map(inside).fold(0.0, f64::max);
+    if depth.is_finite() { depth } else { 0.0 }
 }
 
 /// Whether sides that do not follow each other have nothing in common.

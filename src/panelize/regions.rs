@@ -42,6 +42,9 @@ impl Kind {
 pub(super) struct Panels {
     pub points: Vec<DVec3>,
     pub kinds: Vec<Kind>,
+    /// The mirror planes that each corner of one part of a surface lies on, a bit for each axis; empty
+    /// for others.
+    pub mirrors: Vec<u8>,
     /// A vertex of the surface near each corner.
     pub hints: Vec<usize>,
     /// The corners of each panel, counter-clockwise.
@@ -108,7 +111,8 @@ pub(super) fn panels_of_sites(
         bad = faulty.iter().map(|&k| sites[k]).collect();
         if round + 2 < TRIES {
             let areas = region_areas(surface, &labels, sites.len());
-            let mut order = faulty;
+            let is_pinned = |k: usize| k < surface.pins.sites.len();
+            let mut order: Vec<usize> = faulty.into_iter().filter(|&k| !is_pinned(k)).collect();
             order.sort_by(|&a, &b| areas[a].total_cmp(&areas[b]).then(a.cmp(&b)));
             let dropped = apart(surface, sites, &order, 1.5);
             let mut keep = dropped.iter();
@@ -195,6 +199,7 @@ impl Extraction<'_> {
         self.panels.points.push(place);
         self.panels.kinds.push(kind);
         self.panels.hints.push(hint);
+        self.panels.mirrors.push(0);
         self.panels.points.len() - 1
     }
 
@@ -258,10 +263,16 @@ impl Extraction<'_> {
                 let corners = self.on_edges[&p].iter();
                 steps.extend(corners.map(|&c| Step::Corner(c, (own == Some(c)).then_some(change))));
             } else {
-                steps.push(Step::Outer);
+                // Across a mirror plane the surface goes on.
+                let mirrors = surface.mask(p) & surface.mask(q);
+                if mirrors == 0 {
+                    steps.push(Step::Outer);
+                }
                 if change[0] != change[1] {
                     let place = surface.points[p].midpoint(surface.points[q]);
-                    steps.push(Step::Corner(self.corner(place, Kind::Rim, q), Some(change)));
+                    let corner = self.corner(place, Kind::Rim, q);
+                    self.panels.mirrors[corner] = mirrors;
+                    steps.push(Step::Corner(corner, Some(change)));
                 }
             }
             if surface.is_corner[q] {
@@ -276,6 +287,7 @@ impl Extraction<'_> {
                         }
                     },
                 };
+                self.panels.mirrors[corner] = surface.mask(q);
                 steps.push(Step::Corner(corner, None));
             }
         }
@@ -425,7 +437,7 @@ impl Panels {
 
     /// Faces that share more than one edge with another one: the one with fewer corners of each
     /// pair.
-    fn share_two_edges(&self) -> Vec<usize> {
+    pub(super) fn share_two_edges(&self) -> Vec<usize> {
         let mut sides: Vec<([usize; 2], usize)> = Vec::new();
         for (f, face) in self.faces.iter().enumerate() {
             let side = |i: usize| (edge(face[i], face[(i + 1) % face.len()]), f);

@@ -3,7 +3,9 @@
 use glam::DVec3;
 
 use super::curvature::Quadric;
+use super::outcomes::{FamilyReport, FixedPanel, MirrorReport, Place, fixed_note};
 use super::prove::node_reach;
+use super::stays::{fixed_panels, lost_planes, mirrors, unpaired};
 use super::{ALIKE, EXACT, Model, PanelizeFinding, PanelizeParams, Solved};
 use crate::check::short;
 use crate::code::Coded;
@@ -18,21 +20,10 @@ const SHARE: f64 = 0.99;
 /// Panels may be so much more or fewer than were asked for, or so many.
 const MOST_OTHER: f64 = 0.1;
 const FEW_OTHER: f64 = 5.0;
+/// So many of the panels that are farthest off are named.
+const WORST: usize = 3;
 /// So many places of one kind are named.
 const NAMED: usize = 6;
-
-/// A place of the result with what was measured there.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Place {
-    /// What is wrong.
-    pub finding: PanelizeFinding,
-    /// The face, or the vertex for [`PanelizeFinding::FarNode`].
-    pub element: usize,
-    /// What was measured: mm, degrees or thicknesses.
-    pub measured: f64,
-    /// Where, in mm.
-    pub place: DVec3,
-}
 
 /// What was reached. Lengths are in mm, angles in degrees, areas in those of a regular hexagon of
 /// the panel size.
@@ -64,6 +55,12 @@ pub struct PanelizeReport {
     pub inner: [usize; 2],
     /// How many panels are concave.
     pub concave: usize,
+    /// How deep a concave corner lies within the convex hull of its panel, at most.
+    pub hollow_mm: f64,
+    /// The largest angle by which neighbours fold.
+    pub largest_fold: f64,
+    /// The panels that are farthest off the surface, and by how much, in mm; the worst first.
+    pub worst: Vec<(usize, f64)>,
     /// How far plates reach from a node, at most, in thicknesses.
     pub node_reach: f64,
     /// The largest distance of a corner from its planes.
@@ -77,6 +74,14 @@ pub struct PanelizeReport {
     pub rings: usize,
     /// What became of edges of the surface that fold by more than `crease`, or 40 degrees.
     pub creases: CreaseReport,
+    /// The panels whose planes were given.
+    pub fixed: Vec<FixedPanel>,
+    /// What was to stay and could not, in words.
+    pub not_fixed: Vec<String>,
+    /// The mirror planes.
+    pub mirrors: Vec<MirrorReport>,
+    /// What became of families of lengths, if they were asked for.
+    pub families: Option<FamilyReport>,
     /// What is wrong, by kind, the worst first.
     pub findings: Vec<Place>,
     /// Whether the work was stopped.
@@ -109,7 +114,7 @@ impl PanelizeReport {
         let mut made = Self {
             size_mm: size,
             panels: m.len(),
-            wanted: model.surface.area() / super::sites::PANEL_AREA,
+            wanted: model.surface.room(),
             asked: params.count,
             deviation_mm: [1.0, 0.95].map(|share| percentile(&deviations, share) * size),
             sag_mm: sag(&model.quadrics) * size,
@@ -119,6 +124,9 @@ impl PanelizeReport {
             areas: [least(&|f| m[f].area), most(&|f| m[f].area)],
             inner: [inner.len(), inner.iter().filter(|m| m.sides == 6).count()],
             concave: m.iter().filter(|m| m.concave > 0).count(),
+            hollow_mm: most(&|f| m[f].hollow) * size,
+            largest_fold: most(&|f| m[f].fold),
+            worst: worst(&deviations, size),
             node_reach: reaches(solved).map(|(_, reach)| reach).fold(0.0, f64::max),
             planarity_mm: solved.lack * size,
             panel_kinds: solved.kinds.panels,
@@ -130,6 +138,10 @@ impl PanelizeReport {
                 is_kept: model.keeps_creases,
                 off_mm: solved.off_folds.iter().map(|(off, _)| *off).fold(0.0, f64::max) * size,
             },
+            fixed: fixed_panels(model, solved),
+            not_fixed: model.pin_notes.clone(),
+            families: solved.families.clone(),
+            mirrors: mirrors(model, solved).into_iter().map(|(report, _)| report).collect(),
             findings: Vec::new(),
             was_stopped: solved.was_stopped,
         };
@@ -153,6 +165,10 @@ impl PanelizeReport {
         let mut notes = vec![self.summary(), self.shape(), self.repeats()];
         notes.extend(self.creases.note());
         notes.extend(self.smoothed_mm.map(smoothing));
+        notes.extend(fixed_note(&self.fixed));
+        notes.extend(self.mirrors.iter().map(MirrorReport::note));
+        notes.extend(self.families.as_ref().map(FamilyReport::note));
+        notes.extend(self.not_fixed.iter().cloned());
         let mut rest = &self.findings[..];
         while let Some(first) = rest.first() {
             let count = rest.iter().take_while(|place| place.finding == first.finding).count();
@@ -178,13 +194,14 @@ impl PanelizeReport {
 
     fn summary(&self) -> String {
         format!(
-            "{} panels of {} mm (room for {:.0}); off the surface by {} mm at most and {} mm for \
-            95 % (a flat panel of the size leaves it by {} mm); corners off their planes by {} mm \
+            "{} panels of {} mm (room for {:.0}); off the surface by {} mm at most (panels {}) and {} mm \
+            for 95 % (a flat panel of the size leaves it by {} mm); corners off their planes by {} mm \
             at most",
             self.panels,
             short(self.size_mm),
             self.wanted,
             short(self.deviation_mm[0]),
+            self.worst.iter().map(|(f, _)| f.to_string()).collect::<Vec<_>>().join(", "),
             short(self.deviation_mm[1]),
             short(self.sag_mm),
             short(self.planarity_mm),
@@ -194,8 +211,8 @@ impl PanelizeReport {
     fn shape(&self) -> String {
         format!(
             "shortest edge {} mm; angles {:.0} to {:.0}°; areas {:.2} to {:.2} of a regular \
-            hexagon; {} of {} inner panels are hexagons; {} concave; plates reach at most {:.2} \
-            thicknesses from a node",
+            hexagon; {} of {} inner panels are hexagons; {} concave, up to {} mm deep; neighbours fold by \
+            up to {:.1}°; plates reach at most {:.2} thicknesses from a node",
             short(self.shortest_mm),
             self.angles[0],
             self.angles[1],
@@ -204,6 +221,8 @@ impl PanelizeReport {
             self.inner[1],
             self.inner[0],
             self.concave,
+            short(self.hollow_mm),
+            self.largest_fold,
             self.node_reach,
         )
     }
@@ -226,52 +245,7 @@ impl PanelizeReport {
     /// Places with one finding, in words.
     fn told(&self, places: &[Place]) -> String {
         let kind = places[0].finding;
-        let (what, advice) = match kind {
-            PanelizeFinding::Crosses => (
-                "panels that cross themselves or run against the surface",
-                "take a smaller size, another alignment or another seed",
-            ),
-            PanelizeFinding::GoesThrough => {
-                ("panels that go through another", "take a smaller size or another seed")
-            }
-            PanelizeFinding::NotPlanar => {
-                ("panels that are not planar up to rounding", "take a smaller size or another seed")
-            }
-            PanelizeFinding::TooCurved => (
-                "panels that leave the surface by more than is allowed, since it bends too much for \
-                their size",
-                "take a smaller size, or allow more (--max-off)",
-            ),
-            PanelizeFinding::ShortEdge => {
-                ("panels with a shorter edge than allowed", "take another seed or a smaller size")
-            }
-            PanelizeFinding::SharpAngle => {
-                ("panels with a sharper angle than allowed", "take another seed or a smaller size")
-            }
-            PanelizeFinding::TooLarge => {
-                ("panels that do not fit the sheet", "take a smaller size")
-            }
-            PanelizeFinding::FarNode => (
-                "vertices that plates reach from far",
-                "bend the surface more there, take another seed, or allow more (--max-reach)",
-            ),
-            PanelizeFinding::CreaseLost => (
-                "panels that a crease runs through, farther from all edges than a tenth of their \
-                size",
-                "take a smaller size or another seed",
-            ),
-            PanelizeFinding::FullNode => (
-                "vertices with more than three members, since so many creases meet there",
-                "cut the corner off in the model, or keep fewer creases with a larger `--crease`",
-            ),
-            PanelizeFinding::UnevenRing => (
-                "rings of which the panels are not congruent, by their first panels",
-                "take another size, or `--layout free`",
-            ),
-            PanelizeFinding::Stopped | PanelizeFinding::OtherCount => {
-                ("panels that are not finished", "run it to the end")
-            }
-        };
+        let (what, advice) = words(kind).unwrap_or_else(|| words_of_wishes(kind));
         let unit = unit_of(kind);
         let name = |place: &Place| {
             let measured = if unit.is_empty() {
@@ -300,13 +274,88 @@ impl PanelizeReport {
     }
 }
 
+/// What is wrong where panels have this finding, and what to do; `None` for [`words_of_wishes`].
+fn words(kind: PanelizeFinding) -> Option<(&'static str, &'static str)> {
+    Some(match kind {
+        PanelizeFinding::Crosses => (
+            "panels that cross themselves or run against the surface",
+            "take a smaller size, another alignment or another seed",
+        ),
+        PanelizeFinding::GoesThrough => {
+            ("panels that go through another", "take a smaller size or another seed")
+        }
+        PanelizeFinding::NotPlanar => {
+            ("panels that are not planar up to rounding", "take a smaller size or another seed")
+        }
+        PanelizeFinding::TooCurved => (
+            "panels that leave the surface by more than is allowed, since it bends too much for \
+                their size",
+            "take a smaller size, or allow more (--max-off)",
+        ),
+        PanelizeFinding::ShortEdge => {
+            ("panels with a shorter edge than allowed", "take another seed or a smaller size")
+        }
+        PanelizeFinding::SharpAngle => {
+            ("panels with a sharper angle than allowed", "take another seed or a smaller size")
+        }
+        PanelizeFinding::TooLarge => ("panels that do not fit the sheet", "take a smaller size"),
+        PanelizeFinding::FarNode => (
+            "vertices that plates reach from far",
+            "bend the surface more there, take another seed, or allow more (--max-reach)",
+        ),
+        PanelizeFinding::CreaseLost => (
+            "panels that a crease runs through, farther from all edges than a tenth of their \
+                size",
+            "take a smaller size or another seed",
+        ),
+        PanelizeFinding::FullNode => (
+            "vertices with more than three members, since so many creases meet there",
+            "cut the corner off in the model, or keep fewer creases with a larger `--crease`",
+        ),
+        PanelizeFinding::UnevenRing => (
+            "rings of which the panels are not congruent, by their first panels",
+            "take another size, or `--layout free`",
+        ),
+        _ => return None,
+    })
+}
+
+/// The same for what only some users ask for.
+fn words_of_wishes(kind: PanelizeFinding) -> (&'static str, &'static str) {
+    match kind {
+        PanelizeFinding::PlaneLost => (
+            "panels that left the planes that were given for them",
+            "change one of the planes that meet there, or take a smaller size",
+        ),
+        PanelizeFinding::Unpaired => (
+            "panels that are no images of others across a mirror plane",
+            "take another seed or a smaller size",
+        ),
+        PanelizeFinding::ManyLengths => (
+            "edges that have the length of no family",
+            "ask for more families, or for fewer panels",
+        ),
+        PanelizeFinding::SharpFold => (
+            "panels that fold against a neighbour by more than is allowed",
+            "take a smaller size, or allow more (--max-fold)",
+        ),
+        PanelizeFinding::DeepHollow => (
+            "concave panels that are deeper than is allowed, as they must be where the surface is a \
+                saddle",
+            "take a smaller size, or allow more (--max-hollow)",
+        ),
+        _ => ("panels that are not finished", "run it to the end"),
+    }
+}
+
 /// What is measured where a panel has this finding; nothing where nothing is.
 fn unit_of(kind: PanelizeFinding) -> &'static str {
     match kind {
-        PanelizeFinding::SharpAngle => "°",
+        PanelizeFinding::SharpAngle | PanelizeFinding::SharpFold => "°",
         PanelizeFinding::FarNode => " thicknesses",
         PanelizeFinding::FullNode => " panels",
         PanelizeFinding::UnevenRing => " kinds",
+        PanelizeFinding::Unpaired => " panels",
         PanelizeFinding::Crosses | PanelizeFinding::GoesThrough => "",
         _ => " mm",
     }
@@ -387,6 +436,13 @@ fn findings(model: &Model, solved: &Solved, params: &PanelizeParams) -> Vec<Plac
     });
     sharp.reverse();
     all.extend(sharp);
+    if let Some(most) = params.max_fold.map(|angle| angle.degrees()) {
+        all.extend(faces(PanelizeFinding::SharpFold, &|f| (m[f].fold > most).then(|| m[f].fold)));
+    }
+    if let Some(most) = params.max_hollow.map(|depth| depth.mm() / size) {
+        let hollow = |f: usize| (m[f].hollow > most).then(|| m[f].hollow * size);
+        all.extend(faces(PanelizeFinding::DeepHollow, &hollow));
+    }
     if let Some(sheet) = params.max_panel {
         all.extend(faces(PanelizeFinding::TooLarge, &|f| {
             (!fits(m[f].extent.map(|x| x * size), sheet.0)).then(|| m[f].diameter * size)
@@ -394,6 +450,9 @@ fn findings(model: &Model, solved: &Solved, params: &PanelizeParams) -> Vec<Plac
     }
     all.extend(far_nodes(model, solved, params.max_reach));
     all.extend(lost_creases(model, solved));
+    all.extend(lost_planes(model, solved));
+    all.extend(unpaired(model, solved));
+    all.extend(solved.families.iter().flat_map(|families| families.missed.clone()));
     all.extend(full_nodes(model, solved));
     all.extend(uneven_rings(model, solved));
     all
@@ -481,6 +540,14 @@ pub(super) fn far_nodes(model: &Model, solved: &Solved, most: f64) -> Vec<Place>
         .collect();
     found.sort_by(|a, b| b.measured.total_cmp(&a.measured).then(a.element.cmp(&b.element)));
     found
+}
+
+/// The panels that are farthest off the surface.
+fn worst(deviations: &[f64], size: f64) -> Vec<(usize, f64)> {
+    let mut order: Vec<usize> = (0..deviations.len()).collect();
+    order.sort_by(|&f, &g| deviations[g].total_cmp(&deviations[f]).then(f.cmp(&g)));
+    order.truncate(WORST);
+    order.into_iter().map(|f| (f, deviations[f] * size)).collect()
 }
 
 /// The reach of every inner node.

@@ -19,8 +19,8 @@ use super::curvature::Quadric;
 use super::regions::{Kind, Panels};
 use super::revolve::{Revolution, frame};
 use super::ring_plan::RingPlan;
-use super::sites::PANEL_AREA;
 use super::solve::Symmetry;
+use super::surface::PANEL_AREA;
 use super::surface::{NONE, Surface};
 use crate::geom::{Grid, Plane};
 

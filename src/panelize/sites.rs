@@ -5,11 +5,9 @@ use std::collections::BinaryHeap;
 
 use glam::DVec3;
 
-use super::surface::{NONE, Surface};
+use super::surface::{NONE, PANEL_AREA, Surface};
 use crate::geom::Grid;
 
-/// The area of a panel of size 1: that of a hexagon in the regular lattice.
-pub(super) const PANEL_AREA: f64 = 0.866_025_403_784_438_6;
 /// Vertices hold one lattice point when theirs are nearer than this, in local panel sizes.
 const SAME: f64 = 0.35;
 /// Clusters with a smaller share of a panel's area are none.
@@ -20,6 +18,8 @@ const TOO_NEAR: f64 = 0.62;
 const LEAST_AREA: f64 = 0.45;
 /// A vertex farther from its site gets a site of its own, in local panel sizes.
 const HOLE: f64 = 0.86;
+/// Panels whose middle is nearer to a mirror plane lie across it, in local panel sizes.
+const ACROSS: f64 = 0.35;
 /// The most rounds of filling and thinning.
 const ROUNDS: usize = 6;
 
@@ -42,12 +42,17 @@ pub(super) fn sites_of_lattice(ground: Ground<'_>, held: &[DVec3]) -> Vec<usize>
         areas[c] += surface.areas[v];
         points[c] += held[v] * surface.areas[v];
         means[c] += surface.points[v] * surface.areas[v];
-        is_rim[c] |= surface.is_rim(v);
+        is_rim[c] |= surface.is_outer_rim(v);
     }
     // At a rim the lattice point may lie outside; the middle of what is there does not.
     let middle = |c: usize| if is_rim[c] { means[c] / areas[c] } else { points[c] / areas[c] };
     let middles: Vec<DVec3> = (0..count).map(middle).collect();
-    let nearest = nearest_members(surface, &cluster, &middles);
+    let mut nearest = nearest_members(surface, &cluster, &middles, |_, _| true);
+    for v in nearest.iter_mut().filter(|v| **v != NONE) {
+        *v = surface.snapped(*v, ACROSS * sizes[*v]);
+    }
+    // Of a panel across a mirror plane there is a part on either side.
+    let areas: Vec<f64> = (0..count).map(|c| areas[c] / surface.share(nearest[c])).collect();
     let full = |c: usize| PANEL_AREA * sizes[nearest[c]].powi(2);
     let mut order: Vec<usize> =
         (0..count).filter(|&c| areas[c] > 0.0 && areas[c] > LEAST_CLUSTER * full(c)).collect();
@@ -87,11 +92,16 @@ fn root(parent: &mut [usize], mut v: usize) -> usize {
     v
 }
 
-/// For each group of vertices the one nearest to a place.
-fn nearest_members(surface: &Surface, group: &[usize], places: &[DVec3]) -> Vec<usize> {
+/// For each group of vertices the one nearest to a place, of those that may be.
+fn nearest_members(
+    surface: &Surface,
+    group: &[usize],
+    places: &[DVec3],
+    may: impl Fn(usize, usize) -> bool,
+) -> Vec<usize> {
     let mut best = vec![(f64::INFINITY, NONE); places.len()];
     for (v, &g) in group.iter().enumerate() {
-        if g == NONE {
+        if g == NONE || !may(v, g) {
             continue;
         }
         let distance = surface.points[v].distance_squared(places[g]);
@@ -102,13 +112,21 @@ fn nearest_members(surface: &Surface, group: &[usize], places: &[DVec3]) -> Vec<
     best.into_iter().map(|(_, v)| v).collect()
 }
 
-/// Without the candidates that come too near to an earlier one on the same side of the surface.
+/// The pins, and the candidates that do not come too near to an earlier one on the same side of the
+/// surface.
 fn thinned(ground: Ground<'_>, candidates: &[usize]) -> Vec<usize> {
     let Ground { surface, sizes } = ground;
     let widest = sizes.iter().fold(0.0, |a: f64, &b| a.max(b));
     let mut grid = Grid::new([0.0; 3], widest * TOO_NEAR);
     let mut kept: Vec<usize> = Vec::new();
+    for &v in &surface.pins.sites {
+        grid.insert(surface.points[v].to_array());
+        kept.push(v);
+    }
     for &v in candidates {
+        if surface.pins.is_shadow.get(v) == Some(&true) {
+            continue;
+        }
         let place = surface.points[v];
         let is_free = grid.around(place.to_array()).all(|k| {
             let u = kept[k as usize];
@@ -156,6 +174,10 @@ pub(super) fn regions(surface: &Surface, sites: &[usize]) -> Vec<usize> {
         .enumerate()
         .map(|(label, &vertex)| Reverse(Growing { distance: 0.0, vertex, label }))
         .collect();
+    // Panels of given vertices have these and no others.
+    for (vertex, label) in labels.iter_mut().enumerate() {
+        *label = surface.pins.owner(vertex).unwrap_or(NONE);
+    }
     while let Some(Reverse(Growing { vertex, label, .. })) = front.pop() {
         if labels[vertex] != NONE {
             continue;
@@ -185,6 +207,7 @@ pub(super) fn region_areas(surface: &Surface, labels: &[usize], count: usize) ->
 
 /// Moves sites to the middle of their regions (Lloyd 1982), only those at a rim when `rim_only`.
 pub(super) fn relax(surface: &Surface, sites: &mut [usize], rounds: usize, rim_only: bool) {
+    let pinned = surface.pins.sites.len();
     for _ in 0..rounds {
         let labels = regions(surface, sites);
         let areas = region_areas(surface, &labels, sites.len());
@@ -193,12 +216,14 @@ pub(super) fn relax(surface: &Surface, sites: &mut [usize], rounds: usize, rim_o
         for (v, &label) in labels.iter().enumerate() {
             if label != NONE {
                 means[label] += surface.points[v] * surface.areas[v] / areas[label];
-                moves[label] |= surface.is_rim(v);
+                moves[label] |= surface.is_outer_rim(v);
             }
         }
-        let nearest = nearest_members(surface, &labels, &means);
+        // Panels across mirror planes stay there.
+        let stays = |v: usize, k: usize| surface.mask(v) == surface.mask(sites[k]);
+        let nearest = nearest_members(surface, &labels, &means, stays);
         for (k, site) in sites.iter_mut().enumerate() {
-            if moves[k] && nearest[k] != NONE {
+            if k >= pinned && moves[k] && nearest[k] != NONE {
                 *site = nearest[k];
             }
         }
@@ -235,13 +260,15 @@ fn holes(ground: Ground<'_>, sites: &[usize], labels: &[usize]) -> Vec<usize> {
             surface.points[v].distance(surface.points[sites[label]])
         })
         .collect();
+    let is_free = |v: usize| surface.pins.owner(v).is_none();
     let mut added = Vec::new();
     let mut open: Vec<usize> =
-        (0..labels.len()).filter(|&v| distances[v] >= HOLE * sizes[v]).collect();
+        (0..labels.len()).filter(|&v| distances[v] >= HOLE * sizes[v] && is_free(v)).collect();
     while let Some(&farthest) =
         open.iter().max_by(|&&a, &&b| distances[a].total_cmp(&distances[b]).then(b.cmp(&a)))
     {
-        added.push(farthest);
+        let reach = ACROSS * sizes[farthest];
+        added.push(surface.snapped(farthest, reach));
         for &v in &open {
             let distance = surface.points[v].distance(surface.points[farthest]);
             distances[v] = distances[v].min(distance);
@@ -255,8 +282,11 @@ fn holes(ground: Ground<'_>, sites: &[usize], labels: &[usize]) -> Vec<usize> {
 fn too_small(ground: Ground<'_>, sites: &[usize], labels: &[usize]) -> Vec<bool> {
     let Ground { surface, sizes } = ground;
     let areas = region_areas(surface, labels, sites.len());
-    let mut small: Vec<usize> = (0..sites.len())
-        .filter(|&k| areas[k] < LEAST_AREA * PANEL_AREA * sizes[sites[k]].powi(2))
+    let mut small: Vec<usize> = (surface.pins.sites.len()..sites.len())
+        .filter(|&k| {
+            let share = LEAST_AREA * surface.share(sites[k]);
+            areas[k] < share * PANEL_AREA * sizes[sites[k]].powi(2)
+        })
         .collect();
     small.sort_by(|&a, &b| areas[a].total_cmp(&areas[b]).then(a.cmp(&b)));
     apart(surface, sites, &small, 1.2)

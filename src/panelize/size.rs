@@ -3,7 +3,7 @@
 use super::curvature::quadrics;
 use super::refine::Triangles;
 use super::report::sag;
-use super::sites::PANEL_AREA;
+use super::surface::PANEL_AREA;
 use super::{PanelizeError, PanelizeParams, fine_surface};
 
 /// Rounds of finding the size for a sag: curvature is seen at the scale of the panels.
@@ -35,7 +35,7 @@ fn size_of_sag(given: &Triangles, wanted: f64, start: f64) -> Result<f64, Paneli
     let largest = start * 10.0;
     let mut size = start;
     for _ in 0..ROUNDS {
-        let surface = fine_surface(given, size, glam::DVec3::ZERO)?;
+        let surface = fine_surface(given, (size, glam::DVec3::ZERO), &[])?;
         let seen = sag(&quadrics(&surface)) * size;
         size = (size * (wanted / seen.max(f64::MIN_POSITIVE)).sqrt()).min(largest);
     }

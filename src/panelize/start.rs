@@ -8,6 +8,7 @@ use glam::{DMat2, DVec2, DVec3};
 
 use super::curvature::Quadric;
 use super::regions::{Kind, Panels};
+use super::surface::Pins;
 
 /// How strongly corners are held, and how far they may go, in panel sizes.
 #[derive(Debug, Clone, Copy)]
@@ -21,9 +22,14 @@ const FIRST: Hold = Hold { strength: 0.05, reach: 0.45 };
 /// For the corners of an edge that was turned.
 pub(super) const TURNED: Hold = Hold { strength: 0.1, reach: 0.3 };
 
-/// Moves every inner corner to where the tangent planes at the sites of its panels meet.
-pub(super) fn start(panels: &mut Panels, quadrics: &[Quadric]) {
+/// Moves every inner corner to where the tangent planes at the sites of its panels meet; those of
+/// panels of given vertices stay, since the middle of such a panel may be far.
+pub(super) fn start(panels: &mut Panels, quadrics: &[Quadric], pins: &Pins) {
+    let is_given = |&f: &usize| pins.areas.get(f).is_some_and(Option::is_some);
     for (v, fan) in panels.fans().iter().enumerate() {
+        if fan.iter().any(is_given) {
+            continue;
+        }
         if let (Kind::Inner, &[a, b, c]) = (panels.kinds[v], &fan[..]) {
             let sites = [a, b, c].map(|f| quadrics[panels.sites[f]].origin);
             let quadric = &quadrics[panels.hints[v]];

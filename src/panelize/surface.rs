@@ -14,6 +14,8 @@ pub(super) const SPACING: f64 = 1.0 / 6.0;
 pub(super) const CORNER_TURN: f64 = 40.0;
 /// More triangles are refused before they are made.
 pub(super) const MOST_TRIANGLES: usize = 3_000_000;
+/// The area of a panel of size 1: that of a hexagon in the regular lattice.
+pub(super) const PANEL_AREA: f64 = 0.866_025_403_784_438_6;
 /// No vertex.
 pub(super) const NONE: usize = usize::MAX;
 
@@ -37,6 +39,33 @@ pub(super) struct Surface {
     pub is_corner: Vec<bool>,
     /// Where it was cut open along creases.
     pub creases: Creases,
+    /// Panels whose place is settled.
+    pub pins: Pins,
+    /// Of the part on one side of mirror planes, for each vertex those that it lies on: a bit for each
+    /// axis. Empty for others.
+    pub masks: Vec<u8>,
+}
+
+/// Panels whose place is settled before the others are laid out: they come first among all, and
+/// are neither moved nor dropped. All lists are empty when there are none.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Pins {
+    /// The vertex in the middle of each.
+    pub sites: Vec<usize>,
+    /// For each vertex of the surface the pin whose panel consists of it and others like it;
+    /// [`NONE`] for vertices that go to whichever panel is nearest.
+    pub owners: Vec<usize>,
+    /// Vertices that are too near to such a panel to be the middle of another.
+    pub is_shadow: Vec<bool>,
+    /// The area of each that consists of given vertices, over that of a regular hexagon.
+    pub areas: Vec<Option<f64>>,
+}
+
+impl Pins {
+    /// The pin whose panel a vertex is part of.
+    pub(super) fn owner(&self, v: usize) -> Option<usize> {
+        self.owners.get(v).copied().filter(|&k| k != NONE)
+    }
 }
 
 /// What is known of creases, by the vertices of the surface that was cut open along them; all lists
@@ -194,6 +223,8 @@ impl Surface {
             rim_before,
             is_corner,
             creases: Creases::default(),
+            pins: Pins::default(),
+            masks: Vec::new(),
         };
         made.is_corner = (0..count).map(|v| made.turns_at(v)).collect();
         made
@@ -216,6 +247,43 @@ impl Surface {
     /// The area, in squared panel sizes.
     pub(super) fn area(&self) -> f64 {
         self.areas.iter().sum()
+    }
+
+    /// The mirror planes that a vertex lies on.
+    pub(super) fn mask(&self, v: usize) -> u8 {
+        self.masks.get(v).copied().unwrap_or(0)
+    }
+
+    /// How much of a panel in the middle of a vertex there is: the rest lies across mirror planes.
+    pub(super) fn share(&self, v: usize) -> f64 {
+        0.5_f64.powi(self.mask(v).count_ones() as i32)
+    }
+
+    /// Whether a vertex lies on a rim that is no mirror plane.
+    pub(super) fn is_outer_rim(&self, v: usize) -> bool {
+        self.is_rim(v) && self.mask(v) == 0
+    }
+
+    /// A vertex, or one on the mirror planes that it is within `reach` of.
+    pub(super) fn snapped(&self, v: usize, reach: f64) -> usize {
+        let place = self.points[v];
+        let planes = self.masks.iter().fold(0, |all, mask| all | mask);
+        let is_near = |axis: &usize| planes >> axis & 1 == 1 && place[*axis] < reach;
+        let wanted = (0..3).filter(is_near).fold(self.mask(v), |mask, axis| mask | 1 << axis);
+        if wanted == self.mask(v) { v } else { self.nearest_with(wanted, place).unwrap_or(v) }
+    }
+
+    /// The vertex on some mirror planes that is nearest to a place.
+    pub(super) fn nearest_with(&self, mask: u8, place: DVec3) -> Option<usize> {
+        let off = |v: usize| self.points[v].distance_squared(place);
+        let on = (0..self.masks.len()).filter(|&v| self.masks[v] & mask == mask);
+        on.min_by(|&a, &b| off(a).total_cmp(&off(b)).then(a.cmp(&b)))
+    }
+
+    /// For how many panels there is room, those of given size counted as one.
+    pub(super) fn room(&self) -> f64 {
+        let whole = self.area() / PANEL_AREA;
+        self.pins.areas.iter().flatten().fold(whole, |room, area| room - area + 1.0)
     }
 
     /// The unit direction of the rim at a vertex on it: from the vertex before to the next.

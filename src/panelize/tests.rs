@@ -34,6 +34,12 @@ fn sized(mm: f64) -> PanelizeParams {
 
 /// What must hold for every result that is not complained of.
 fn assert_good(made: &Mesh, report: &PanelizeReport) {
+    assert_clean(made, report);
+    assert!((report.panels as f64 / report.wanted - 1.0).abs() < 0.1, "{report:?}");
+}
+
+/// The same for so few panels that their number says little.
+fn assert_clean(made: &Mesh, report: &PanelizeReport) {
     assert_sound(made);
     assert!(report.is_clean(), "{:?}", report.notes());
     for v in made.vertices() {
@@ -44,7 +50,6 @@ fn assert_good(made: &Mesh, report: &PanelizeReport) {
         let off = crate::measure::planarity(made, f).mm;
         assert!(off < 1e-12 * report.size_mm, "face {f} is off by {off} mm");
     }
-    assert!((report.panels as f64 / report.wanted - 1.0).abs() < 0.1, "{report:?}");
 }
 
 #[test]
@@ -308,4 +313,229 @@ fn rows_follow_what_is_written() {
         assert_eq!(text.parse::<Align>().expect(text).to_string(), text);
     }
     assert!("rows.txt".parse::<Align>().is_err() && "".parse::<Align>().is_err());
+}
+
+/// Planes of n·x = d, on lines counted from 1.
+fn fixed(planes: &[(DVec3, f64)]) -> FixChoice {
+    let plane =
+        |(i, &(normal, offset)): (usize, &(DVec3, f64))| FixedPlane { normal, offset, line: i + 1 };
+    FixChoice::Planes(planes.iter().enumerate().map(plane).collect())
+}
+
+fn off_plane(made: &Mesh, f: usize, (normal, offset): (DVec3, f64)) -> f64 {
+    let corners = made.face_positions(FaceId::new(f));
+    let off = |p: &DVec3| (p.dot(normal) - offset).abs() / normal.length();
+    corners.iter().map(off).fold(0.0, f64::max)
+}
+
+#[test]
+fn given_planes_are_kept_to_the_last_digit() {
+    let mesh = roof(5000.0, 4000.0, 250.0, |x, y| -(x * x + y * y) / 12_000.0);
+    // The top plane 20 mm lower than the dome, and one that leans at (1500, 900).
+    let [x, y] = [1500.0, 900.0];
+    let lean = DVec3::new(x / 6000.0, y / 6000.0, 1.0);
+    let planes =
+        [(DVec3::Z * 3.0, -60.0), (lean, lean.dot(DVec3::new(x, y, -(x * x + y * y) / 12_000.0)))];
+    let params = PanelizeParams { fix: fixed(&planes), ..sized(900.0) };
+    let (made, report) = panelize(&mesh, &params, &Silent).expect("panels");
+    assert_good(&made, &report);
+    assert_eq!(report.fixed.len(), 2);
+    for (panel, plane) in report.fixed.iter().zip(planes) {
+        let off = off_plane(&made, panel.panel, plane);
+        assert!(off < 1e-10 && panel.off_mm < 1e-10, "{panel:?}: {off}");
+        let carried = made.carried_plane(FaceId::new(panel.panel)).expect("a plane");
+        assert!((carried.normal().dot(plane.0) / plane.0.length() - 1.0).abs() < 1e-15);
+    }
+    let (free, free_report) = panelize(&mesh, &sized(900.0), &Silent).expect("panels");
+    let tops = free.faces().map(|f| off_plane(&free, f.index(), planes[0]));
+    assert!(tops.fold(f64::INFINITY, f64::min) > 1e-3, "the plane would be there anyway");
+    assert!(free_report.fixed.is_empty());
+    assert!(report.notes().concat().contains("line 1"), "{:?}", report.notes());
+}
+
+#[test]
+fn planes_that_fit_nowhere_or_do_not_meet_are_told_with_their_lines() {
+    let mesh = roof(5000.0, 4000.0, 250.0, |x, y| -(x * x + y * y) / 12_000.0);
+    let refused = |planes: &[(DVec3, f64)]| {
+        let params = PanelizeParams { fix: fixed(planes), ..sized(900.0) };
+        panelize(&mesh, &params, &Silent).expect_err("refused")
+    };
+    let top = (DVec3::Z, 0.0);
+    match refused(&[top, (DVec3::Z, 500.0)]) {
+        PanelizeError::NoPlaneThere { line, distance_mm, .. } => {
+            assert!(line == 2 && (490.0..560.0).contains(&distance_mm), "{distance_mm}");
+        }
+        error => panic!("{error}"),
+    }
+    let error = refused(&[top, (DVec3::Z, -10.0)]);
+    assert!(matches!(error, PanelizeError::PlanesTooNear { lines: [1, 2], .. }), "{error}");
+    // Tangent at the top and, turned a little the wrong way, a panel farther: both in reach of the
+    // surface, but they meet nowhere near.
+    let [x, z] = [800.0, -800.0 * 800.0 / 12_000.0];
+    let wrong = DVec3::new(-0.01, 0.0, 1.0);
+    let error = refused(&[top, (wrong, wrong.dot(DVec3::new(x, 0.0, z)))]);
+    let is_told = matches!(error, PanelizeError::PlanesDoNotMeet { .. });
+    assert!(is_told && error.to_string().contains("line 1 and line 2"), "{error}");
+    let params = PanelizeParams { fix: "planes.csv".parse().expect("a file"), ..sized(900.0) };
+    let error = panelize(&mesh, &params, &Silent).expect_err("unread");
+    assert!(matches!(error, PanelizeError::PlanesUnread { .. }), "{error}");
+}
+
+/// A roof with a flat square in the middle of it, in a group of its own.
+fn with_a_flat_group() -> Mesh {
+    let height = |x: f64, y: f64| {
+        let off = (x.abs().max(y.abs()) - 750.0).max(0.0);
+        -off * off / 6000.0
+    };
+    let mut mesh = roof(5000.0, 4000.0, 250.0, height);
+    let flat: Vec<FaceId> = mesh
+        .faces()
+        .filter(|&f| mesh.face_positions(f).iter().all(|p| p.x.abs().max(p.y.abs()) < 751.0))
+        .collect();
+    for f in flat {
+        mesh.set_group(f, "skylight");
+    }
+    mesh
+}
+
+#[test]
+fn a_flat_group_of_faces_stays_one_panel() {
+    let mesh = with_a_flat_group();
+    for fix in ["groups", "group:skylight"] {
+        let params = PanelizeParams { fix: fix.parse().expect("a group"), ..sized(700.0) };
+        let (made, report) = panelize(&mesh, &params, &Silent).expect("panels");
+        assert_sound(&made);
+        let [panel] = &report.fixed[..] else { panic!("{report:?}") };
+        assert!(off_plane(&made, panel.panel, (DVec3::Z, 0.0)) < 1e-10);
+        let area = crate::measure::face_area(&made, FaceId::new(panel.panel));
+        assert!((1.6e6..3.6e6).contains(&area), "of 1.5 by 1.5 m: {area}");
+        assert!(report.is_clean(), "{:?}", report.notes());
+    }
+    let refused = |fix: &str, mesh: &Mesh| {
+        let params = PanelizeParams { fix: fix.parse().expect("a group"), ..sized(700.0) };
+        panelize(mesh, &params, &Silent).expect_err("refused").to_string()
+    };
+    assert!(refused("group:door", &mesh).contains("`skylight`"));
+    let mut bent = mesh.clone();
+    let faces: Vec<FaceId> = bent.faces().collect();
+    faces.into_iter().for_each(|f| bent.set_group(f, "all"));
+    assert!(refused("group:all", &bent).contains("not flat"));
+    let none = roof(5000.0, 4000.0, 250.0, |x, _| -x * x / 12_000.0);
+    assert!(refused("groups", &none).contains("no groups"));
+    // Of all groups those that are not flat are only named.
+    let params = PanelizeParams { fix: FixChoice::Groups, ..sized(700.0) };
+    let (_, report) = panelize(&bent, &params, &Silent).expect("panels");
+    assert!(report.fixed.is_empty() && report.not_fixed.len() == 1, "{report:?}");
+}
+
+fn mirrored(mm: f64, axes: &str) -> PanelizeParams {
+    PanelizeParams { symmetry: axes.parse().expect("axes"), ..sized(mm) }
+}
+
+/// Pairs of panels that are images of each other across x = `at`, and panels across it, by corners
+/// that are rounded to a thousandth of a millimetre.
+fn pairs_across(made: &Mesh, axis: usize, at: f64) -> [usize; 2] {
+    let key = |f: FaceId, sign: f64| {
+        let place = |p: &DVec3| {
+            let mut p = *p;
+            p[axis] = sign * (p[axis] - at);
+            (p * 1000.0).round().to_array().map(|x| x as i64)
+        };
+        let mut corners: Vec<[i64; 3]> = made.face_positions(f).iter().map(place).collect();
+        corners.sort_unstable();
+        corners
+    };
+    let own: Vec<_> = made.faces().map(|f| key(f, 1.0)).collect();
+    let image: Vec<_> = made.faces().map(|f| key(f, -1.0)).collect();
+    let across = own.iter().zip(&image).filter(|(a, b)| a == b).count();
+    let with_image = own.iter().filter(|face| image.contains(face)).count();
+    [(with_image - across) / 2, across]
+}
+
+#[test]
+fn mirror_symmetric_surfaces_give_mirrored_pairs() {
+    type Height = fn(f64, f64) -> f64;
+    let roofs: [(Height, &str); 4] = [
+        (|x, y| -x * x / 12_000.0 - y * y / 17_000.0, "x"),
+        (|x, y| (x * x - y * y) / 14_000.0, "x,y"),
+        (|x, _| -x * x / 12_000.0, "y"),
+        (|x, y| 300.0 * (y / 900.0).sin() * (1.0 + x * x / 9e6), "x"),
+    ];
+    for (k, (height, axes)) in roofs.into_iter().enumerate() {
+        let mesh = roof(6000.0, 5000.0, 240.0, height);
+        let (made, report) = panelize(&mesh, &mirrored(800.0, axes), &Silent).expect("panels");
+        assert_clean(&made, &report);
+        for mirror in &report.mirrors {
+            let found = pairs_across(&made, mirror.axis, mirror.at_mm);
+            assert_eq!([mirror.pairs, mirror.across], found, "roof {k}");
+            let all = 2 * mirror.pairs + mirror.across;
+            assert!(mirror.alone == 0 && all == report.panels, "roof {k}: {mirror:?}");
+        }
+        assert_eq!(report.mirrors.len(), axes.split(',').count());
+        let free = panelize(&mesh, &sized(800.0), &Silent).expect("panels").0;
+        assert!(pairs_across(&free, report.mirrors[0].axis, 0.0)[0] < report.panels / 4);
+    }
+}
+
+#[test]
+fn what_is_no_image_of_itself_is_refused() {
+    let lean = roof(5000.0, 4000.0, 250.0, |x, y| -(x * x + y * y) / 12_000.0 + x / 20.0);
+    match panelize(&lean, &mirrored(900.0, "x"), &Silent).expect_err("it leans") {
+        PanelizeError::NotMirrored { axis: "x", off, at, .. } => {
+            assert!((100.0..260.0).contains(&off) && at.abs() < 1e-9, "{off}");
+        }
+        error => panic!("{error}"),
+    }
+    assert!(panelize(&lean, &mirrored(900.0, "y"), &Silent).is_ok());
+    let both = PanelizeParams { fix: FixChoice::Groups, ..mirrored(900.0, "y") };
+    let error = panelize(&lean, &both, &Silent).expect_err("two options");
+    assert!(matches!(error, PanelizeError::Together { .. }), "{error}");
+}
+
+#[test]
+fn edges_are_drawn_to_few_lengths_and_how_far_is_told() {
+    let mesh = roof(5000.0, 4000.0, 250.0, |x, y| -(x * x + y * y) / 12_000.0);
+    let params = PanelizeParams { families: Some(12), ..sized(900.0) };
+    let (made, report) = panelize(&mesh, &params, &Silent).expect("panels");
+    assert_sound(&made);
+    assert!(report.planarity_mm < 1e-13 * report.size_mm, "{report:?}");
+    let found = report.families.as_ref().expect("families");
+    // The edges that are alike are counted here anew: within a thousandth of some length.
+    let mut lengths: Vec<f64> =
+        made.edges().map(|e| made.edge_positions(e)).map(|[a, b]| a.distance(b)).collect();
+    lengths.sort_by(f64::total_cmp);
+    assert_eq!(found.edges, lengths.len());
+    let (free, _) = panelize(&mesh, &sized(900.0), &Silent).expect("panels");
+    let spread = |made: &Mesh| {
+        let mut all: Vec<f64> =
+            made.edges().map(|e| made.edge_positions(e)).map(|[a, b]| a.distance(b)).collect();
+        all.sort_by(f64::total_cmp);
+        all.windows(2).filter(|pair| pair[1] - pair[0] < 0.05).count()
+    };
+    assert!(spread(&made) > 2 * spread(&free), "{} {}", spread(&made), spread(&free));
+    assert!(found.off_mm[1] < found.off_mm[0], "{found:?}");
+    assert!(found.lengths[1] < found.lengths[0], "{found:?}");
+    let is_missed = report.findings.iter().any(|f| f.finding == PanelizeFinding::ManyLengths);
+    assert_eq!(is_missed, found.lengths[1] > 12, "{found:?}");
+}
+
+#[test]
+fn folds_and_hollows_beyond_their_limits_are_named() {
+    let mesh = roof(5000.0, 4000.0, 250.0, |x, y| (x * x - y * y) / 14_000.0);
+    let (_, report) = panelize(&mesh, &sized(1000.0), &Silent).expect("panels");
+    assert!((200.0..600.0).contains(&report.hollow_mm), "{report:?}");
+    assert!((2.0..20.0).contains(&report.largest_fold), "{report:?}");
+    assert_eq!(report.worst[0].1, report.deviation_mm[0]);
+    let params = PanelizeParams {
+        max_hollow: Some(Length::from_mm(report.hollow_mm * 0.99)),
+        max_fold: Some(crate::units::Angle::from_degrees(report.largest_fold * 0.99)),
+        ..sized(1000.0)
+    };
+    let (_, strict) = panelize(&mesh, &params, &Silent).expect("panels");
+    let named = |kind| strict.findings.iter().find(|p| p.finding == kind).map(|p| p.measured);
+    assert_eq!(named(PanelizeFinding::DeepHollow), Some(report.hollow_mm));
+    assert_eq!(named(PanelizeFinding::SharpFold), Some(report.largest_fold));
+    let dome = roof(5000.0, 4000.0, 250.0, |x, y| -(x * x + y * y) / 12_000.0);
+    let (_, report) = panelize(&dome, &sized(1000.0), &Silent).expect("panels");
+    assert!(report.hollow_mm < 1e-9, "a dome has convex panels: {report:?}");
 }

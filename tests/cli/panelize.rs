@@ -158,3 +158,60 @@ fn a_rough_surface_is_made_even_and_the_way_is_told() {
     let refused = run("0mm");
     assert!(refused.code == Some(2) && refused.err.contains("(E842)"), "{}", refused.err);
 }
+
+#[test]
+fn planes_of_a_file_are_those_of_panels_in_the_unit_of_the_surface() {
+    let folder = Folder::new("panelize-fix");
+    let out = folder.path("panels.obj");
+    let grid = written(&folder, "heights.csv", &dome(","));
+    let planes = written(&folder, "planes.csv", "nx,ny,nz,d\n# the top, lowered\n0,0,2,1.96\n");
+    let fixed = |planes: &str| {
+        run(&["panelize", &grid, "--units", "m", "--count", "24", "--fix", planes, "-o", &out])
+    };
+    let ran = fixed(&planes);
+    assert_panels(&ran, &out);
+    assert!(ran.err.contains("(line 3)"), "{}", ran.err);
+    let text = fs::read_to_string(&out).expect("panels");
+    let height = |line: &str| line.strip_prefix("v ")?.split(' ').nth(2)?.parse::<f64>().ok();
+    let on = text.lines().filter_map(height).filter(|z| (z - 980.0).abs() < 1e-9).count();
+    assert!(on >= 4, "{on} corners at 980 mm");
+    let high = written(&folder, "high.csv", "0,0,1,1\n0,0,1,3\n");
+    let ran = fixed(&high);
+    assert!(ran.code == Some(2) && ran.err.contains("line 2"), "{}", ran.err);
+    assert!(ran.err.contains("(E859)") && ran.err.contains("2000.0 mm off"), "{}", ran.err);
+    let ran = fixed(&written(&folder, "bad.csv", "0,0,1\n"));
+    assert!(ran.code == Some(2) && ran.err.contains("(E173)"), "{}", ran.err);
+    // As a step of a recipe, relative to it.
+    let recipe = "[[step]]\nheight = \"1-(x^2+y^2)/16\"\ndomain = \"6mx5m\"\nsteps = 40\n[[step]]\n\
+        panelize = \"count\"\ncount = 24\nfix = \"planes.csv\"\n";
+    let recipe = written(&folder, "dome.toml", recipe);
+    let ran = run(&["run", &recipe, "-o", &folder.path("made")]);
+    assert!(ran.err.contains("(line 3)"), "{}", ran.err);
+}
+
+#[test]
+fn panels_are_mirrored_and_edges_drawn_to_few_lengths() {
+    let folder = Folder::new("panelize-symmetry");
+    let out = folder.path("panels.obj");
+    let grid = written(&folder, "heights.csv", &dome(","));
+    let made = |options: &[&str]| {
+        let usual = ["panelize", &grid, "--units", "m", "--count", "24", "-o", &out];
+        run(&[&usual[..], options].concat())
+    };
+    let ran = made(&["--symmetry", "x,y"]);
+    assert_panels(&ran, &out);
+    for axis in ["mirrored across x = 0 mm", "mirrored across y = 0 mm"] {
+        assert!(ran.err.contains(axis), "{}", ran.err);
+    }
+    assert!(!ran.err.contains("neither"), "{}", ran.err);
+    // Two lengths are fewer than planar panels can have here: that is told, with what was reached.
+    let ran = made(&["--families", "2"]);
+    assert!(ran.code == Some(1) && ran.err.contains("(F615)"), "{}", ran.err);
+    assert!(ran.err.contains("2 families of lengths asked for"), "{}", ran.err);
+    let checked = run(&["check", &out, "--profile", "exact", "--require", "planar,valence3"]);
+    assert_eq!(checked.code, Some(0), "{}", checked.out);
+    let ran = made(&["--max-fold", "1deg", "--max-hollow", "0.01mm"]);
+    assert!(ran.code == Some(1) && ran.err.contains("(F616)"), "{}", ran.err);
+    let ran = made(&["--symmetry", "z"]);
+    assert!(ran.code == Some(2) && ran.err.contains("(E864)"), "{}", ran.err);
+}

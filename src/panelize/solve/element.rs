@@ -11,14 +11,17 @@ pub(super) struct Element {
     /// The slope; after [`Self::eliminate_plane`] that of the corners alone.
     pub slope: Vec<f64>,
     full_slope: Vec<f64>,
-    /// The inverse of the plane's own block.
+    /// The inverse of the plane's own block; zero when the plane is given.
     inverse: DMat3,
+    /// Whether the plane is given, and no unknown.
+    is_plane_fixed: bool,
     /// The row being summed up.
     row: Vec<(usize, f64)>,
 }
 
 impl Element {
-    pub(super) fn new(corners: usize) -> Self {
+    /// No terms yet, of a face with so many corners, whose plane may be given.
+    pub(super) fn new(corners: usize, is_plane_fixed: bool) -> Self {
         let size = 3 * corners + 3;
         Self {
             corners,
@@ -26,6 +29,7 @@ impl Element {
             slope: Vec::new(),
             full_slope: vec![0.0; size],
             inverse: DMat3::ZERO,
+            is_plane_fixed,
             row: Vec::with_capacity(size),
         }
     }
@@ -69,7 +73,8 @@ impl Element {
         let entry = |a: usize, b: usize| self.matrix[(n + a) * size + n + b];
         let own = DMat3::from_cols_array_2d(&[0, 1, 2].map(|b| [0, 1, 2].map(|a| entry(a, b))))
             + DMat3::from_diagonal(DVec3::splat(shift));
-        self.inverse = own.inverse();
+        // A plane that does not move adds nothing to how corners are coupled.
+        self.inverse = if self.is_plane_fixed { DMat3::ZERO } else { own.inverse() };
         if !self.inverse.is_finite() {
             return None;
         }

@@ -8,6 +8,7 @@
 //! `element`.
 
 mod element;
+mod lengths;
 mod planes;
 mod rim;
 mod symmetry;
@@ -16,6 +17,8 @@ mod terms;
 use glam::{DMat3, DVec3};
 
 use self::element::Element;
+use self::lengths::Wanted;
+pub(super) use self::lengths::wanted_lengths;
 pub(super) use self::planes::FacePlane;
 pub(super) use self::rim::{RimRow, RimRule, rim_plane_without_rim};
 pub(super) use self::symmetry::Symmetry;
@@ -29,6 +32,11 @@ use crate::geom::fronts::{BlockMatrix, FrontFactor, Fronts};
 const LONGEST_STEP: f64 = 0.3;
 /// The least shift of Levenberg's.
 const LEAST_SHIFT: f64 = 1e-6;
+/// Families weigh so much of their weight in the first round.
+const SOFT_FAMILY: f64 = 0.01;
+/// The shift with which lengths of families are made alike: more than rounding, since they need not
+/// all be possible.
+const FAMILY_SHIFT: f64 = 1e-5;
 /// Shifts that are tried in a round.
 const SHIFTS: usize = 5;
 
@@ -39,6 +47,8 @@ pub(super) struct Scene<'a> {
     pub quadrics: &'a [Quadric],
     pub limits: &'a Limits,
     pub rule: &'a RimRule,
+    /// The planes of the first faces, which are given.
+    pub fixed: &'a [FacePlane],
 }
 
 /// The panels with their planes, and what is known of them between rounds.
@@ -46,6 +56,8 @@ pub(super) struct Scene<'a> {
 pub(super) struct State {
     pub panels: Panels,
     pub planes: Vec<FacePlane>,
+    /// The planes of the first faces, if they are given: they are no unknowns.
+    pub fixed: Vec<FacePlane>,
     /// The area that each face should have.
     pub areas: Vec<f64>,
     /// Faces whose hinges were broken for long weigh more.
@@ -68,6 +80,8 @@ struct Round<'a> {
     rim: Vec<RimRow>,
     /// For each corner the node there, if its plates reach too far.
     nodes: Vec<Option<terms::Node>>,
+    /// The lengths that edges are drawn to; empty when they are free.
+    lengths: Wanted,
 }
 
 /// Which unknowns a run solves for.
@@ -90,9 +104,9 @@ impl State {
     ) -> Self {
         let stress = vec![1.0; panels.faces.len()];
         let (fans, across, planes, owners) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let shift = LEAST_SHIFT;
+        let (shift, fixed) = (LEAST_SHIFT, scene.fixed.to_vec());
         let mut made =
-            Self { panels, planes, areas, stress, fans, across, symmetry, owners, shift };
+            Self { panels, planes, fixed, areas, stress, fans, across, symmetry, owners, shift };
         if let Some(symmetry) = &made.symmetry {
             symmetry.spread(&mut made.panels.points);
         }
@@ -144,7 +158,13 @@ impl State {
                 let centre = self.panels.centre(f);
                 let hint = self.panels.hint(f);
                 let up = self.height(scene, centre, hint).normal;
-                FacePlane::fit(&self.panels, f, up)
+                match self.fixed.get_mut(f) {
+                    None => FacePlane::fit(&self.panels, f, up),
+                    Some(fixed) => {
+                        *fixed = fixed.facing(up);
+                        fixed.moved_to(centre)
+                    }
+                }
             })
             .collect();
     }
@@ -162,6 +182,13 @@ impl State {
     /// Whether a face carries the terms of an edge, of the two faces there.
     fn carries_edge(&self, f: usize, other: usize) -> bool {
         other == NONE || other > f || !self.is_first_face(other)
+    }
+
+    /// Puts images where the corners that are solved for say.
+    pub(super) fn spread(&mut self) {
+        if let Some(symmetry) = &self.symmetry {
+            symmetry.spread(&mut self.panels.points);
+        }
     }
 
     /// Moves images after those that were solved for, and their planes.
@@ -191,8 +218,12 @@ impl State {
             }
             let share = (round as f64 / (0.7 * run.rounds as f64).max(1.0)).min(1.0);
             let planarity = run.from * (run.to / run.from).powf(share);
-            let weights = Weights { planarity, ..run.weights };
-            self.round(scene, &unknowns, &weights, (&start, round));
+            // Families are asked for softly first, so that edges find the nearest.
+            let family = run.weights.family * SOFT_FAMILY.powf(1.0 - share);
+            let weights = Weights { planarity, family, ..run.weights };
+            let lengths = run.families.map(|count| wanted_lengths(&self.panels, count));
+            let lengths = lengths.unwrap_or_default();
+            self.round(scene, &unknowns, &weights, (&start, round, lengths));
         }
     }
 
@@ -202,10 +233,11 @@ impl State {
         scene: Scene<'_>,
         unknowns: &Unknowns,
         weights: &Weights,
-        (start, round): (&[DVec3], usize),
+        (start, round, lengths): (&[DVec3], usize, Wanted),
     ) {
         self.follow_surface(scene, unknowns);
-        let terms = Round { start, rim: RimRow::all(scene, &self.panels), nodes: self.far_nodes() };
+        let (rim, nodes) = (RimRow::all(scene, &self.panels), self.far_nodes());
+        let terms = Round { start, rim, nodes, lengths };
         let mut elements: Vec<Element> =
             unknowns.faces.iter().map(|&f| self.element(scene, f, weights, &terms)).collect();
         if round % 4 == 3 {
@@ -236,10 +268,10 @@ impl State {
             let local: Vec<usize> =
                 (0..face.len()).filter(|&i| unknowns.node[face[i]] != NONE).collect();
             if self.symmetry.is_some() {
-                let images: Vec<(usize, DMat3)> =
-                    face.iter().map(|&v| (unknowns.node[v], self.image(v))).collect();
+                let image = |i: usize| (i, unknowns.node[face[i]], self.image(face[i]));
+                let images: Vec<(usize, usize, DMat3)> = local.into_iter().map(image).collect();
                 add_images(unknowns, clique, element, &images, &mut matrix);
-                for (i, (node, image)) in images.into_iter().enumerate() {
+                for (i, node, image) in images {
                     let slope = DVec3::from_slice(&element.slope[3 * i..]);
                     let slope = (image.transpose() * slope).to_array();
                     (0..3).for_each(|a| right[3 * node + a] -= slope[a]);
@@ -276,7 +308,9 @@ impl State {
         }
         self.follow_firsts();
         for &f in &unknowns.faces {
-            self.planes[f] = self.planes[f].moved_to(self.panels.centre(f));
+            // A given plane is never written anew, so it stays to the last digit.
+            let plane = self.fixed.get(f).unwrap_or(&self.planes[f]);
+            self.planes[f] = plane.moved_to(self.panels.centre(f));
         }
     }
 
@@ -327,10 +361,11 @@ impl State {
         let Some(unknowns) = self.unknowns(None) else { return 0.0 };
         let shift = std::mem::replace(&mut self.shift, 1e-10);
         let mut best: Option<(f64, Self)> = None;
+        let free = Wanted::new();
         for _ in 0..rounds {
             let rim = RimRow::all(scene, &self.panels);
             let mut elements: Vec<Element> =
-                unknowns.faces.iter().map(|&f| self.polish_element(f, &rim)).collect();
+                unknowns.faces.iter().map(|&f| self.polish_element(f, &rim, &free)).collect();
             let Some(steps) = self.solve(&unknowns, &mut elements) else { break };
             self.step(&unknowns, &elements, &steps);
             let lack = self.lack(scene);
@@ -347,6 +382,35 @@ impl State {
         });
         self.shift = shift;
         lack
+    }
+
+    /// Rounds of nothing but planarity, hard rims and the lengths of so many families, by the least
+    /// steps, as long as they come nearer.
+    pub(super) fn polish_families(&mut self, scene: Scene<'_>, rounds: usize, count: usize) {
+        let Some(unknowns) = self.unknowns(None) else { return };
+        let shift = std::mem::replace(&mut self.shift, FAMILY_SHIFT);
+        let wanted = wanted_lengths(&self.panels, count);
+        let off = |state: &Self| {
+            let ends =
+                |&[u, v]: &[usize; 2]| state.panels.points[u].distance(state.panels.points[v]);
+            let lengths = wanted.iter().map(|(edge, length)| (ends(edge) - length).powi(2));
+            lengths.sum::<f64>().sqrt() + state.lack(scene)
+        };
+        let (mut least, mut best) = (off(self), self.clone());
+        for _ in 0..rounds {
+            let rim = RimRow::all(scene, &self.panels);
+            let mut elements: Vec<Element> =
+                unknowns.faces.iter().map(|&f| self.polish_element(f, &rim, &wanted)).collect();
+            let Some(steps) = self.solve(&unknowns, &mut elements) else { break };
+            self.step(&unknowns, &elements, &steps);
+            let now = off(self);
+            if now >= least {
+                break;
+            }
+            (least, best) = (now, self.clone());
+        }
+        *self = best;
+        self.shift = shift;
     }
 
     /// The largest distance of a corner from one of its planes or from a hard rim.
@@ -373,6 +437,8 @@ pub(super) struct Run<'a> {
     pub weights: Weights,
     /// Faces whose corners may move; all without it.
     pub active: Option<&'a [bool]>,
+    /// Into how many families of one length edges are drawn; none without it.
+    pub families: Option<usize>,
 }
 
 /// Adds the part of an element that belongs to corners that move.
@@ -408,20 +474,21 @@ fn without_repeats(all: impl Iterator<Item = usize>) -> Vec<usize> {
     kept
 }
 
-/// Adds an element of which several corners may be images of one place.
+/// Adds an element of which several corners may be images of one place: each by its number in the
+/// face, its node and what takes that to it.
 fn add_images(
     unknowns: &Unknowns,
     clique: usize,
     element: &Element,
-    images: &[(usize, DMat3)],
+    images: &[(usize, usize, DMat3)],
     matrix: &mut BlockMatrix,
 ) {
-    let nodes = without_repeats(images.iter().map(|&(node, _)| node));
+    let nodes = without_repeats(images.iter().map(|&(_, node, _)| node));
     let place = |node: usize| nodes.iter().position(|&n| n == node).unwrap_or(0);
     let size = 3 * nodes.len();
     let mut block = vec![0.0; size * size];
-    for (i, &(node_i, image_i)) in images.iter().enumerate() {
-        for (j, &(node_j, image_j)) in images.iter().enumerate() {
+    for &(i, node_i, image_i) in images {
+        for &(j, node_j, image_j) in images {
             let column = |b: usize| [0, 1, 2].map(|a| element.reduced(3 * i + a, 3 * j + b));
             let own = DMat3::from_cols_array_2d(&[0, 1, 2].map(column));
             let mut own = image_i.transpose() * own * image_j;

@@ -45,7 +45,7 @@ impl FacePlane {
     }
 
     /// The same plane by the point of it that is nearest to a place.
-    pub(super) fn moved_to(&self, place: DVec3) -> Self {
+    pub(in super::super) fn moved_to(&self, place: DVec3) -> Self {
         Self { point: place - self.normal * self.distance(place), ..*self }
     }
 }

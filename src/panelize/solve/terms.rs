@@ -5,9 +5,11 @@ use std::f64::consts::TAU;
 
 use glam::{DMat3, DVec3};
 
+use super::super::refine::edge;
 use super::super::regions::Kind;
-use super::super::sites::PANEL_AREA;
+use super::super::surface::PANEL_AREA;
 use super::element::Element;
+use super::lengths::Wanted;
 use super::{RimRow, Round, Scene, State, Unknowns};
 
 /// What each term weighs.
@@ -44,6 +46,8 @@ pub(in super::super) struct Weights {
     pub node: f64,
     /// Corners at a rim lie on its curve.
     pub rim: f64,
+    /// Edges have the length of their family.
+    pub family: f64,
 }
 
 impl Default for Weights {
@@ -64,6 +68,7 @@ impl Default for Weights {
             far: 2.0,
             node: 0.05,
             rim: 2.0,
+            family: 0.0,
         }
     }
 }
@@ -171,7 +176,7 @@ impl State {
         round: &Round<'_>,
     ) -> Element {
         let view = View::new(self, f);
-        let mut element = Element::new(view.len());
+        let mut element = Element::new(view.len(), f < self.fixed.len());
         self.planarity(&view, weights.planarity, &mut element);
         self.closeness(scene, &view, weights, &mut element);
         self.star_shape(&view, scene.limits, weights.star, &mut element);
@@ -180,6 +185,7 @@ impl State {
         angles(&view, scene.limits, weights.angle, &mut element);
         self.movement(&view, weights, round.start, &mut element);
         self.nodes(&view, weights.node, &round.nodes, &mut element);
+        self.lengths(&view, weights.family, &round.lengths, &mut element);
         if self.is_inner_face(f) {
             self.regularity(&view, weights, &mut element);
         }
@@ -192,11 +198,12 @@ impl State {
         element
     }
 
-    /// Planarity and hard rims alone.
-    pub(super) fn polish_element(&self, f: usize, rim: &[RimRow]) -> Element {
+    /// Planarity and hard rims alone, and lengths if there are any.
+    pub(super) fn polish_element(&self, f: usize, rim: &[RimRow], lengths: &Wanted) -> Element {
         let view = View::new(self, f);
-        let mut element = Element::new(view.len());
+        let mut element = Element::new(view.len(), f < self.fixed.len());
         self.planarity(&view, 1.0, &mut element);
+        self.lengths(&view, 1.0, lengths, &mut element);
         for i in self.owned(&view) {
             for row in rows_of(rim, view.corners[i]).iter().filter(|row| row.is_hard) {
                 element.by(i, row.normal).residual(row.distance(view.places[i]), 1.0);
@@ -294,6 +301,21 @@ impl State {
             let stress = (0.6 * limits.edge / length.max(1e-9)).clamp(1.0, MOST_STRESS);
             element.by(j, direction).by(i, -direction);
             element.residual(length - limits.edge, weight / limits.edge * stress.sqrt());
+        }
+    }
+
+    /// Edges have the length that is wanted of them.
+    fn lengths(&self, view: &View, weight: f64, wanted: &Wanted, element: &mut Element) {
+        for i in 0..view.len() {
+            let (j, other) = (view.next(i), self.across[view.face][i]);
+            let ends = edge(view.corners[i], view.corners[j]);
+            let Some(length) = wanted.get(&ends) else { continue };
+            if self.carries_edge(view.face, other) {
+                let way = view.places[j] - view.places[i];
+                let direction = way / way.length().max(1e-9);
+                element.by(j, direction).by(i, -direction);
+                element.residual(way.length() - length, weight);
+            }
         }
     }
 

@@ -108,7 +108,7 @@ mod tests {
 
     #[test]
     fn minus_zero_is_zero() {
-        assert_eq!(first_equal([DVec3::ZERO, DVec3::X, -DVec3::ZERO].iter()), [0, 1, 0]);
+        assert_eq!(first_equal(&[DVec3::ZERO, DVec3::X, -DVec3::ZERO]), [0, 1, 0]);
     }
 
     proptest! {

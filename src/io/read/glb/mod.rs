@@ -230,7 +230,7 @@ impl Body {
 
     /// Hands welded vertices and triangles on; vertices without a triangle stay behind.
     fn finish(self, raw: &mut RawMesh) {
-        let first = first_equal(self.positions.iter());
+        let first = first_equal(&self.positions);
         let mut numbers = vec![u32::MAX; self.positions.len()];
         let is_mirrored = self.place.determinant() < 0.0;
         for triangle in self.corners.chunks_exact(3) {

@@ -123,6 +123,20 @@ pub(super) fn keep_cut_simple(mesh: &mut Mesh, made: &mut NewElements) {
     part_rims(mesh, made);
 }
 
+/// Makes one vertex of two that came out at the same numbers at both ends of an edge, as they do where
+/// planes meet nearly at one point; faces of which two sides are left go. Only made vertices are
+/// looked at. Ids stay, with gaps.
+pub(super) fn join_points(mesh: &mut Mesh, made: &[VertexId]) {
+    for _ in 0..MOST_PASSES {
+        let there: Vec<VertexId> = made.iter().copied().filter(|&v| mesh.has_vertex(v)).collect();
+        let faults = mesh.file_faults_at(&there);
+        if collapse_points(mesh, &faults) == 0 {
+            return;
+        }
+        dissolve_two_gons(mesh);
+    }
+}
+
 /// Pulls vertices apart through which several rims run, where nothing else keeps the mesh from
 /// being a file.
 pub(super) fn part_rims(mesh: &mut Mesh, made: &mut NewElements) {

@@ -67,8 +67,7 @@ impl SliceParams {
 ///
 /// # Errors
 /// [`OpError::NoDirection`], [`OpError::BadPoint`], [`OpError::NothingLeft`] when the plane leaves
-/// no mesh, [`OpError::NotSimple`] when vertices come out at one point, [`OpError::TwoParts`] for
-/// [`Keep::Both`], which [`slice_both`] is for.
+/// no mesh, [`OpError::TwoParts`] for [`Keep::Both`], which [`slice_both`] is for.
 ///
 /// # Example
 /// ```
@@ -108,7 +107,7 @@ pub fn slice(
         made,
         ..CutReport::default()
     };
-    finish(cutter.into_mesh(), report)
+    Ok(finish(cutter.into_mesh(), report))
 }
 
 /// Cuts a mesh by a plane and keeps both parts: first the one on the reverse side, then the one on

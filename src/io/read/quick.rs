@@ -57,8 +57,8 @@ fn digits(rest: &mut &[u8]) -> Option<u32> {
     let count = rest.iter().take_while(|b| b.is_ascii_digit()).count();
     let (number, after) = rest.split_at(count);
     *rest = after;
-    let value = number.iter().fold(0, |value, b| 10 * value + u32::from(b - b'0'));
-    (1..=9).contains(&count).then_some(value)
+    let value = || number.iter().fold(0, |value, b| 10 * value + u32::from(b - b'0'));
+    (1..=9).contains(&count).then(value)
 }
 
 #[cfg(test)]

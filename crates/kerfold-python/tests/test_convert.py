@@ -105,7 +105,7 @@ def test_ifc(here: Path) -> None:
     assert file.to_string() == convert.to_ifc(panels, name="lobby").to_string()
     file.write("plates.ifc")
     read = ifcopenshell.open("plates.ifc")
-    log = validate.json_logger()
+    log = validate.json_logger()  # type: ignore[no-untyped-call]
     validate.validate(read, log, express_rules=True)
     assert log.statements == []
     (wall,) = read.by_type("IfcCurtainWall")

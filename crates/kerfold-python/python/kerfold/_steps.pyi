@@ -40,6 +40,7 @@ class Steps:
         height: Words,
         *,
         domain: Words,
+        steps: int = 160,
     ) -> Mesh: ...
     @classmethod
     def planes(
@@ -136,11 +137,21 @@ class Steps:
         *,
         count: Optional[int] = None,
         sag: Optional[Length] = None,
-        align: Literal["flat", "rim", "none"] = "flat",
+        layout: Words = "free",
+        align: Words = "flat",
         even: Number = 0.2,
         rim: Words = "free",
+        fix: Words = "none",
+        symmetry: Words = "none",
+        families: Optional[int] = None,
+        crease: Optional[Angle] = None,
+        smooth: Optional[Length] = None,
         min_edge: Number = 0.18,
         min_angle: Angle = "25deg",
+        max_off: Optional[Length] = None,
+        max_reach: Number = 1.5,
+        max_fold: Optional[Angle] = None,
+        max_hollow: Optional[Length] = None,
         max_panel: Optional[Words] = None,
         seed: int = 1,
     ) -> Mesh: ...
@@ -382,6 +393,7 @@ class Steps:
         colour: Literal["faces", "planarity", "valence", "group", "piece"] = "faces",
         up: Literal["z", "y"] = "z",
         projection: Literal["perspective", "parallel"] = "perspective",
+        zoom: Number = 1,
         edges: Literal["on", "off"] = "on",
         ids: Literal["none", "vertices", "edges", "faces"] = "none",
         surface: Literal["solid", "x-ray", "smooth"] = "solid",
@@ -391,4 +403,5 @@ class Steps:
         normal: Optional[Direction] = None,
         point: Optional[Point] = None,
         before: Literal["off", "on"] = "off",
+        story: Optional[Union[Literal["start", "each", "cuts", "cut", "steps", "model", "sheets"], Sequence[Literal["start", "each", "cuts", "cut", "steps", "model", "sheets"]], str]] = None,
     ) -> Picture: ...

@@ -309,12 +309,15 @@ impl RoundMarks {
 }
 
 /// Closes the gaps in the mesh and fills in what only the result can tell.
-pub(super) fn finish(mut mesh: Mesh, mut report: CutReport) -> (Mesh, CutReport) {
+///
+/// # Errors
+/// [`OpError::NotSimple`] for a face that comes twice to a vertex and cannot be divided.
+pub(super) fn finish(mut mesh: Mesh, mut report: CutReport) -> Result<(Mesh, CutReport), OpError> {
     join_points(&mut mesh, &report.made.vertices);
     let map = report.made.compact(&mut mesh);
     report.origins = report.origins.renumbered(&map, mesh.face_slots());
-    keep_cut_simple(&mut mesh, &mut report.made);
+    keep_cut_simple(&mut mesh, &mut report.made)?;
     report.not_three_valent = mesh.vertices().filter(|&v| mesh.valence(v) != 3).collect();
     report.components = mesh.components().len();
-    (mesh, report)
+    Ok((mesh, report))
 }

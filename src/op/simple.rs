@@ -111,7 +111,11 @@ fn has_pinches(mesh: &Mesh) -> bool {
 
 /// Makes a result of cuts one that files can hold: faces that come twice to a vertex are divided, and
 /// rims parted. Ids of faces stay, parts of faces get new ones.
-pub(super) fn keep_cut_simple(mesh: &mut Mesh, made: &mut NewElements) {
+///
+/// # Errors
+/// [`OpError::NotSimple`] for a face that still comes twice to a made vertex, where no self-loops and
+/// 2-gons say that the mesh is on the way to something else.
+pub(super) fn keep_cut_simple(mesh: &mut Mesh, made: &mut NewElements) -> Result<(), OpError> {
     if !is_unfinished(mesh)
         && divide_repeated(mesh, made) > 0
         && is_unfinished(mesh)
@@ -121,6 +125,14 @@ pub(super) fn keep_cut_simple(mesh: &mut Mesh, made: &mut NewElements) {
         *mesh = parted;
     }
     part_rims(mesh, made);
+    let is_repeated = |fault: &FileFault| matches!(fault, FileFault::RepeatedCorner { .. });
+    match mesh.file_faults_at(&made.vertices).into_iter().find(is_repeated) {
+        Some(fault) if !is_unfinished(mesh) => {
+            let advice = "take a smaller offset, or fewer elements at once";
+            Err(OpError::NotSimple { fault, advice })
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Makes one vertex of two that came out at the same numbers at both ends of an edge, as they do where

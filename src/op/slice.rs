@@ -67,7 +67,8 @@ impl SliceParams {
 ///
 /// # Errors
 /// [`OpError::NoDirection`], [`OpError::BadPoint`], [`OpError::NothingLeft`] when the plane leaves
-/// no mesh, [`OpError::TwoParts`] for [`Keep::Both`], which [`slice_both`] is for.
+/// no mesh, [`OpError::NotSimple`] when a face comes twice to a vertex and cannot be divided,
+/// [`OpError::TwoParts`] for [`Keep::Both`], which [`slice_both`] is for.
 ///
 /// # Example
 /// ```
@@ -107,7 +108,7 @@ pub fn slice(
         made,
         ..CutReport::default()
     };
-    Ok(finish(cutter.into_mesh(), report))
+    finish(cutter.into_mesh(), report)
 }
 
 /// Cuts a mesh by a plane and keeps both parts: first the one on the reverse side, then the one on

@@ -216,7 +216,7 @@ pub(super) fn truncate(
             return Err(OpError::NothingLeft { cut: report.cuts, cuts: report.cuts });
         }
     }
-    Ok(finish(cutter.into_mesh(), report))
+    finish(cutter.into_mesh(), report)
 }
 
 /// Tries a round, makes the offsets of those elements smaller whose cuts meet, and tries again from

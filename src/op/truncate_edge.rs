@@ -98,7 +98,8 @@ impl TruncateEdgeParams {
 /// # Errors
 /// [`OpError::Select`] for an empty selection, [`OpError::OffsetOutOfRange`],
 /// [`OpError::BendOutOfRange`], [`OpError::RepeatOutOfRange`], [`OpError::NoPlaneAtEdge`],
-/// [`OpError::NothingLeft`] when the planes leave no mesh, [`OpError::NotDisjoint`] when disjoint
+/// [`OpError::NothingLeft`] when the planes leave no mesh, [`OpError::NotSimple`] when a face comes
+/// twice to a vertex and cannot be divided, [`OpError::NotDisjoint`] when disjoint
 /// cuts were asked for and cannot be had; [`OpError::Roll`] for edges that cannot be rolled,
 /// [`OpError::Exclude`] and [`OpError::Requires`] for options that do not go together.
 ///

@@ -60,8 +60,8 @@ impl TruncateFaceParams {
 /// # Errors
 /// [`OpError::Select`] for an empty selection, [`OpError::OffsetOutOfRange`],
 /// [`OpError::RepeatOutOfRange`], [`OpError::NoPlaneAtFace`], [`OpError::NothingLeft`] when the
-/// planes leave no mesh, [`OpError::NotDisjoint`] when disjoint cuts were asked for and cannot be
-/// had.
+/// planes leave no mesh, [`OpError::NotSimple`] when a face comes twice to a vertex and cannot be
+/// divided, [`OpError::NotDisjoint`] when disjoint cuts were asked for and cannot be had.
 ///
 /// # Example
 /// ```

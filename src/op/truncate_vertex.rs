@@ -78,8 +78,8 @@ impl TruncateVertexParams {
 /// # Errors
 /// [`OpError::Select`] for an empty selection, [`OpError::OffsetOutOfRange`],
 /// [`OpError::RepeatOutOfRange`], [`OpError::NoPlaneAtVertex`], [`OpError::NothingLeft`] when the
-/// planes leave no mesh, [`OpError::NotDisjoint`] when disjoint cuts were asked for and cannot be
-/// had.
+/// planes leave no mesh, [`OpError::NotSimple`] when a face comes twice to a vertex and cannot be
+/// divided, [`OpError::NotDisjoint`] when disjoint cuts were asked for and cannot be had.
 ///
 /// # Example
 /// ```

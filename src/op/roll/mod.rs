@@ -176,7 +176,7 @@ fn cut_rolls(
     }
     report.made = marks.collect(&cutter);
     report.origins = report.origins.after(&cutter, &marks);
-    Ok(finish(cutter.into_mesh(), report))
+    finish(cutter.into_mesh(), report)
 }
 
 /// The planes of one edge, in their order around it: each begins where the one before ended.

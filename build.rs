@@ -1,5 +1,5 @@
-//! Lists the bundled recipes and the meshes and outlines that they read, so that the installed program carries
-//! them.
+//! Lists the bundled recipes and the meshes and outlines that they read, so that the installed
+//! program carries them.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};

@@ -91,28 +91,32 @@ pub(super) fn quadrics(surface: &Surface) -> Vec<Quadric> {
 
 /// The quadrics of so many vertices.
 pub(super) fn first_quadrics(surface: &Surface, count: usize) -> Vec<Quadric> {
+    of_surroundings(surface, count, |v, near| fit(surface, v, near.iter().copied()))
+}
+
+/// How high the quadric at each vertex lies above it, along its normal: small where the surface is
+/// smooth at the scale of a panel.
+pub(super) fn offsets(surface: &Surface) -> Vec<f64> {
+    let count = surface.points.len();
+    of_surroundings(surface, count, |v, near| {
+        fit_quadric(samples(surface, v, near.iter().copied()))[0]
+    })
+}
+
+/// What `of` makes of each of so many vertices and those around it that fits use, itself among them.
+fn of_surroundings<T>(
+    surface: &Surface,
+    count: usize,
+    of: impl Fn(usize, &[usize]) -> T,
+) -> Vec<T> {
     let used = used_in_fits(surface);
     let mut seen = vec![usize::MAX; surface.points.len()];
     let mut near = Vec::new();
     (0..count)
         .map(|v| {
             around(surface, v, &mut seen, &mut near);
-            fit(surface, v, near.iter().copied().filter(|&u| used[u] || u == v))
-        })
-        .collect()
-}
-
-/// How high the quadric at each vertex lies above it, along its normal: small where the surface is
-/// smooth at the scale of a panel.
-pub(super) fn offsets(surface: &Surface) -> Vec<f64> {
-    let used = used_in_fits(surface);
-    let mut seen = vec![usize::MAX; surface.points.len()];
-    let mut near = Vec::new();
-    (0..surface.points.len())
-        .map(|v| {
-            around(surface, v, &mut seen, &mut near);
-            let near = near.iter().copied().filter(|&u| used[u] || u == v);
-            fit_quadric(samples(surface, v, near))[0]
+            near.retain(|&u| used[u] || u == v);
+            of(v, &near)
         })
         .collect()
 }

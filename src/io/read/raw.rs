@@ -108,6 +108,21 @@ impl RawMesh {
         dropped
     }
 
+    /// Drops triangles of which two corners are one, as welding leaves them, and notes it. All faces
+    /// are triangles.
+    pub fn drop_flat_triangles(&mut self) {
+        let is_flat = |t: &[u32]| t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+        if !self.corners.chunks_exact(3).any(is_flat) {
+            return;
+        }
+        let dropped = self.change_faces(|face| {
+            if is_flat(face) {
+                face.clear();
+            }
+        });
+        self.notes.extend(dropped.map(|(count, first)| ReadNote::DroppedFaces { count, first }));
+    }
+
     /// Takes corners away that repeat the one before them, and divides faces that visit a vertex
     /// twice into simple ones; the further parts stand behind all faces, so that the others keep
     /// their numbers. What cannot be divided is left for the builder to report.

@@ -168,16 +168,7 @@ fn welded(soup: Soup) -> RawMesh {
     }
     raw.corners = first.iter().map(|&at| numbers[at as usize]).collect();
     raw.ends = (1..=first.len() / 3).map(|triangle| 3 * triangle).collect();
-    let is_flat = |t: &[u32]| t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-    let has_flat = raw.corners.chunks_exact(3).any(is_flat);
-    if has_flat {
-        let dropped = raw.change_faces(|face| {
-            if is_flat(face) {
-                face.clear()
-            }
-        });
-        raw.notes.extend(dropped.map(|(count, first)| ReadNote::DroppedFaces { count, first }));
-    }
+    raw.drop_flat_triangles();
     raw
 }
 

@@ -95,9 +95,9 @@ fn sides(corners: &[DVec2]) -> impl Iterator<Item = [DVec2; 2]> + '_ {
     (0..corners.len()).map(|i| [corners[i], corners[(i + 1) % corners.len()]])
 }
 
-/// Length and width of the rectangle of least area around points, the longer one first; nothing
-/// for no points. One of its
-/// sides lies along a side of the convex hull (Freeman and Shapira 1975).
+/// Length and width of the rectangle of least area around points, the longer one first, in the unit of
+/// the points; both are 0 for no points. One of its sides lies along a side of the convex hull
+/// (Freeman and Shapira 1975).
 pub fn smallest_rectangle(points: &[DVec2]) -> [f64; 2] {
     let hull = convex_hull(points);
     let n = hull.len();

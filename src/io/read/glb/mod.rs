@@ -69,21 +69,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawMesh, Located> {
         raw.notes.extend((count > 0).then_some(ReadNote::LeftOut { count, what }));
     }
     raw.notes.extend((rest > 0).then_some(ReadNote::Rest { bytes: rest }));
-    drop_flat(&mut raw);
+    raw.drop_flat_triangles();
     Ok(raw)
-}
-
-/// Triangles that lost a corner by welding are dropped and noted.
-fn drop_flat(raw: &mut RawMesh) {
-    let is_flat = |t: &[u32]| t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-    if raw.corners.chunks_exact(3).any(is_flat) {
-        let dropped = raw.change_faces(|face| {
-            if is_flat(face) {
-                face.clear()
-            }
-        });
-        raw.notes.extend(dropped.map(|(count, first)| ReadNote::DroppedFaces { count, first }));
-    }
 }
 
 /// The bodies of a scene in the making.

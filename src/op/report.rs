@@ -3,7 +3,7 @@
 use super::OpError;
 use super::cut::{Cutter, Lineage};
 use super::rolled::{RollLimit, RolledEdge};
-use super::simple::{join_points, keep_cut_simple};
+use super::simple::{drop_flat, keep_cut_simple};
 use crate::code::Code;
 use crate::measure::{CrossingKind, CrossingPair, crossings_while};
 use crate::mesh::{EdgeId, FaceId, Mesh, Renumbering, VertexId};
@@ -311,9 +311,9 @@ impl RoundMarks {
 /// Closes the gaps in the mesh and fills in what only the result can tell.
 ///
 /// # Errors
-/// [`OpError::NotSimple`] for a face that comes twice to a vertex and cannot be divided.
+/// [`OpError::NotSimple`] for a face that comes twice to a vertex or has no area, and cannot be mended.
 pub(super) fn finish(mut mesh: Mesh, mut report: CutReport) -> Result<(Mesh, CutReport), OpError> {
-    join_points(&mut mesh, &report.made.vertices);
+    drop_flat(&mut mesh, &report.made.vertices);
     let map = report.made.compact(&mut mesh);
     report.origins = report.origins.renumbered(&map, mesh.face_slots());
     keep_cut_simple(&mut mesh, &mut report.made)?;

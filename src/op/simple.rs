@@ -5,7 +5,8 @@
 use super::OpError;
 use super::divide::divide_repeated;
 use crate::mesh::{
-    BuildError, EdgeId, FaceId, FileFault, HalfEdgeId, Mesh, MeshBuilder, VertexId, VertexMap,
+    BuildError, Corner, EdgeId, FaceId, FileFault, HalfEdgeId, Mesh, MeshBuilder, VertexId,
+    VertexMap,
 };
 use crate::select::NewElements;
 
@@ -113,8 +114,8 @@ fn has_pinches(mesh: &Mesh) -> bool {
 /// rims parted. Ids of faces stay, parts of faces get new ones.
 ///
 /// # Errors
-/// [`OpError::NotSimple`] for a face that still comes twice to a made vertex, where no self-loops and
-/// 2-gons say that the mesh is on the way to something else.
+/// [`OpError::NotSimple`] for a face at a made vertex that still comes twice to a vertex or has no
+/// area, where no self-loops and 2-gons say that the mesh is on the way to something else.
 pub(super) fn keep_cut_simple(mesh: &mut Mesh, made: &mut NewElements) -> Result<(), OpError> {
     if !is_unfinished(mesh)
         && divide_repeated(mesh, made) > 0
@@ -125,8 +126,7 @@ pub(super) fn keep_cut_simple(mesh: &mut Mesh, made: &mut NewElements) -> Result
         *mesh = parted;
     }
     part_rims(mesh, made);
-    let is_repeated = |fault: &FileFault| matches!(fault, FileFault::RepeatedCorner { .. });
-    match mesh.file_faults_at(&made.vertices).into_iter().find(is_repeated) {
+    match mesh.file_faults_at(&made.vertices).into_iter().next() {
         Some(fault) if !is_unfinished(mesh) => {
             let advice = "take a smaller offset, or fewer elements at once";
             Err(OpError::NotSimple { fault, advice })
@@ -135,18 +135,33 @@ pub(super) fn keep_cut_simple(mesh: &mut Mesh, made: &mut NewElements) -> Result
     }
 }
 
-/// Makes one vertex of two that came out at the same numbers at both ends of an edge, as they do where
-/// planes meet nearly at one point; faces of which two sides are left go. Only made vertices are
-/// looked at. Ids stay, with gaps.
-pub(super) fn join_points(mesh: &mut Mesh, made: &[VertexId]) {
+/// Takes out what has no extent at made vertices, as it comes where planes meet nearly at one point
+/// or one line: of two vertices at the same numbers at both ends of an edge one stays, and faces of
+/// which two sides are left, or whose corners lie on one line, go. Ids stay, with gaps.
+pub(super) fn drop_flat(mesh: &mut Mesh, made: &[VertexId]) {
+    let mut near = made.to_vec();
     for _ in 0..MOST_PASSES {
-        let there: Vec<VertexId> = made.iter().copied().filter(|&v| mesh.has_vertex(v)).collect();
-        let faults = mesh.file_faults_at(&there);
-        if collapse_points(mesh, &faults) == 0 {
+        near.retain(|&v| mesh.has_vertex(v));
+        let faults = mesh.file_faults_at(&near);
+        let mut dropped = collapse_points(mesh, &faults);
+        if dropped == 0 {
+            // What such a face hid between given vertices is found in the next pass.
+            near.extend(flat_faces(&faults).flat_map(|f| mesh.face_vertices(f)));
+            dropped = dissolve_lines(mesh, &faults);
+        }
+        if dropped == 0 {
             return;
         }
         dissolve_two_gons(mesh);
     }
+}
+
+/// The faces without area among faults.
+fn flat_faces(faults: &[FileFault]) -> impl Iterator<Item = FaceId> + '_ {
+    faults.iter().filter_map(|fault| match *fault {
+        FileFault::NoArea(f) => Some(f),
+        _ => None,
+    })
 }
 
 /// Pulls vertices apart through which several rims run, where nothing else keeps the mesh from
@@ -258,25 +273,25 @@ fn make_simple(mesh: &mut Mesh, made: &mut NewElements) -> Mended {
 /// Takes 2-gons out: the two edges become one.
 fn dissolve_two_gons(mesh: &mut Mesh) -> usize {
     let gons: Vec<FaceId> = mesh.faces().filter(|&f| is_two_gon(mesh, f)).collect();
-    let mut count = 0;
-    for f in gons {
-        // Another one beside it may have taken it along.
-        if !mesh.has_face(f) || !is_two_gon(mesh, f) {
-            continue;
-        }
-        let sides: Vec<HalfEdgeId> = mesh.face_half_edges(f).collect();
-        let [a, b] = sides[..] else { continue };
-        // Two faces of two sides are all that there is of their component.
-        let beside = mesh.face(a.twin());
-        if beside == f || beside == mesh.face(b.twin()) {
-            continue;
-        }
-        let is_seam = mesh.is_seam(a.edge()) || mesh.is_seam(b.edge());
-        mesh.delete_edge_of(a);
-        mesh.set_seam(b.edge(), is_seam);
-        count += 1;
+    gons.into_iter().filter(|&f| dissolve_two_gon(mesh, f)).count()
+}
+
+fn dissolve_two_gon(mesh: &mut Mesh, f: FaceId) -> bool {
+    // Another one beside it may have taken it along.
+    if !mesh.has_face(f) || !is_two_gon(mesh, f) {
+        return false;
     }
-    count
+    let sides: Vec<HalfEdgeId> = mesh.face_half_edges(f).collect();
+    let [a, b] = sides[..] else { return false };
+    // Two faces of two sides are all that there is of their component.
+    let beside = mesh.face(a.twin());
+    if beside == f || beside == mesh.face(b.twin()) {
+        return false;
+    }
+    let is_seam = mesh.is_seam(a.edge()) || mesh.is_seam(b.edge());
+    mesh.delete_edge_of(a);
+    mesh.set_seam(b.edge(), is_seam);
+    true
 }
 
 fn is_two_gon(mesh: &Mesh, f: FaceId) -> bool {
@@ -299,27 +314,63 @@ fn collapse_points(mesh: &mut Mesh, faults: &[FileFault]) -> usize {
 }
 
 /// Deletes the longest side of each face whose corners lie on a line: the others become sides of
-/// the neighbour, or of the hole, and lie where that side lay.
+/// the neighbour, or of the hole, and lie where that side lay. A face whose other sides run to and
+/// fro on the line loses ears first, until they do not.
 pub(super) fn dissolve_lines(mesh: &mut Mesh, faults: &[FileFault]) -> usize {
+    let mut open: Vec<FaceId> = flat_faces(faults).collect();
+    open.reverse();
     let mut count = 0;
-    for fault in faults {
-        let &FileFault::NoArea(f) = fault else { continue };
+    while let Some(f) = open.pop() {
         if !mesh.has_face(f) {
             continue;
         }
-        let length = |h: &HalfEdgeId| {
-            let [a, b] = mesh.edge_positions(h.edge());
-            a.distance_squared(b)
-        };
-        let longest = mesh.face_half_edges(f).max_by(|a, b| length(a).total_cmp(&length(b)));
-        if let Some(h) = longest.filter(|h| mesh.face(h.twin()) != f) {
-            let sides: Vec<EdgeId> = mesh.face_half_edges(f).map(HalfEdgeId::edge).collect();
-            mesh.delete_edge_of(h);
-            delete_between_holes(mesh, &sides);
-            count += 1;
+        let sides: Vec<HalfEdgeId> = mesh.face_half_edges(f).collect();
+        match spanning_side(mesh, &sides) {
+            Some(h) if mesh.face(h.twin()) != f => {
+                mesh.delete_edge_of(h);
+                let edges: Vec<EdgeId> = sides.into_iter().map(HalfEdgeId::edge).collect();
+                delete_between_holes(mesh, &edges);
+                count += 1;
+            }
+            Some(_) => {}
+            None => open.extend(cut_ear(mesh, f, &sides)),
         }
     }
     count
+}
+
+/// The longest side of a face whose corners lie on a line, where the others run the way back without
+/// turning.
+fn spanning_side(mesh: &Mesh, sides: &[HalfEdgeId]) -> Option<HalfEdgeId> {
+    let along = |h: HalfEdgeId| mesh.position(mesh.target(h)) - mesh.position(mesh.origin(h));
+    let length = |h: &HalfEdgeId| along(*h).length_squared();
+    let longest = sides.iter().copied().max_by(|a, b| length(a).total_cmp(&length(b)))?;
+    // Sides of a few of the smallest numbers have a product of zero.
+    let back = -along(longest);
+    let mut others = sides.iter().filter(|&&h| h != longest);
+    others.all(|&h| along(h).dot(back) >= 0.0).then_some(longest)
+}
+
+/// Cuts the corner at an end of the line off a face whose corners lie on it. Where the corners beside
+/// it lie at one place they become one vertex. Returns the parts that are left to be looked at.
+fn cut_ear(mesh: &mut Mesh, f: FaceId, sides: &[HalfEdgeId]) -> Vec<FaceId> {
+    let (n, from) = (sides.len(), mesh.position(mesh.origin(sides[0])));
+    let distance = |i: &usize| mesh.position(mesh.origin(sides[*i])).distance_squared(from);
+    let end = (0..n).max_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0);
+    let [before, after] = [sides[(end + n - 1) % n], sides[(end + 1) % n]];
+    let [a, b] = [before, after].map(|h| mesh.origin(h));
+    // A triangle has no ear, and a loop would be one more thing that files cannot hold.
+    if n == 3 || a == b {
+        return Vec::new();
+    }
+    let is_one_place = mesh.position(a) == mesh.position(b);
+    let Ok(e) = mesh.insert_edge(Corner::At(before), Corner::At(after)) else { return Vec::new() };
+    let parts = mesh.edge_faces(e);
+    debug_assert!(parts.contains(&f), "the face stays, a part of it is new");
+    if is_one_place && mesh.contract_edge(e).is_ok() {
+        return parts.into_iter().filter(|&part| !dissolve_two_gon(mesh, part)).collect();
+    }
+    parts.into()
 }
 
 /// Deletes those of the edges that have a hole on either side, which hold nothing any more.

@@ -10,6 +10,9 @@
 //! `--models DIR` names a folder with spot.obj, cow.obj, fandisk.obj and teapot.obj (their licences
 //! are not all clear, so only Spot, CC0, is bundled). They are unfolded in full, and decimated to
 //! 200 and 1000 triangles by pymeshlab (`python3`, `pip install pymeshlab`), keeping topology.
+//! `--large DIR` names a folder with large meshes (the Stanford bunny, an armadillo and an elephant
+//! come with the data of CGAL): each OBJ, OFF or PLY there is unfolded at efforts of about 20 and 60
+//! seconds for 20 000 triangles, and as strips.
 //! `--only WORD` runs the rows whose name holds the word.
 
 #![allow(clippy::print_stdout, reason = "a bench prints")]
@@ -39,6 +42,12 @@ const FULL: f64 = 10.0;
 const LONG_EFFORT: u32 = 60;
 const LONG: f64 = 60.0;
 const LONG_PIECES: usize = 3;
+/// The efforts of large meshes, with seconds and pieces for a component that they must keep to at
+/// 20 000 triangles; seconds grow with the triangles. The last is for strips, of which any number
+/// will do.
+const LARGE: [(u32, f64, usize); 2] = [(10, 20.0, 10), (40, 60.0, 6)];
+const LARGE_FACES: f64 = 20_000.0;
+const LARGE_STRIPS: f64 = 2.0;
 
 fn main() {
     let args: Vec<String> = std::env::args().collect();
@@ -54,6 +63,9 @@ fn main() {
     let fixtures = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/meshes");
     for (name, bar) in [("spot-200", DECIMATED), ("spot-1000", DECIMATED)] {
         bench.model(name, &fixtures.join(name).with_extension("obj"), bar, 1);
+    }
+    if let Some(folder) = after("--large") {
+        bench.large(Path::new(&folder));
     }
     match after("--models").map(PathBuf::from) {
         Some(folder) => bench.models(&folder),
@@ -140,6 +152,42 @@ impl Bench {
             self.full(name, &folder.join(name).with_extension("obj"));
         }
         std::fs::remove_dir_all(&small).expect("the folder is our own");
+    }
+
+    /// Every mesh of a folder, at growing efforts and as strips.
+    fn large(&self, folder: &Path) {
+        let entries = std::fs::read_dir(folder).expect("the folder is there");
+        let mut paths: Vec<PathBuf> = entries.map(|e| e.expect("an entry").path()).collect();
+        paths.retain(|p| {
+            p.extension().is_some_and(|e| ["obj", "off", "ply"].iter().any(|&x| e == x))
+        });
+        paths.sort();
+        for path in paths {
+            let name = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into());
+            if !self.is_wanted(&name) {
+                continue;
+            }
+            let read = match read_mesh(&path, &ReadOptions::default()) {
+                Ok(read) => read,
+                Err(fault) => {
+                    println!("{name:<28} not measured: {fault}");
+                    continue;
+                }
+            };
+            let share = read.mesh.face_count() as f64 / LARGE_FACES;
+            for (effort, bar, most) in LARGE {
+                match run(&read.mesh, &read.splits, PiecesMode::Auto, effort) {
+                    Ok(row) => report(&format!("{name}, effort {effort}"), &row, bar * share, most),
+                    Err(fault) => println!("{name:<28} FAILED: {fault}"),
+                }
+            }
+            match run(&read.mesh, &read.splits, PiecesMode::Strips, 10) {
+                Ok(row) => {
+                    report(&format!("{name}, strips"), &row, LARGE_STRIPS * share, usize::MAX)
+                }
+                Err(fault) => println!("{name:<28} FAILED: {fault}"),
+            }
+        }
     }
 
     /// A full model at both efforts.

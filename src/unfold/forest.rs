@@ -124,6 +124,38 @@ impl Forest {
         }
     }
 
+    /// The same, where the order is out of date: walks both parts in turns until one ends.
+    pub fn smaller_part_by_walk(&self, dual: &Dual, c: u32) -> Vec<u32> {
+        // Each entry is a face and the face that the walk came from.
+        let above = self.parent(dual, c);
+        let mut parts = [vec![(c, above)], vec![(above, c)]];
+        let mut done = 0;
+        loop {
+            for part in &mut parts {
+                let Some(&(f, from)) = part.get(done) else {
+                    return part.iter().map(|&(f, _)| f).collect();
+                };
+                let next = self.children(dual, f).chain([self.parent(dual, f)]);
+                part.extend(next.filter(|&g| g != NONE && g != from).map(|g| (g, f)));
+            }
+            done += 1;
+        }
+    }
+
+    /// Opens the fold above `c`: its subtree becomes a tree of its own. Touches that tree only.
+    pub fn split(&mut self, dual: &Dual, c: u32) {
+        let (mut at, _) = self.tree_run(c);
+        let root = self.root[c as usize];
+        self.parent_side[c as usize] = NONE;
+        for root in [root, c] {
+            for f in self.laid_order(dual, root, root, 0) {
+                self.order[at] = f;
+                self.rank[f as usize] = at as u32;
+                at += 1;
+            }
+        }
+    }
+
     /// Whether the fold above `c` opens only where nothing else helps: the caller wants it to stay,
     /// or it is flat, and a seam through a plane face would show for nothing.
     pub fn must_keep(&self, dual: &Dual, c: u32) -> bool {
@@ -324,5 +356,34 @@ mod tests {
             }
         }
         assert_eq!(forest.roots().len(), 1);
+    }
+
+    #[test]
+    fn splitting_keeps_order_sizes_and_roots_as_a_refresh_would() {
+        let mesh = crate::shape::random_tangent_polytope(60, 3);
+        let dual = Dual::new(&mesh, &Seams::Free).expect("planar faces");
+        let mut rng = Rng::new(7);
+        let rule = crate::unfold::start::Rule::Longest;
+        let mut forest = crate::unfold::start::forest(&dual, &mesh, rule, &mut rng);
+        let mut part = Vec::new();
+        while forest.roots().len() < dual.face_count() {
+            let c = rng.below(dual.face_count()) as u32;
+            if forest.parent_side[c as usize] == NONE {
+                continue;
+            }
+            forest.smaller_part(c, &mut part);
+            part.sort_unstable();
+            let mut walked = forest.smaller_part_by_walk(&dual, c);
+            walked.sort_unstable();
+            assert_eq!(part, walked);
+            forest.split(&dual, c);
+            let fresh = Forest::new(&dual, forest.parent_side.clone());
+            assert_eq!((&forest.size, &forest.root), (&fresh.size, &fresh.root));
+            for f in 0..dual.face_count() as u32 {
+                let above = forest.parent(&dual, f);
+                assert_eq!(forest.subtree(f)[0], f);
+                assert!(above == NONE || forest.subtree(above).contains(&f));
+            }
+        }
     }
 }

@@ -229,17 +229,54 @@ impl<'a> Layout<'a> {
         self.forest.rehang(self.dual, cut, s);
     }
 
-    /// Opens the fold above `c`: its subtree becomes a piece of its own.
+    /// Opens the fold above `c`: the smaller part becomes a piece of its own.
     pub fn split(&mut self, c: u32) {
+        let mut faces = Vec::new();
+        self.forest.smaller_part(c, &mut faces);
+        self.lift(&faces);
+        self.forest.split(self.dual, c);
+        self.drop_parted();
+    }
+
+    /// The overlapping pairs of `faces` with the rest of their piece, into `pairs`.
+    pub fn pairs_parted_by(&mut self, faces: &[u32], pairs: &mut Vec<(u32, u32)>) {
+        self.mark(faces);
+        pairs.clear();
+        for &f in faces {
+            let partners = self.partners[f as usize].iter().copied();
+            let is_parted =
+                |&g: &u32| !self.is_marked(g) && self.piece[g as usize] == self.piece[f as usize];
+            pairs.extend(partners.filter(is_parted).map(|g| (f, g)));
+        }
+    }
+
+    /// Opens the fold above `c` as [`Self::split`] does, given the smaller part, but leaves the order
+    /// of the forest and the list of overlaps as they were. Call [`Self::settle_opened`] after the
+    /// last.
+    pub fn open(&mut self, c: u32, faces: &[u32]) {
+        self.lift(faces);
+        self.forest.parent_side[c as usize] = NONE;
+    }
+
+    /// Brings the forest and the list of overlaps up to date after folds were opened.
+    pub fn settle_opened(&mut self) {
+        self.forest.refresh(self.dual);
+        self.drop_parted();
+    }
+
+    /// Makes a piece of its own of faces, where they lie.
+    fn lift(&mut self, faces: &[u32]) {
         let piece = self.pieces;
         self.pieces += 1;
-        for &f in self.forest.subtree(c) {
+        for &f in faces {
             self.grid.remove(f);
             self.grid.insert(f, piece, self.bounds[f as usize]);
             self.piece[f as usize] = piece;
         }
-        self.forest.parent_side[c as usize] = NONE;
-        self.forest.refresh(self.dual);
+    }
+
+    /// Forgets overlaps between faces that are no longer in one piece.
+    fn drop_parted(&mut self) {
         let is_within = |&&(f, g): &&(u32, u32)| self.piece[f as usize] == self.piece[g as usize];
         let overlaps = self.overlaps.iter().filter(is_within).copied().collect();
         self.set_overlaps(overlaps);

@@ -181,6 +181,7 @@ const DOORS: &[(&str, &[&str])] = &[
     ("zip", &["src/io/read/threemf/package.rs", "src/io/write/threemf.rs"]),
     ("tiny_skia", &["src/picture/"]),
     ("serde_json", &["src/io/", "src/cli/"]),
+    ("csv", &["src/recipe/sweep.rs"]),
     ("toml", &["src/recipe/", "src/make/materials.rs", "src/make/glue_file.rs"]),
     ("clap_complete", &["src/cli/"]),
     ("clap_mangen", &["src/cli/"]),

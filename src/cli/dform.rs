@@ -74,7 +74,7 @@ pub(super) fn run(args: &DformArgs, console: &Console) -> Result<Outcome, CliErr
         .start()?
         .carry_on(&recipe, Path::new(""), &Terminal::new(console.quiet))
         .map_err(|error| *error.cause)?;
-    finish(&job, None, (&args.output, args.clean), console)
+    finish(&job, None, (&args.output, args.clean, None), console)
 }
 
 /// The choices as a table and as pictures.

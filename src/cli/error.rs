@@ -13,7 +13,7 @@ use crate::lint::{LimitError, LintError};
 use crate::make::MakeError;
 use crate::op::OpError;
 use crate::picture::PictureError;
-use crate::recipe::{RecipeError, StepError};
+use crate::recipe::{RecipeError, StepError, SweepError};
 use crate::seam::SeamError;
 use crate::shape::ShapeError;
 
@@ -45,6 +45,8 @@ pub(super) enum CliError {
     Step(#[from] MakeError),
     #[error("{}: {error}", path.display())]
     Recipe { path: PathBuf, error: Box<RecipeError>, text: String },
+    #[error("{}: {error}", path.display())]
+    Sweep { path: PathBuf, error: SweepError },
     #[error(
         "{}: there are no recipes in this folder; put files that end in .toml into it",
         path.display()
@@ -133,6 +135,7 @@ codes!(error CliError {
     Lint.error,
     Step.0,
     Recipe.error,
+    Sweep.error,
     RecipeStep.error,
     Pieces.error,
 });

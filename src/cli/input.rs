@@ -4,7 +4,9 @@ use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use super::error::CliError;
-use crate::io::{IoError, ReadMesh, ReadOptions, read_mesh, read_mesh_bytes, size_note};
+use crate::io::{
+    IoError, ReadMesh, ReadOptions, decode_text, read_mesh, read_mesh_bytes, size_note,
+};
 use crate::sheet::SheetParams;
 
 /// A mesh file and how to read it.
@@ -40,4 +42,11 @@ pub(super) fn read_model(path: &Path, options: &ReadOptions) -> Result<ReadMesh,
     let read = std::io::stdin().lock().read_to_end(&mut bytes);
     read.map_err(|source| IoError::reading(path, source))?;
     read_mesh_bytes(path, &bytes, options)
+}
+
+/// A file as text.
+pub(super) fn read_text(path: &Path) -> Result<String, CliError> {
+    let bytes = std::fs::read(path)
+        .map_err(|error| CliError::Unreadable { path: path.to_owned(), error })?;
+    decode_text(&bytes).map_err(|at| CliError::NotText { path: path.to_owned(), at })
 }

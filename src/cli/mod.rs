@@ -30,6 +30,7 @@ mod seams;
 mod snippet;
 mod solid;
 mod studio;
+mod sweep;
 mod terminal;
 mod unfold;
 mod verify;

@@ -2,18 +2,19 @@
 
 use std::path::{Path, PathBuf};
 
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::error::CliError;
+use super::input::read_text;
 use super::output::{Clean, command_line, model_json, model_text};
 use super::panels::{panels_json, panels_text};
+use super::sweep::{self, SweepArgs};
 use super::terminal::Terminal;
 use super::unfold::{summary_json, summary_text};
 use super::{Console, Outcome};
 use crate::gallery::{bundled_recipe, unpacked};
-use crate::io::decode_text;
 use crate::make::Fabrication;
-use crate::recipe::{Job, Recipe, job_outputs};
+use crate::recipe::{Job, MANIFEST, Recipe, job_outputs};
 use crate::sheet::SheetParams;
 
 /// Run a recipe: model, picture, report, pieces and sheets into a folder
@@ -30,13 +31,22 @@ pub(super) struct RunArgs {
     /// The folder for everything that the recipe makes; made if it is missing
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
+    /// Also write manifest.json: the recipe, its parameters, the verdict, what was counted and
+    /// measured, and the files with their sizes
+    #[arg(long)]
+    manifest: bool,
     #[command(flatten)]
     clean: Clean,
+    #[command(flatten)]
+    sweep: SweepArgs,
 }
 
 pub(super) fn run(args: &RunArgs, console: &Console) -> Result<Outcome, CliError> {
     let bundled = bundled_recipe(&args.recipe);
     let text = bundled.map_or_else(|| read_text(&args.recipe), |file| Ok(file.text.to_owned()))?;
+    if args.sweep.is_asked() {
+        return sweep::run(&args.sweep, (&args.recipe, &text), &args.output, console);
+    }
     let recipe = Recipe::parse_with(&text, &args.set).map_err(|error| CliError::Recipe {
         path: args.recipe.clone(),
         error: Box::new(error),
@@ -50,18 +60,31 @@ pub(super) fn run(args: &RunArgs, console: &Console) -> Result<Outcome, CliError
     };
     let job = Job::run(&recipe, folder, &Terminal::new(console.quiet))
         .map_err(|error| CliError::RecipeStep { path: args.recipe.clone(), error })?;
-    finish(&job, recipe.name, (&args.output, args.clean), console)
+    let manifest = args.manifest.then(|| {
+        json!({
+            "recipe": args.recipe.to_string_lossy(),
+            "parameters": args.set.iter().map(|(name, value)| (name.clone(), json!(value)))
+                .collect::<serde_json::Map<_, _>>(),
+        })
+    });
+    finish(&job, recipe.name, (&args.output, args.clean, manifest), console)
 }
 
-/// Writes everything that a job has made into a folder and reports it.
+/// Writes everything that a job has made into a folder and reports it. Where a manifest was begun,
+/// it is filled in and written too.
 pub(super) fn finish(
     job: &Job,
     name: Option<String>,
-    (folder, clean): (&Path, Clean),
+    (folder, clean, manifest): (&Path, Clean, Option<Value>),
     console: &Console,
 ) -> Result<Outcome, CliError> {
     let command = command_line();
-    let written = console.write_folder(folder, job_outputs(job, &command)?, clean)?;
+    let mut outputs = job_outputs(job, &command)?;
+    if let Some(begun) = manifest {
+        let told = filled(begun, job, name.as_deref(), &outputs)?;
+        outputs.push((MANIFEST.to_owned(), format!("{told:#}\n").into_bytes()));
+    }
+    let written = console.write_folder(folder, outputs, clean)?;
     if let (false, Some(made)) = (job.has_mesh(), &job.fabrication) {
         return nested(made, job, (name, &command, &written), console);
     }
@@ -69,14 +92,10 @@ pub(super) fn finish(
     let has_findings = report.has_findings();
     let panelled = job.panelled.as_ref().map(|(panelled, _)| panelled);
     if console.json {
-        let summary = json!({
+        let mut summary = json!({
             "command": command, "name": name, "written": written, "notes": job.notes,
-            "model": model_json(job.mesh()?),
-            "verdict": report.verdict().name(),
-            "fabrication": job.fabrication.as_ref().map(|(f, sheet)| summary_json(f, sheet)),
-            "panels": panelled.map(panels_json),
-            "unclean": job.with_findings.iter().map(ToString::to_string).collect::<Vec<_>>(),
         });
+        add_results(&mut summary, job)?;
         console.result(&format!("{summary:#}\n"))?;
     } else {
         console.notes(&job.notes);
@@ -102,6 +121,36 @@ pub(super) fn finish(
     let has_sheet_findings =
         job.fabrication.as_ref().is_some_and(|(f, _)| !f.findings().is_empty());
     Ok(if is_unclean || has_sheet_findings { Outcome::Findings } else { Outcome::Clean })
+}
+
+/// Puts what came out of a job to an object of JSON.
+fn add_results(told: &mut Value, job: &Job) -> Result<(), CliError> {
+    let fabrication = job.fabrication.as_ref().map(|(f, sheet)| summary_json(f, sheet));
+    told["fabrication"] = json!(fabrication);
+    if job.has_mesh() || job.fabrication.is_none() {
+        told["model"] = model_json(job.mesh()?);
+        told["verdict"] = json!(job.report()?.verdict().name());
+        told["panels"] = json!(job.panelled.as_ref().map(|(panelled, _)| panels_json(panelled)));
+        let unclean: Vec<String> = job.with_findings.iter().map(ToString::to_string).collect();
+        told["unclean"] = json!(unclean);
+    }
+    Ok(())
+}
+
+/// A manifest with what came out of a job. No word of it depends on where or when the job ran.
+fn filled(
+    mut begun: Value,
+    job: &Job,
+    name: Option<&str>,
+    outputs: &[(String, Vec<u8>)],
+) -> Result<Value, CliError> {
+    begun["kerfold"] = json!(env!("CARGO_PKG_VERSION"));
+    begun["name"] = json!(name);
+    begun["notes"] = json!(job.notes);
+    let file = |(name, bytes): &(String, Vec<u8>)| json!({ "name": name, "bytes": bytes.len() });
+    begun["files"] = outputs.iter().map(file).collect();
+    add_results(&mut begun, job)?;
+    Ok(begun)
 }
 
 /// Tells about a job that had pieces and no model.
@@ -132,10 +181,4 @@ fn setting(text: &str) -> Result<(String, String), String> {
         .split_once('=')
         .ok_or_else(|| format!("`{text}` sets nothing; write it like size=200mm"))?;
     Ok((name.trim().to_owned(), value.trim().to_owned()))
-}
-
-fn read_text(path: &Path) -> Result<String, CliError> {
-    let bytes = std::fs::read(path)
-        .map_err(|error| CliError::Unreadable { path: path.to_owned(), error })?;
-    decode_text(&bytes).map_err(|at| CliError::NotText { path: path.to_owned(), at })
 }

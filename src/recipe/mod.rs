@@ -18,6 +18,7 @@ mod schema;
 mod session;
 mod shell;
 mod story;
+mod sweep;
 
 #[cfg(test)]
 mod tests;
@@ -35,6 +36,7 @@ pub use outputs::job_outputs;
 pub use schema::{ChoiceSchema, KeySchema, StepGroup, StepSchema, ValueKind, schema};
 pub use session::{Preview, Reached, Replay, Session, SessionError};
 pub use shell::{shell_line, shell_text};
+pub use sweep::{MANIFEST, MOST_VARIANTS, Sweep, SweepError, Variant};
 
 use crate::check::CheckParams;
 use crate::io::ReadOptions;

@@ -131,3 +131,57 @@ fn the_two_piece_recipe_gives_two_pieces_and_the_same_bytes_twice() {
     assert_eq!((net.pieces.len(), net.proof.overlaps), (2, 0));
     assert!(net.proof.congruence_mm < 1e-9 && net.proof.refold_mm < 1e-6, "{:?}", net.proof);
 }
+
+#[test]
+fn a_sweep_is_commands_that_run_as_they_stand_and_one_table_of_results() {
+    let folder = Folder::new("sweep");
+    let (recipe, table) = (folder.path("cube.toml"), folder.path("sizes.csv"));
+    let text = "[parameters]\nsize = \"20mm\"\noffset = 0.2\n[[step]]\nsolid = \"cube\"\nsize = \
+        \"{size}\"\n[[step]]\ncut = \"vertex\"\nselect = \"all\"\noffset = \"{offset}\"\n";
+    fs::write(&recipe, text).expect("a recipe");
+    fs::write(&table, "name,size,offset\nsmall,10mm,\nlarge,\"40 mm\",0.5\n").expect("a table");
+    let (out, results) = (folder.path("out"), folder.path("results.csv"));
+    let sweep = ["run", &recipe, "--sweep", &table, "-o", &out];
+    let listed = run(&sweep);
+    assert_eq!((listed.code, listed.err.as_str()), (Some(0), ""), "{}", listed.out);
+    let commands = fs::read_to_string(folder.path("out/commands.txt")).expect("a list");
+    assert_eq!(commands.lines().count(), 2);
+    let gather = || run(&[&sweep[..], &["--results", &results]].concat());
+    assert_eq!(gather().code, Some(1), "nothing has run");
+    let rows = || fs::read_to_string(&results).expect("a table");
+    assert_eq!(rows(), "name,size,offset,state\nsmall,10mm,,not run\nlarge,40 mm,0.5,not run\n");
+    // The list runs as it stands, in a shell that finds the program.
+    #[cfg(unix)]
+    {
+        let place = Path::new(env!("CARGO_BIN_EXE_kerfold")).parent().expect("a folder");
+        let path = std::env::var("PATH").unwrap_or_default();
+        let mut shell = std::process::Command::new("sh");
+        shell.arg(folder.path("out/commands.txt"));
+        shell.env("PATH", format!("{}:{path}", place.display()));
+        let done = ran(&mut shell);
+        assert_eq!(done.code, Some(0), "{}", done.err);
+        assert_eq!(gather().code, Some(0));
+        let found = rows();
+        let faces: Vec<&str> =
+            found.lines().skip(1).map(|l| l.split(',').nth(5).unwrap_or("")).collect();
+        assert!(found.starts_with("name,size,offset,state,verdict,model.edges,"), "{found}");
+        assert_eq!(faces, ["36", "24"], "edges of a truncated cube and a cuboctahedron: {found}");
+        let manifest = fs::read(folder.path("out/large/manifest.json")).expect("a manifest");
+        let told: Value = serde_json::from_slice(&manifest).expect("JSON");
+        assert_eq!(told["parameters"]["size"], "40 mm");
+        for file in told["files"].as_array().expect("a list") {
+            let name = file["name"].as_str().expect("a name");
+            let size =
+                fs::metadata(folder.path("out/large").clone() + "/" + name).expect(name).len();
+            assert_eq!(file["bytes"].as_u64(), Some(size), "{name}");
+        }
+    }
+    // The example of the guide.
+    let [roof, variants] = ["roof.toml", "roof.csv"].map(|name| format!("fixtures/sweeps/{name}"));
+    let listed = run(&["run", &roof, "--sweep", &variants, "-o", &folder.path("roofs")]);
+    assert!(listed.out.contains("200 commands"), "{}{}", listed.out, listed.err);
+    fs::write(&table, "size\n10mm\n2 miles\n").expect("a table");
+    let refused = run(&sweep);
+    assert_eq!(refused.code, Some(2));
+    assert!(refused.err.contains("line 3") && refused.err.contains("(E776)"), "{}", refused.err);
+}

@@ -4,13 +4,16 @@ use std::path::{Path, PathBuf};
 
 use super::error::CliError;
 use super::input::read_model;
+use super::render::{drawn, kind_of};
 use super::terminal::Terminal;
 use super::{Console, Outcome};
+use crate::io::output::write_file;
 use crate::io::{MeshUnit, ReadOptions};
-use crate::make::{height_mesh, operate};
+use crate::make::{height_mesh, operate, worst_in_red};
 use crate::mesh::Mesh;
 use crate::op::OpContext;
 use crate::panelize::{Domain, HeightParams, PanelizeParams};
+use crate::picture::RenderParams;
 use crate::units::Length;
 
 /// Make planar panels of a freeform surface, three edges at every node; exit code 1 when some do
@@ -47,6 +50,10 @@ pub(super) struct PanelizeArgs {
     /// The mesh to write: OBJ, PLY, STL, OFF, 3MF or DXF; `-` writes OBJ to standard output
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
+    /// Also draw the panels (PNG, SVG or PDF), in red and with their numbers those with findings, the
+    /// worst of each kind, or without any those farthest off the surface
+    #[arg(long, value_name = "FILE")]
+    picture: Option<PathBuf>,
 }
 
 /// How the file is read: as other verbs do, but `--size` is that of the panels.
@@ -85,13 +92,25 @@ struct Reading {
 }
 
 pub(super) fn run(args: &PanelizeArgs, console: &Console) -> Result<Outcome, CliError> {
+    let kind = args.picture.as_deref().map(kind_of).transpose()?;
     let (mesh, scale, mut notes) = args.surface()?;
     let progress = Terminal::new(console.quiet);
     let context = OpContext { made: None, progress: &progress };
     let made = operate(&args.params, (Path::new(""), scale), &mesh, &context)?;
     notes.extend(made.notes);
+    let outcome = if made.is_clean { Outcome::Clean } else { Outcome::Findings };
+    if let (Some(path), Some(kind)) = (&args.picture, kind) {
+        let (render, marks) = worst_in_red(&made.worst, &RenderParams::default());
+        let (bytes, _) = drawn(kind, &made.mesh, (&render, &marks))?;
+        if args.output != Path::new("-") {
+            let model = (args.output.clone(), made.mesh, notes);
+            console.write_models(&[model], vec![(path.clone(), bytes)])?;
+            return Ok(outcome);
+        }
+        write_file(path, &bytes)?;
+    }
     console.write_model(&args.output, &made.mesh, None, &notes)?;
-    Ok(if made.is_clean { Outcome::Clean } else { Outcome::Findings })
+    Ok(outcome)
 }
 
 impl PanelizeArgs {

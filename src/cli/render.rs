@@ -8,8 +8,9 @@ use super::output::command_line;
 use super::{Console, Outcome};
 use crate::io::output::write_file;
 use crate::make::{MakeError, PointOut};
+use crate::mesh::Mesh;
 use crate::op::OpContext;
-use crate::picture::{RenderParams, render_vector, render_with};
+use crate::picture::{Marks, RenderParams, render_vector, render_with};
 
 /// Draw a picture of a mesh: PNG, SVG or PDF, hidden parts hidden
 #[derive(Debug, clap::Args)]
@@ -32,36 +33,44 @@ pub(super) struct RenderArgs {
 
 /// What kind of picture is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Kind {
+pub(super) enum Kind {
     Png,
     Svg,
     Pdf,
 }
 
-fn kind_of(path: &Path) -> Option<Kind> {
+/// The kind that the ending of a path asks for.
+pub(super) fn kind_of(path: &Path) -> Result<Kind, CliError> {
     let is = |ending: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(ending));
     let kinds = [("png", Kind::Png), ("svg", Kind::Svg), ("pdf", Kind::Pdf)];
-    kinds.into_iter().find(|(ending, _)| is(ending)).map(|(_, kind)| kind)
+    let kind = kinds.into_iter().find(|(ending, _)| is(ending)).map(|(_, kind)| kind);
+    kind.ok_or_else(|| CliError::NotPng { path: path.to_owned() })
+}
+
+/// A picture of a kind as bytes, and its size in pixels.
+pub(super) fn drawn(
+    kind: Kind,
+    mesh: &Mesh,
+    (render, marks): (&RenderParams, &Marks),
+) -> Result<(Vec<u8>, (u32, u32)), CliError> {
+    if kind == Kind::Png {
+        let picture = render_with(mesh, render, marks).map_err(MakeError::from)?;
+        return Ok((picture.to_png(), (picture.width(), picture.height())));
+    }
+    let picture = render_vector(mesh, render, marks).map_err(MakeError::from)?;
+    let bytes = match kind {
+        Kind::Pdf => picture.to_pdf(&command_line()),
+        _ => picture.to_svg(&command_line()).into_bytes(),
+    };
+    Ok((bytes, picture.size()))
 }
 
 pub(super) fn run(args: &RenderArgs, console: &Console) -> Result<Outcome, CliError> {
-    let kind = kind_of(&args.output);
-    let kind = kind.ok_or_else(|| CliError::NotPng { path: args.output.clone() })?;
+    let kind = kind_of(&args.output)?;
     let read = args.input.read()?;
     let context = OpContext::default();
     let (mesh, marks) = args.point_out.shown(&read.mesh, None, args.render.ids, &context)?;
-    let (bytes, size) = if kind == Kind::Png {
-        let picture = render_with(&mesh, &args.render, &marks).map_err(MakeError::from)?;
-        (picture.to_png(), (picture.width(), picture.height()))
-    } else {
-        let picture = render_vector(&mesh, &args.render, &marks).map_err(MakeError::from)?;
-        let size = picture.size();
-        let bytes = match kind {
-            Kind::Pdf => picture.to_pdf(&command_line()),
-            _ => picture.to_svg(&command_line()).into_bytes(),
-        };
-        (bytes, size)
-    };
+    let (bytes, size) = drawn(kind, &mesh, (&args.render, &marks))?;
     write_file(&args.output, &bytes)?;
     console.notes(&read.notes);
     let (width, height) = size;

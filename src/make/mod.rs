@@ -49,7 +49,7 @@ pub use outlines_error::OutlinesError;
 pub use outputs::{Output, fabrication_outputs, sheet_picture};
 pub use panel_error::PanelOptionError;
 pub use panels::{PaneFile, PanelFiles, PanelJob, Panelled, SolidFile, panel_model, panel_outputs};
-pub use picture::{Moment, PointOut};
+pub use picture::{Moment, PointOut, worst_in_red};
 pub(crate) use picture::{in_pieces, x_ray};
 pub use planes::{PlanesStep, solid_of_planes};
 pub use report_pictures::report_pictures;

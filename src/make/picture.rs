@@ -73,7 +73,7 @@ fn marks(selection: &Selection, context: &Context<'_>, ids: Ids) -> Result<Marks
         Ids::Edges => edges(),
         Ids::Vertices => vertices(),
         // The message about faces is as good as the others.
-        Ids::None => {
+        Ids::None | Ids::Marked => {
             faces().or_else(|error| edges().or_else(|_: MakeError| vertices()).or(Err(error)))
         }
     }
@@ -116,6 +116,14 @@ fn taken_apart(
         // Parts that touch themselves cannot be put together again: the whole model is shown.
         Err(_) => Ok((mesh.clone(), Marks::default())),
     }
+}
+
+/// How a picture shows what is worst of a mesh: in red, with its numbers.
+pub fn worst_in_red(worst: &ChosenElements, render: &RenderParams) -> (RenderParams, Marks) {
+    let ChosenElements { vertices, edges, faces } = worst.clone();
+    let marks = Marks { vertices, edges, faces, ..Marks::default() };
+    let numbered = RenderParams { ids: Ids::Marked, colour: Colour::Faces, ..render.clone() };
+    (numbered, marks)
 }
 
 /// A step of a recipe with the mesh before and after it.

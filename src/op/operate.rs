@@ -15,7 +15,7 @@ use super::{
     truncate_vertices,
 };
 use crate::geom::hull::HalfSpace;
-use crate::mesh::Mesh;
+use crate::mesh::{FaceId, Mesh, VertexId};
 use crate::panelize::{Align, FixChoice, FixedPlane, PanelizeParams, panelize};
 use crate::select::NewElements;
 
@@ -31,6 +31,9 @@ pub struct OperatorOutput {
     pub notes: Vec<String>,
     /// What it was told to cut, open or join, of the mesh before.
     pub chosen: ChosenElements,
+    /// What of the new mesh is worst by the operator's own measure, at which the user should look;
+    /// none where it measures nothing.
+    pub worst: ChosenElements,
     /// Whether the operator reached what was asked for; if not, the notes say what is missing, and
     /// the command line ends with 1.
     pub is_clean: bool,
@@ -39,7 +42,8 @@ pub struct OperatorOutput {
 impl OperatorOutput {
     /// Reached, and nothing said about what was made.
     fn new(mesh: Mesh, notes: Vec<String>) -> Self {
-        Self { mesh, made: None, notes, chosen: ChosenElements::default(), is_clean: true }
+        let none = ChosenElements::default;
+        Self { mesh, made: None, notes, chosen: none(), worst: none(), is_clean: true }
     }
 }
 
@@ -166,8 +170,14 @@ impl Operate for PlanarizeParams {
 impl Operate for PanelizeParams {
     fn operate(&self, mesh: &Mesh, context: &OpContext<'_>) -> Result<OperatorOutput, OpError> {
         let (mesh, report) = panelize(mesh, self, context.progress)?;
+        let [faces, vertices] = report.pointed_out();
+        let worst = ChosenElements {
+            faces: faces.into_iter().map(FaceId::new).collect(),
+            vertices: vertices.into_iter().map(VertexId::new).collect(),
+            ..ChosenElements::default()
+        };
         let is_clean = report.is_clean();
-        Ok(OperatorOutput { is_clean, ..OperatorOutput::new(mesh, report.notes()) })
+        Ok(OperatorOutput { worst, is_clean, ..OperatorOutput::new(mesh, report.notes()) })
     }
 
     fn points_file(&self) -> Option<&Path> {

@@ -102,7 +102,28 @@ pub struct CreaseReport {
     pub off_mm: f64,
 }
 
+/// Findings of one kind that a picture points out.
+const POINTED_OUT: usize = 8;
+
 impl PanelizeReport {
+    /// What a picture of the worst should point out, by the numbers of faces and of vertices: the
+    /// first findings of each kind, or without any the panels that are farthest off the surface.
+    pub fn pointed_out(&self) -> [Vec<usize>; 2] {
+        let mut pointed = [Vec::new(), Vec::new()];
+        for kind in self.findings.chunk_by(|a, b| a.finding == b.finding) {
+            let is_node = kind[0].finding == PanelizeFinding::FarNode;
+            pointed[usize::from(is_node)].extend(kind.iter().take(POINTED_OUT).map(|p| p.element));
+        }
+        if self.findings.is_empty() {
+            pointed[0] = self.worst.iter().map(|&(f, _)| f).collect();
+        }
+        for elements in &mut pointed {
+            elements.sort_unstable();
+            elements.dedup();
+        }
+        pointed
+    }
+
     pub(super) fn new(model: &Model, solved: &Solved, params: &PanelizeParams) -> Self {
         let m = &solved.measured;
         let size = model.size;

@@ -123,6 +123,8 @@ pub enum Ids {
     Edges,
     /// Of faces, inside them.
     Faces,
+    /// Of the elements that are pointed out.
+    Marked,
 }
 
 /// How surfaces look.

@@ -151,7 +151,7 @@ impl Scene {
             stage.add_dots();
         }
         stage.add_marks(marks);
-        stage.add_tags(params.ids);
+        stage.add_tags(params.ids, marks);
         stage.scene
     }
 }
@@ -361,30 +361,34 @@ impl<'a> Stage<'a> {
         self.scene.dots.extend(dots);
     }
 
-    /// The numbers of the elements of a kind.
-    fn add_tags(&mut self, ids: Ids) {
+    /// The numbers of the elements of a kind, or of those that are marked.
+    fn add_tags(&mut self, ids: Ids, marks: &Marks) {
         let mesh = self.mesh;
         self.scene.tags = match ids {
             Ids::None => Vec::new(),
             Ids::Vertices => {
                 let used = mesh.vertices().filter(|&v| mesh.vertex_start(v).is_some());
-                let tag = |v: VertexId| Tag {
-                    place: self.places[v],
-                    owner: Owner::Vertex(v),
-                    text: v.index().to_string(),
-                };
-                used.map(tag).collect()
+                used.map(|v| self.vertex_tag(v)).collect()
             }
-            Ids::Edges => {
-                let tag = |e: EdgeId| {
-                    let [a, b] = mesh.edge_vertices(e).map(|v| self.places[v]);
-                    let owner = Owner::Edge(mesh.edge_faces(e));
-                    Tag { place: a.midpoint(b), owner, text: e.index().to_string() }
-                };
-                mesh.edges().map(tag).collect()
-            }
+            Ids::Edges => mesh.edges().map(|e| self.edge_tag(e)).collect(),
             Ids::Faces => mesh.faces().filter_map(|f| self.face_tag(f)).collect(),
+            Ids::Marked => {
+                let vertices = marks.vertices.iter().map(|&v| self.vertex_tag(v));
+                let edges = marks.edges.iter().map(|&e| self.edge_tag(e));
+                let faces = marks.faces.iter().filter_map(|&f| self.face_tag(f));
+                vertices.chain(edges).chain(faces).collect()
+            }
         };
+    }
+
+    fn vertex_tag(&self, v: VertexId) -> Tag {
+        Tag { place: self.places[v], owner: Owner::Vertex(v), text: v.index().to_string() }
+    }
+
+    fn edge_tag(&self, e: EdgeId) -> Tag {
+        let [a, b] = self.mesh.edge_vertices(e).map(|v| self.places[v]);
+        let owner = Owner::Edge(self.mesh.edge_faces(e));
+        Tag { place: a.midpoint(b), owner, text: e.index().to_string() }
     }
 
     /// The number of a face in the middle of its largest triangle, which lies inside of it.

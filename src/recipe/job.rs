@@ -93,6 +93,8 @@ pub struct Job {
     /// The operators with the meshes before and after them, as far as the recipe shows them.
     pub moments: Vec<Moment>,
     keeps: Keeps,
+    /// What of the mesh is worst by the measure of the operator that made it.
+    pub(super) worst: ChosenElements,
     /// The dual hull on its way, as the last hull was asked for.
     pub hull_steps: Vec<HullStep>,
     /// Limits for the report.
@@ -299,6 +301,7 @@ impl Job {
         let cut = (&output.chosen.edges[..], self.made.as_ref());
         self.promised = PiecePromise::of(self.mesh()?, cut, self.promised);
         self.change(verb, output.chosen, output.mesh, output.made);
+        self.worst = output.worst;
         Ok(())
     }
 
@@ -319,6 +322,7 @@ impl Job {
             self.moments.push(Moment { verb, before, chosen, after, made });
         }
         (self.mesh, self.made) = (Some(after), made);
+        self.worst = ChosenElements::default();
     }
 
     fn hull(&mut self, params: &HullParams, progress: &dyn Progress) -> Result<(), MakeError> {

@@ -9,7 +9,7 @@ use crate::io::report::page::{ReportPage, ReportRows};
 use crate::io::{MeshFormat, WriteOptions, mesh_bytes};
 use crate::make::{
     MakeError, Output, fabrication_outputs, in_pieces, panel_outputs, report_pictures,
-    show_outputs, x_ray,
+    show_outputs, worst_in_red, x_ray,
 };
 use crate::mesh::Mesh;
 use crate::op::OpContext;
@@ -65,6 +65,11 @@ fn pictures(job: &Job, mesh: &Mesh) -> Result<Vec<Output>, MakeError> {
     };
     let mut outputs =
         vec![("model.png".to_owned(), render_with(&shown, &render, &marks)?.to_png())];
+    if !job.worst.is_empty() {
+        let (render, marks) = worst_in_red(&job.worst, &job.render);
+        let picture = render_with(mesh, &render, &marks)?;
+        outputs.push(("worst.png".to_owned(), picture.to_png()));
+    }
     if let Some(last) = job.moments.last().filter(|_| job.story.before == Before::On) {
         let (before, marks) = last.about_to();
         let picture = render_with(&before, &x_ray(&job.render), &marks)?;

@@ -215,3 +215,44 @@ fn panels_are_mirrored_and_edges_drawn_to_few_lengths() {
     let ran = made(&["--symmetry", "z"]);
     assert!(ran.code == Some(2) && ran.err.contains("(E864)"), "{}", ran.err);
 }
+
+#[test]
+fn the_worst_panels_are_drawn_with_their_numbers() {
+    let folder = Folder::new("worst");
+    let (heights, panels, picture) = (
+        written(&folder, "dome.csv", &dome(",")),
+        folder.path("dome.obj"),
+        folder.path("worst.svg"),
+    );
+    let arguments = [
+        "panelize",
+        &heights,
+        "--units",
+        "m",
+        "--size",
+        "1.2m",
+        "-o",
+        &panels,
+        "--picture",
+        &picture,
+    ];
+    let ran = run(&arguments);
+    assert_panels(&ran, &panels);
+    // "off the surface by … mm at most (panels 3, 4, 0)"
+    let (_, rest) = ran.err.split_once("at most (panels ").expect("the worst are named");
+    let (list, _) = rest.split_once(')').expect("a list");
+    let svg = fs::read_to_string(&picture).expect("a picture");
+    let numbers: Vec<&str> = list.split(", ").collect();
+    assert!(!numbers.is_empty() && svg.contains("<svg"));
+    // Those on the far side are hidden; a dome seen from above hides none.
+    for number in &numbers {
+        assert!(
+            svg.lines().any(|line| line.trim() == *number || line.contains(&format!(">{number}<"))),
+            "{number}"
+        );
+    }
+    let other = folder.path("worst.bmp");
+    let refused =
+        run(&["panelize", &heights, "--size", "1.2m", "-o", &panels, "--picture", &other]);
+    assert!(refused.code == Some(2) && refused.err.contains("(E005)"), "{}", refused.err);
+}

@@ -395,7 +395,7 @@ class Steps:
         projection: Literal["perspective", "parallel"] = "perspective",
         zoom: Number = 1,
         edges: Literal["on", "off"] = "on",
-        ids: Literal["none", "vertices", "edges", "faces"] = "none",
+        ids: Literal["none", "vertices", "edges", "faces", "marked"] = "none",
         surface: Literal["solid", "x-ray", "smooth"] = "solid",
         shadow: Literal["off", "soft"] = "off",
         views: Optional[Words] = None,

@@ -51,11 +51,6 @@ impl<'a> Body<'a> {
         Self { plate, front, back, low, high, volume: whole.volume() }
     }
 
-    /// Whether the boxes of two bodies meet.
-    pub fn is_near(&self, other: &Self) -> bool {
-        meet((self.low, self.high), (other.low, other.high))
-    }
-
     fn corners(&self) -> impl Iterator<Item = DVec3> + '_ {
         self.front.iter().chain(&self.back).copied()
     }

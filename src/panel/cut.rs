@@ -91,6 +91,8 @@ pub(super) struct Cutter<'a> {
     /// How deep the corner at the origin of a half-edge is cut off: along its bisector in the frame
     /// of its face.
     levels: HalfEdgeMap<Option<f64>>,
+    /// The half-edges that have a level.
+    levelled: Vec<HalfEdgeId>,
 }
 
 impl<'a> Cutter<'a> {
@@ -117,7 +119,8 @@ impl<'a> Cutter<'a> {
         let straight = HalfEdgeMap::filled(mesh.half_edge_slots(), false);
         let levels = HalfEdgeMap::filled(mesh.half_edge_slots(), None);
         let slack = HalfEdgeMap::filled(mesh.half_edge_slots(), 0.0);
-        Ok(Self { mesh, params, thickness, folds, kinds, rims, straight, slack, levels })
+        let levelled = Vec::new();
+        Ok(Self { mesh, params, thickness, folds, kinds, rims, straight, slack, levels, levelled })
     }
 
     /// Says that two sides of a plate run on in a line: its corner at the origin of `h` is
@@ -154,13 +157,16 @@ impl<'a> Cutter<'a> {
     /// plates as they were.
     pub fn fall_back(&mut self, e: EdgeId, why: EdgeFallback) {
         self.kinds[e] = (fallen(self.params.shallow), Some((self.kinds[e].0, why)));
-        self.levels = HalfEdgeMap::filled(self.mesh.half_edge_slots(), None);
+        for h in self.levelled.drain(..) {
+            self.levels[h] = None;
+        }
     }
 
     /// Cuts the corner at the origin of `h` off, if it is not cut deeper already.
     pub fn cut_corner(&mut self, h: HalfEdgeId, level: f64) {
         let deepest = self.levels[h].map_or(level, |known| known.max(level));
         self.levels[h] = Some(deepest);
+        self.levelled.push(h);
     }
 
     /// How deep the corner at the origin of `h` is cut off, if it is.

@@ -10,7 +10,7 @@ use glam::DVec3;
 use super::body::{Body, Part, meet};
 use super::cell::Cell;
 use super::plate::Plate;
-use crate::geom::RoundingBound;
+use crate::geom::{AxisBox, BoxTree, RoundingBound};
 use crate::progress::Progress;
 
 /// Plates that share no more than this part of the smaller one do not overlap.
@@ -51,23 +51,15 @@ fn middle(plates: &[&Plate]) -> DVec3 {
     if low.is_finite() { low.midpoint(high) } else { DVec3::ZERO }
 }
 
-/// All pairs of bodies whose boxes meet, in order: a sweep along the longest side of all boxes.
+/// All pairs of bodies whose boxes meet, in order.
 fn near_pairs(bodies: &[Body<'_>]) -> Vec<[usize; 2]> {
-    let (low, high) = bodies
-        .iter()
-        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), b| (l.min(b.low), h.max(b.high)));
-    let size = high - low;
-    let axis = (0..3).fold(0, |best, k| if size[k] > size[best] { k } else { best });
-    let mut order: Vec<usize> = (0..bodies.len()).collect();
-    order.sort_by(|&i, &j| bodies[i].low[axis].total_cmp(&bodies[j].low[axis]).then(i.cmp(&j)));
+    let boxes: Vec<AxisBox> =
+        bodies.iter().map(|body| AxisBox { low: body.low, high: body.high }).collect();
     let mut pairs = Vec::new();
-    for (at, &i) in order.iter().enumerate() {
-        let reached =
-            order[at + 1..].iter().take_while(|&&j| bodies[j].low[axis] <= bodies[i].high[axis]);
-        pairs.extend(
-            reached.filter(|&&j| bodies[i].is_near(&bodies[j])).map(|&j| [i.min(j), i.max(j)]),
-        );
-    }
+    BoxTree::new(&boxes).pairs(|i, j| {
+        pairs.push([i, j]);
+        true
+    });
     pairs.sort_unstable();
     pairs
 }

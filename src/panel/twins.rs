@@ -30,6 +30,8 @@ struct Shape {
     corners: Vec<[DVec2; 2]>,
     holes: Vec<(DVec2, f64)>,
     perimeter: f64,
+    /// The distance of the outermost corner from the mean.
+    reach: f64,
 }
 
 impl Shape {
@@ -39,8 +41,10 @@ impl Shape {
         let corners: Vec<[DVec2; 2]> =
             plate.front.iter().zip(&plate.back).map(|(&a, &b)| [a - mean, b - mean]).collect();
         let perimeter = (0..n).map(|i| corners[i][0].distance(corners[(i + 1) % n][0])).sum();
+        let reach = corners.iter().flatten().map(|p| p.length()).fold(0.0, f64::max);
         Self {
             corners,
+            reach,
             holes: plate.holes.iter().map(|h| (h.centre - mean, h.radius)).collect(),
             perimeter,
         }
@@ -53,6 +57,7 @@ impl Shape {
             corners: self.corners.iter().rev().map(|pair| pair.map(flip)).collect(),
             holes: self.holes.iter().map(|&(p, r)| (flip(p), r)).collect(),
             perimeter: self.perimeter,
+            reach: self.reach,
         }
     }
 
@@ -93,31 +98,39 @@ pub fn twins(
     let longest = shapes.iter().map(|s| s.perimeter).fold(0.0, f64::max);
     // Equal numbers computed in another order differ in their last digits.
     let tolerance = tolerance.max(1e-10 * longest);
-    let mut firsts: BTreeMap<(usize, u64, i64), Vec<usize>> = BTreeMap::new();
+    let mut firsts: BTreeMap<(usize, u64, i64, i64), Vec<usize>> = BTreeMap::new();
     let mut found = Vec::with_capacity(plates.len());
     for (i, (plate, shape)) in plates.iter().zip(&shapes).enumerate() {
         if i.is_multiple_of(STRIDE) && progress.is_cancelled() {
             return Err(PanelError::Cancelled);
         }
         let corners = shape.corners.len();
-        // Corners that differ by the tolerance let the perimeter differ by twice that for each.
+        // Corners that differ by the tolerance let the perimeter differ by twice that for each, and
+        // the outermost lie farther out by the tolerance; twice that leaves room for rounding.
         let width = 2.0 * corners as f64 * tolerance;
-        let key = |step: i64| {
-            (corners, plate.thickness.to_bits(), (shape.perimeter / width).floor() as i64 + step)
+        let key = |step: i64, farther: i64| {
+            let cell = |size: f64, width: f64| (size / width).floor() as i64;
+            let thickness = plate.thickness.to_bits();
+            let reach = cell(shape.reach, 2.0 * tolerance) + farther;
+            (corners, thickness, cell(shape.perimeter, width) + step, reach)
         };
+        // What has other perimeters is parted first, then of each its reaches in a row.
         let mut near: Vec<usize> = [-1, 0, 1]
             .iter()
-            .flat_map(|&s| firsts.get(&key(s)).into_iter().flatten().copied())
+            .flat_map(|&step| firsts.range(key(step, -1)..=key(step, 1)))
+            .flat_map(|(_, firsts)| firsts.iter().copied())
             .collect();
         near.sort_unstable();
-        let mirrored = shape.mirrored();
+        let mirrored = if near.is_empty() { None } else { Some(shape.mirrored()) };
+        let is_mirrored =
+            |other: &Shape| mirrored.as_ref().is_some_and(|m| m.fits(other, tolerance));
         let twin = near.iter().find_map(|&first| match &shapes[first] {
             other if shape.fits(other, tolerance) => Some(Twin { first, is_mirrored: false }),
-            other if mirrored.fits(other, tolerance) => Some(Twin { first, is_mirrored: true }),
+            other if is_mirrored(other) => Some(Twin { first, is_mirrored: true }),
             _ => None,
         });
         if twin.is_none() {
-            firsts.entry(key(0)).or_default().push(i);
+            firsts.entry(key(0, 0)).or_default().push(i);
         }
         found.push(twin.unwrap_or(Twin { first: i, is_mirrored: false }));
     }

@@ -7,14 +7,14 @@
 //! the kerf closes before the notch ends, a channel is cut instead, wide enough that a closed path
 //! leads in and out again ([`channels`]). Cut layers hold no open line.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec2;
 
 use super::distance::edges;
 use crate::geom::polygon::{bounds, segments_cross, signed_area};
 use crate::geom::predicate::orient2d;
-use crate::net::{EdgeLabel, Fold, FoldKind, Net, Seam, Segment};
+use crate::net::{EdgeLabel, Fold, FoldKind, Net, Piece, PieceId, Seam, Segment};
 
 /// Files hold four decimals of a millimetre: what is narrower, along both axes, may be one line
 /// there.
@@ -105,14 +105,26 @@ pub(crate) struct Mended {
 /// Makes folds of all seams whose two sides lie on one another from the tip of a slit on; nothing
 /// when there is none.
 pub(crate) fn mend(net: &Net) -> Option<Mended> {
+    // The seams of which both sides are on one piece, by that piece.
+    let mut own: BTreeMap<PieceId, Vec<usize>> = BTreeMap::new();
+    for (s, seam) in net.seams.iter().enumerate() {
+        let piece = seam.sides[0].piece;
+        if seam.sides.iter().all(|side| side.piece == piece) {
+            own.entry(piece).or_default().push(s);
+        }
+    }
+    let closed_of = |piece: &Piece, step: f64| -> Vec<usize> {
+        let own = own.get(&piece.id).into_iter().flatten().copied();
+        own.filter(|&s| is_closed(&net.seams[s], step)).collect()
+    };
+    if own.is_empty() {
+        return None;
+    }
     let mut mended = net.clone();
     let mut uncut: BTreeSet<usize> = BTreeSet::new();
     for piece in &mut mended.pieces {
-        let own = |s: &Seam| s.sides.iter().all(|side| side.piece == piece.id);
         let step = step_of(&piece.outline, ONE_LINE, RELATIVE_LINE);
-        let closed: Vec<usize> = (0..net.seams.len())
-            .filter(|&s| own(&net.seams[s]) && is_closed(&net.seams[s], step))
-            .collect();
+        let closed = closed_of(piece, step);
         if closed.is_empty() {
             continue;
         }

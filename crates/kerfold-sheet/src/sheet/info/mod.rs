@@ -8,6 +8,8 @@ mod free;
 mod legend;
 mod registration;
 
+use std::collections::BTreeMap;
+
 use glam::DVec2;
 
 use self::free::{FreeSpace, Rectangle};
@@ -22,7 +24,7 @@ use super::nest::StockSheet;
 use super::params::SheetParams;
 use super::verify::edges;
 use crate::geom::polygon::{Location, bounds, locate, segments_meet};
-use crate::net::Net;
+use crate::net::{Net, PieceId};
 
 pub(super) use self::legend::lettered;
 
@@ -50,7 +52,7 @@ pub(super) fn draw_info(
 ) -> Result<(), SheetError> {
     let shows_outside = !net.folds.is_empty() || !net.seams.is_empty();
     let about = (drawings.len(), shows_outside);
-    let by_id: std::collections::BTreeMap<_, _> = shapes.iter().map(|s| (s.piece, s)).collect();
+    let by_id: BTreeMap<PieceId, &CutShape> = shapes.iter().map(|s| (s.piece, s)).collect();
     for (drawing, sheet) in drawings.iter_mut().zip(&layout.sheets) {
         let lying = sheet.placed.iter().filter_map(|p| by_id.get(&p.piece).copied());
         let free = FreeSpace::new(sheet, lying, &stock[sheet.stock]);
@@ -85,6 +87,7 @@ pub(super) fn verify_info(
     shapes: &[CutShape],
     layout: &Layout,
 ) -> Result<(), SheetError> {
+    let by_id: BTreeMap<PieceId, &CutShape> = shapes.iter().map(|s| (s.piece, s)).collect();
     for (drawing, sheet) in drawings.iter().zip(&layout.sheets) {
         let info = drawing.layers.iter().filter(|l| l.kind == LayerKind::Info);
         let lines: Vec<(&str, DVec2, DVec2)> = info
@@ -97,7 +100,7 @@ pub(super) fn verify_info(
             })
             .collect();
         for placed in &sheet.placed {
-            let Some(shape) = shapes.iter().find(|s| s.piece == placed.piece) else { continue };
+            let Some(shape) = by_id.get(&placed.piece) else { continue };
             let outline = placed.apply_all(&shape.outline);
             let Some((low, high)) = bounds(&outline) else { continue };
             let touches = |&&(_, a, b): &&(&str, DVec2, DVec2)| {

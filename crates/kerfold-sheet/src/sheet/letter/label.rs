@@ -5,6 +5,7 @@
 //! least height is left out and counted: lettering that nobody can read only costs time on the
 //! machine.
 
+use std::cell::OnceCell;
 use std::collections::BTreeMap;
 
 use glam::DVec2;
@@ -100,10 +101,7 @@ pub(super) fn name_label(
     for &(_, i) in order.iter().take(FACES_TRIED) {
         let polygon = &piece.faces[i].polygon;
         let obstacles = obstacles.get(i).map_or(&[][..], Vec::as_slice);
-        let mut centres = vec![centroid(polygon), inner_point(polygon, &[])];
-        if !obstacles.is_empty() {
-            centres.push(inner_point(polygon, obstacles));
-        }
+        let centres = Centres::of(polygon, obstacles);
         for direction in [upright, along_longest_edge(polygon, upright)] {
             let beaten = best.as_ref().map_or(0.0, |(_, b)| b.height);
             let free = |l: &Label| {
@@ -122,16 +120,39 @@ pub(super) fn name_label(
     Ok(best)
 }
 
+/// Where the middle of a name is tried, one place after the other: most names fit the first, and the
+/// others cost more than all the rest of the lettering.
+struct Centres<'a> {
+    polygon: &'a [DVec2],
+    obstacles: Obstacles<'a>,
+    inner: [OnceCell<DVec2>; 2],
+}
+
+impl<'a> Centres<'a> {
+    fn of(polygon: &'a [DVec2], obstacles: Obstacles<'a>) -> Self {
+        Self { polygon, obstacles, inner: Default::default() }
+    }
+
+    fn all(&self) -> impl Iterator<Item = DVec2> + '_ {
+        let inner = |i: usize| {
+            let obstacles = if i == 0 { &[] } else { self.obstacles };
+            *self.inner[i].get_or_init(|| inner_point(self.polygon, obstacles))
+        };
+        let count = if self.obstacles.is_empty() { 1 } else { 2 };
+        std::iter::once_with(|| centroid(self.polygon)).chain((0..count).map(inner))
+    }
+}
+
 /// The largest text higher than `beaten`, and not above `largest`, that is free at one of the places.
 fn largest_name(
     text: &str,
-    centres: &[DVec2],
+    centres: &Centres<'_>,
     direction: DVec2,
     [beaten, largest]: [f64; 2],
     is_free: impl Fn(&Label) -> bool,
 ) -> Result<Option<Label>, SheetError> {
     for height in heights(largest).take_while(|&h| h > beaten) {
-        for &centre in centres {
+        for centre in centres.all() {
             let label = set(text, centre, direction, height)?;
             if is_free(&label) {
                 return Ok(Some(label));

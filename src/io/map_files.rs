@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use glam::DVec2;
 
-use super::number::decimal;
+use super::number::{decimal, push_point};
 use crate::panel::{AssemblyMap, MapPanel};
 use crate::sheet::lettering;
 
@@ -88,21 +88,32 @@ pub fn map_svg(map: &AssemblyMap, command: &str) -> String {
          stroke-linecap=\"round\">\n",
         escaped(command)
     );
-    let point = |p: &DVec2| format!("{} {}", decimal(p.x), decimal(height - p.y));
-    let path = |points: &[DVec2]| points.iter().map(point).collect::<Vec<_>>().join(" L ");
+    let path = |svg: &mut String, points: &[DVec2]| {
+        for (i, p) in points.iter().enumerate() {
+            *svg += if i == 0 { "M " } else { " L " };
+            push_point(svg, DVec2::new(p.x, height - p.y));
+        }
+    };
     for shape in shapes(map) {
-        let _ = match shape {
-            Shape::Panel { name, outline } => writeln!(
-                svg,
-                "<path class=\"{name}\" fill=\"#FFFFFF\" stroke=\"#707070\" \
-                stroke-width=\"{OUTLINE}\" d=\"M {} Z\"/>",
-                path(&outline)
-            ),
-            Shape::Text(strokes) => {
-                let data: Vec<String> = strokes.iter().map(|s| format!("M {}", path(s))).collect();
-                writeln!(svg, "<path d=\"{}\"/>", data.join(" "))
+        match shape {
+            Shape::Panel { name, outline } => {
+                let _ = write!(
+                    svg,
+                    "<path class=\"{name}\" fill=\"#FFFFFF\" stroke=\"#707070\" \
+                    stroke-width=\"{OUTLINE}\" d=\""
+                );
+                path(&mut svg, &outline);
+                svg += " Z\"/>\n";
             }
-        };
+            Shape::Text(strokes) => {
+                svg += "<path d=\"";
+                for (i, stroke) in strokes.iter().enumerate() {
+                    svg += if i == 0 { "" } else { " " };
+                    path(&mut svg, stroke);
+                }
+                svg += "\"/>\n";
+            }
+        }
     }
     svg + "</g>\n</svg>\n"
 }
@@ -125,7 +136,6 @@ pub fn map_svg(map: &AssemblyMap, command: &str) -> String {
 /// ```
 pub fn map_pdf(map: &AssemblyMap, command: &str) -> Vec<u8> {
     let mut content = format!("{0} 0 0 {0} 0 0 cm 1 J 1 j\n", 72.0 / 25.4);
-    let point = |p: &DVec2| format!("{} {}", decimal(p.x), decimal(p.y));
     for shape in shapes(map) {
         let (setup, strokes, end) = match &shape {
             Shape::Panel { outline, .. } => {
@@ -135,53 +145,76 @@ pub fn map_pdf(map: &AssemblyMap, command: &str) -> Vec<u8> {
         };
         content += &setup;
         for points in strokes {
-            for (i, p) in points.iter().enumerate() {
-                let _ = write!(content, " {} {}", point(p), if i == 0 { 'm' } else { 'l' });
+            for (i, &p) in points.iter().enumerate() {
+                content.push(' ');
+                push_point(&mut content, p);
+                content += if i == 0 { " m" } else { " l" };
             }
         }
         let _ = writeln!(content, " {end}");
     }
-    pdf_pages([map.width, map.height], &[content], "assembly map", command)
+    pdf_pages([map.width, map.height], [content].into_iter(), "assembly map", command)
 }
 
-/// A PDF of pages of one size in mm; the title is plain ASCII.
+/// A PDF of pages of one size in mm; the title is plain ASCII. One page after the other is made and
+/// written, so that no two copies of thousands of them are held.
 pub(super) fn pdf_pages(
     [width, height]: [f64; 2],
-    pages: &[String],
+    pages: impl ExactSizeIterator<Item = String>,
     title: &str,
     command: &str,
 ) -> Vec<u8> {
     let points = |mm: f64| decimal(mm * 72.0 / 25.4);
     let (width, height) = (points(width), points(height));
     let kids: Vec<String> = (0..pages.len()).map(|i| format!("{} 0 R", 4 + 2 * i)).collect();
-    let mut objects = vec![
-        "<< /Type /Catalog /Pages 2 0 R >>".to_owned(),
-        format!("<< /Type /Pages /Kids [{}] /Count {} >>", kids.join(" "), pages.len()),
-        format!("<< /Title ({title}) /Creator (kerfold) /Subject {} >>", pdf_text(command)),
-    ];
-    for (i, content) in pages.iter().enumerate() {
-        objects.push(format!(
+    let mut file = Objects { file: b"%PDF-1.4\n%\xe2\xe3\xcf\xd3\n".to_vec(), places: Vec::new() };
+    file.add(&["<< /Type /Catalog /Pages 2 0 R >>"]);
+    file.add(&[&format!("<< /Type /Pages /Kids [{}] /Count {} >>", kids.join(" "), pages.len())]);
+    file.add(&[&format!(
+        "<< /Title ({title}) /Creator (kerfold) /Subject {} >>",
+        pdf_text(command)
+    )]);
+    for (i, content) in pages.enumerate() {
+        file.add(&[&format!(
             "<< /Type /Page /Parent 2 0 R /MediaBox [0 0 {width} {height}] /Resources << >> \
             /Contents {} 0 R >>",
             5 + 2 * i
-        ));
-        objects.push(format!("<< /Length {} >>\nstream\n{content}endstream", content.len()));
+        )]);
+        let head = format!("<< /Length {} >>\nstream\n", content.len());
+        file.add(&[&head, &content, "endstream"]);
     }
-    let mut file = b"%PDF-1.4\n%\xe2\xe3\xcf\xd3\n".to_vec();
-    let mut places = Vec::new();
-    for (i, object) in objects.iter().enumerate() {
-        places.push(file.len());
-        file.extend(format!("{} 0 obj\n{object}\nendobj\n", i + 1).bytes());
+    file.end()
+}
+
+/// The numbered objects of a PDF.
+struct Objects {
+    file: Vec<u8>,
+    /// Where each begins.
+    places: Vec<usize>,
+}
+
+impl Objects {
+    /// Writes the next object, given in parts.
+    fn add(&mut self, parts: &[&str]) {
+        self.places.push(self.file.len());
+        self.file.extend(format!("{} 0 obj\n", self.places.len()).bytes());
+        parts.iter().for_each(|part| self.file.extend_from_slice(part.as_bytes()));
+        self.file.extend_from_slice(b"\nendobj\n");
     }
-    let table = file.len();
-    file.extend(format!("xref\n0 {}\n0000000000 65535 f \n", objects.len() + 1).bytes());
-    places.iter().for_each(|place| file.extend(format!("{place:010} 00000 n \n").bytes()));
-    let trailer = format!(
-        "trailer\n<< /Size {} /Root 1 0 R /Info 3 0 R >>\nstartxref\n{table}\n%%EOF\n",
-        objects.len() + 1
-    );
-    file.extend(trailer.bytes());
-    file
+
+    /// The file with its table of places.
+    fn end(self) -> Vec<u8> {
+        let Self { mut file, places } = self;
+        let table = file.len();
+        file.extend(format!("xref\n0 {}\n0000000000 65535 f \n", places.len() + 1).bytes());
+        places.iter().for_each(|place| file.extend(format!("{place:010} 00000 n \n").bytes()));
+        let trailer = format!(
+            "trailer\n<< /Size {} /Root 1 0 R /Info 3 0 R >>\nstartxref\n{table}\n%%EOF\n",
+            places.len() + 1
+        );
+        file.extend(trailer.bytes());
+        file
+    }
 }
 
 /// A PDF text string: ASCII in brackets, anything else as UTF-16 in hexadecimal.

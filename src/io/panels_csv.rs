@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 use glam::{DVec2, DVec3};
 
 use super::csv_cell::cell;
+use super::number::push_rounded;
 use crate::mesh::EdgeId;
 use crate::net::{EdgeLabel, PieceId};
 use crate::panel::{GroupRow, NodeRow, PanelRow, Plate, Plates, Schedule};
@@ -57,7 +58,7 @@ pub(super) fn panels_table(schedule: &Schedule, plates: &Plates, layout: &Layout
          sheet,origin_mm,x_axis,y_axis,normal,front_mm,back_mm",
     );
     for (row, plate) in schedule.panels.iter().zip(&plates.plates) {
-        table.row(&panel(row, plate, sheets.get(&row.id).map_or("", String::as_str)));
+        table.row(panel(row, plate, sheets.get(&row.id).map_or("", String::as_str)));
     }
     table
 }
@@ -122,7 +123,7 @@ pub(super) fn edges_table(schedule: &Schedule) -> Table {
         fields.extend([row.shape.name(), row.kind.name(), wanted, why].map(str::to_owned));
         fields.extend([row.opening.map(|o| o[0]), row.opening.map(|o| o[1])].map(maybe));
         fields.push(yes(row.is_stepped));
-        table.row(&fields);
+        table.row(fields);
     }
     table
 }
@@ -151,7 +152,7 @@ pub(super) fn nodes_table(schedule: &Schedule) -> Table {
     let mut table = Table::new(
         "node,valence,rim,edges,angles_deg,tilts_deg,position_mm,axis,front_mm,back_mm,residual_mm_per_mm,miss_mm",
     );
-    schedule.nodes.iter().for_each(|row| table.row(&node(row)));
+    schedule.nodes.iter().for_each(|row| table.row(node(row)));
     table
 }
 
@@ -192,7 +193,7 @@ pub(super) fn cutting_list_table(schedule: &Schedule) -> Table {
          mass_all_kg,perimeter_all_mm,edge_work_all_mm,names",
     );
     for row in &schedule.groups {
-        table.row(&group(row, &schedule.panels));
+        table.row(group(row, &schedule.panels));
     }
     table
 }
@@ -227,8 +228,8 @@ impl Table {
         Self { columns: columns.split(',').collect(), rows: Vec::new() }
     }
 
-    fn row(&mut self, fields: &[String]) {
-        self.rows.push(fields.to_vec());
+    fn row(&mut self, fields: Vec<String>) {
+        self.rows.push(fields);
     }
 
     /// The table as text; the command line in the last column of the first row.
@@ -269,13 +270,18 @@ fn yes(is_so: bool) -> String {
 
 /// At most six decimals, without zeros at the end, never −0.
 fn number(value: f64) -> String {
-    let text = format!("{value:.6}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+    let mut text = String::with_capacity(16);
+    push_rounded::<6>(&mut text, value);
+    text
 }
 
 fn numbers(values: &[f64]) -> String {
-    values.iter().map(|&v| number(v)).collect::<Vec<_>>().join(" ")
+    let mut text = String::new();
+    for (i, &value) in values.iter().enumerate() {
+        text += if i == 0 { "" } else { " " };
+        push_rounded::<6>(&mut text, value);
+    }
+    text
 }
 
 fn vector(v: DVec3) -> String {
@@ -283,11 +289,14 @@ fn vector(v: DVec3) -> String {
 }
 
 fn points(outline: &[DVec2]) -> String {
-    outline
-        .iter()
-        .map(|p| format!("{} {}", number(p.x), number(p.y)))
-        .collect::<Vec<_>>()
-        .join("; ")
+    let mut text = String::new();
+    for (i, p) in outline.iter().enumerate() {
+        text += if i == 0 { "" } else { "; " };
+        push_rounded::<6>(&mut text, p.x);
+        text.push(' ');
+        push_rounded::<6>(&mut text, p.y);
+    }
+    text
 }
 
 #[cfg(test)]
@@ -297,8 +306,8 @@ mod tests {
     #[test]
     fn rows_are_quoted_and_the_command_comes_once() {
         let mut table = Table::new("a,b");
-        table.row(&["1".to_owned(), "p, q".to_owned()]);
-        table.row(&["2".to_owned(), "r".to_owned()]);
+        table.row(vec!["1".to_owned(), "p, q".to_owned()]);
+        table.row(vec!["2".to_owned(), "r".to_owned()]);
         assert_eq!(
             table.csv("kerfold panels \"x, y\""),
             "a,b,command\r\n1,\"p, q\",\"kerfold panels \"\"x, y\"\"\"\r\n2,r,\r\n"

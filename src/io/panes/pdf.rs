@@ -7,15 +7,14 @@ use glam::DVec2;
 use super::shape::{Pen, Shape};
 use super::{PAGE, Pane};
 use crate::io::map_files::pdf_pages;
-use crate::io::number::decimal;
+use crate::io::number::{decimal, push_point};
 
 /// Control points of a quarter circle by a cubic curve, in radii: (4/3)·(√2 − 1).
 const QUARTER: f64 = 0.552_284_749_830_793_6;
 
 /// The bytes of the PDF; `command` is the command line that made it.
 pub fn panes_pdf(panes: &[Pane], command: &str) -> Vec<u8> {
-    let pages: Vec<String> = panes.iter().map(content).collect();
-    pdf_pages([PAGE.x, PAGE.y], &pages, "panes", command)
+    pdf_pages([PAGE.x, PAGE.y], panes.iter().map(content), "panes", command)
 }
 
 fn content(pane: &Pane) -> String {
@@ -29,22 +28,25 @@ fn content(pane: &Pane) -> String {
 }
 
 fn path(text: &mut String, shape: &Shape) {
-    let point = |p: DVec2| format!("{} {}", decimal(p.x), decimal(p.y));
     match shape {
         Shape::Line { points, is_closed, .. } => {
             for (i, &p) in points.iter().enumerate() {
-                let _ = write!(text, "{} {} ", point(p), if i == 0 { 'm' } else { 'l' });
+                push_point(text, p);
+                *text += if i == 0 { " m " } else { " l " };
             }
             *text += if *is_closed { "s\n" } else { "S\n" };
         }
         Shape::Circle { centre, radius, .. } => {
-            let _ = write!(text, "{} m ", point(*centre + DVec2::X * *radius));
+            push_point(text, *centre + DVec2::X * *radius);
+            *text += " m ";
             let mut from = DVec2::X;
             for _ in 0..4 {
                 let to = from.perp();
-                let [p, q, r] = [from + to * QUARTER, to + from * QUARTER, to]
-                    .map(|d| point(*centre + d * *radius));
-                let _ = write!(text, "{p} {q} {r} c ");
+                for d in [from + to * QUARTER, to + from * QUARTER, to] {
+                    push_point(text, *centre + d * *radius);
+                    text.push(' ');
+                }
+                *text += "c ";
                 from = to;
             }
             *text += "s\n";

@@ -7,7 +7,7 @@
 use svg::node::Text;
 use svg::node::element::{Element, Group, Path, SVG};
 
-use crate::io::number::{decimal, hex, is_not_xml, shown_points};
+use crate::io::number::{decimal, hex, is_not_xml, push_shown_points};
 use crate::sheet::{Drawing, Layer, Mark, Stroke, Style};
 
 /// The text of one SVG file for a sheet; `command` is the command line that made it.
@@ -58,14 +58,17 @@ fn group(layer: &Layer, height: f64, style: &Style) -> Group {
 }
 
 fn path(mark: &Mark, height: f64) -> Path {
-    let data: Vec<String> = mark.strokes.iter().map(|s| path_data(s, height)).collect();
-    Path::new().set("id", mark.id.as_str()).set("class", mark.kind.name()).set("d", data.join(" "))
+    let mut data = String::new();
+    for (i, stroke) in mark.strokes.iter().enumerate() {
+        data += if i == 0 { "" } else { " " };
+        push_path(&mut data, stroke, height);
+    }
+    Path::new().set("id", mark.id.as_str()).set("class", mark.kind.name()).set("d", data)
 }
 
-/// `M x,y L x,y … Z`, without points that four decimals cannot tell apart.
-fn path_data(stroke: &Stroke, height: f64) -> String {
-    let points: Vec<String> =
-        shown_points(stroke, Some(height)).iter().map(|p| p.join(",")).collect();
-    let end = if stroke.closed { " Z" } else { "" };
-    format!("M {}{end}", points.join(" L "))
+/// Adds `M x,y L x,y … Z`, without points that four decimals cannot tell apart.
+fn push_path(data: &mut String, stroke: &Stroke, height: f64) {
+    *data += "M ";
+    push_shown_points(data, stroke, height);
+    *data += if stroke.closed { " Z" } else { "" };
 }

@@ -1,6 +1,6 @@
 //! `assembly.txt`: what to do in which order, in names and numbers that stand on the sheets.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::Fabrication;
 use crate::net::PieceId;
@@ -13,13 +13,21 @@ pub(super) struct Engraved<'a> {
     labels: Labels,
     /// The names of marks that are a name or a number.
     marks: BTreeSet<&'a str>,
+    /// The stretches of every piece, by their place in the assembly, ascending.
+    of_piece: BTreeMap<PieceId, Vec<usize>>,
 }
 
 impl<'a> Engraved<'a> {
     pub fn new(fabrication: &'a Fabrication, labels: Labels) -> Self {
         let marks = fabrication.sheets.drawings.iter().flat_map(Drawing::marks);
         let marks = marks.filter(|m| matches!(m.kind, MarkKind::PieceName | MarkKind::SeamNumber));
-        Self { fabrication, labels, marks: marks.map(|m| m.id.as_str()).collect() }
+        let mut of_piece: BTreeMap<PieceId, Vec<usize>> = BTreeMap::new();
+        for (i, stretch) in fabrication.sheets.assembly.stretches.iter().enumerate() {
+            for piece in stretch.pieces {
+                of_piece.entry(piece).or_default().push(i);
+            }
+        }
+        Self { fabrication, labels, marks: marks.map(|m| m.id.as_str()).collect(), of_piece }
     }
 
     /// Whether an edge of the model has its number on one of its sides at least.
@@ -87,12 +95,13 @@ impl<'a> Engraved<'a> {
         };
         let own = corners(stretch);
         let all = &self.fabrication.sheets.assembly.stretches;
+        let near = stretch.pieces.iter().filter_map(|piece| self.of_piece.get(piece)).flatten();
+        let near: BTreeSet<usize> = near.copied().collect();
         let is_beside = |other: &&Stretch| {
-            other.number != stretch.number
-                && other.pieces.iter().any(|p| stretch.pieces.contains(p))
-                && corners(other).intersection(&own).next().is_some()
+            other.number != stretch.number && corners(other).intersection(&own).next().is_some()
         };
-        all.iter().filter(is_beside).flat_map(|s| self.numbers(s)).collect()
+        let near = near.into_iter().map(|i| &all[i]);
+        near.filter(is_beside).flat_map(|s| self.numbers(s)).collect()
     }
 
     /// What is done in one step, in words.

@@ -66,8 +66,9 @@ pub fn sheets_html(page: &SheetPage<'_>, command: &str) -> String {
         }
         None => "",
     };
-    let drawn: String = page.sheets.drawings.iter().map(|d| svg::sheet_svg(page, d)).collect();
-    let data = svg::page_json(page, model);
+    let index = svg::Index::new(page);
+    let drawn: String = page.sheets.drawings.iter().map(|d| svg::sheet_svg(&index, d)).collect();
+    let data = svg::page_json(&index, model);
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta \
         name=\"viewport\" content=\"width=device-width\">\n<meta name=\"description\" \

@@ -1,18 +1,49 @@
 //! The sheets of the page as pictures inside it, and what belongs together.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
 use glam::DVec2;
 use serde_json::{Value, json};
 
 use super::{SheetPage, piece_colour};
-use crate::io::number::{decimal, hex};
+use crate::io::number::{decimal, hex, push_point};
 use crate::net::PieceId;
-use crate::sheet::{Drawing, Labels, LayerKind, MarkKind, Placed, Stroke};
+use crate::sheet::{Drawing, Labels, LayerKind, MarkKind, Placed, Sheet, SheetId, Stroke};
+
+/// What the pointer can be on: a number on the sheet, and the seams that it stands for.
+type Key = (usize, Vec<usize>);
+
+/// What all sheets of a page look up.
+pub(super) struct Index<'a> {
+    page: &'a SheetPage<'a>,
+    /// The place of every piece in the net.
+    places: BTreeMap<PieceId, usize>,
+    keys: Vec<Key>,
+    /// The keys with a side on a piece, by their place in `keys`, ascending.
+    of_piece: BTreeMap<PieceId, Vec<usize>>,
+    sheets: BTreeMap<SheetId, &'a Sheet>,
+}
+
+impl<'a> Index<'a> {
+    pub fn new(page: &'a SheetPage<'a>) -> Self {
+        let keys = keys(page);
+        let mut of_piece: BTreeMap<PieceId, Vec<usize>> = BTreeMap::new();
+        for (i, (_, seams)) in keys.iter().enumerate() {
+            for side in seams.iter().flat_map(|&s| &page.net.seams[s].sides) {
+                let known = of_piece.entry(side.piece).or_default();
+                if known.last() != Some(&i) {
+                    known.push(i);
+                }
+            }
+        }
+        let sheets = page.sheets.layout.sheets.iter().map(|s| (s.id, s)).collect();
+        Self { page, places: places(page), keys, of_piece, sheets }
+    }
+}
 
 /// One sheet: parts in the colours of their pieces, all lines, and the sides of seams to point at.
-pub(super) fn sheet_svg(page: &SheetPage<'_>, drawing: &Drawing) -> String {
+pub(super) fn sheet_svg(index: &Index<'_>, drawing: &Drawing) -> String {
     let (width, height) = (decimal(drawing.width), decimal(drawing.height));
     let stem = drawing.file_stem();
     let mut text = format!(
@@ -20,26 +51,22 @@ pub(super) fn sheet_svg(page: &SheetPage<'_>, drawing: &Drawing) -> String {
         viewBox=\"0 0 {width} {height}\"><rect class=\"paper\" width=\"{width}\" \
         height=\"{height}\"/>"
     );
-    parts(&mut text, page, drawing);
-    let style = page.params.style();
+    parts(&mut text, index, drawing);
+    let style = index.page.params.style();
     for layer in &drawing.layers {
-        let colour = hex(style.pen(layer.kind).colour);
-        let lines: String = layer
-            .marks
-            .iter()
-            .flat_map(|mark| &mark.strokes)
-            .map(|stroke| path(stroke, drawing.height))
-            .collect();
-        let kind = layer.kind.name();
-        let _ = write!(text, "<path class=\"line {kind}\" stroke=\"{colour}\" d=\"{lines}\"/>");
+        let (colour, kind) = (hex(style.pen(layer.kind).colour), layer.kind.name());
+        let _ = write!(text, "<path class=\"line {kind}\" stroke=\"{colour}\" d=\"");
+        for stroke in layer.marks.iter().flat_map(|mark| &mark.strokes) {
+            path(&mut text, stroke, drawing.height);
+        }
+        text += "\"/>";
     }
-    seams(&mut text, page, drawing);
+    seams(&mut text, index, drawing);
     text + "</svg></figure>\n"
 }
 
 /// The area of every part, its holes left out.
-fn parts(text: &mut String, page: &SheetPage<'_>, drawing: &Drawing) {
-    let places = places(page);
+fn parts(text: &mut String, index: &Index<'_>, drawing: &Drawing) {
     let mut contours: BTreeMap<PieceId, String> = BTreeMap::new();
     let cuts = drawing
         .layers
@@ -52,11 +79,11 @@ fn parts(text: &mut String, page: &SheetPage<'_>, drawing: &Drawing) {
     let bounds = [MarkKind::Outline, MarkKind::NestedOutline, MarkKind::Hole];
     for mark in cuts.filter(|m| bounds.contains(&m.kind)) {
         let Some(piece) = mark.piece else { continue };
-        let line: String = mark.strokes.iter().map(|s| path(s, drawing.height)).collect();
-        *contours.entry(piece).or_default() += &line;
+        let line = contours.entry(piece).or_default();
+        mark.strokes.iter().for_each(|s| path(line, s, drawing.height));
     }
     for (piece, line) in contours {
-        let Some(&place) = places.get(&piece) else { continue };
+        let Some(&place) = index.places.get(&piece) else { continue };
         let colour = hex(piece_colour(place));
         let _ = write!(
             text,
@@ -66,27 +93,25 @@ fn parts(text: &mut String, page: &SheetPage<'_>, drawing: &Drawing) {
 }
 
 /// The sides of seams as they lie on the sheet.
-fn seams(text: &mut String, page: &SheetPage<'_>, drawing: &Drawing) {
-    let Some(sheet) = page.sheets.layout.sheets.iter().find(|s| s.id == drawing.sheet) else {
-        return;
-    };
+fn seams(text: &mut String, index: &Index<'_>, drawing: &Drawing) {
+    let Some(sheet) = index.sheets.get(&drawing.sheet) else { return };
     let lying: BTreeMap<PieceId, &Placed> = sheet.placed.iter().map(|p| (p.piece, p)).collect();
-    for (key, seams) in keys(page).into_iter().enumerate() {
-        let mut line = String::new();
-        for side in seams.1.iter().flat_map(|&s| &page.net.seams[s].sides) {
+    let here: BTreeSet<usize> =
+        lying.keys().filter_map(|p| index.of_piece.get(p)).flatten().copied().collect();
+    for key in here {
+        let _ = write!(text, "<path class=\"seam\" data-s=\"{key}\" d=\"");
+        for side in index.keys[key].1.iter().flat_map(|&s| &index.page.net.seams[s].sides) {
             if let Some(placed) = lying.get(&side.piece) {
                 let points = side.segment.map(|p| placed.apply(p)).to_vec();
-                line += &path(&Stroke { points, closed: false }, drawing.height);
+                path(text, &Stroke { points, closed: false }, drawing.height);
             }
         }
-        if !line.is_empty() {
-            let _ = write!(text, "<path class=\"seam\" data-s=\"{key}\" d=\"{line}\"/>");
-        }
+        *text += "\"/>";
     }
 }
 
-/// What the pointer can be on: the numbers on the sheet, each with the seams that it stands for.
-fn keys(page: &SheetPage<'_>) -> Vec<(usize, Vec<usize>)> {
+/// The numbers on the sheets, each with the seams that it stands for.
+fn keys(page: &SheetPage<'_>) -> Vec<Key> {
     if page.params.letter.labels == Labels::Edges {
         return page.net.seams.iter().enumerate().map(|(i, s)| (s.id.0, vec![i])).collect();
     }
@@ -100,12 +125,12 @@ fn places(page: &SheetPage<'_>) -> BTreeMap<PieceId, usize> {
 }
 
 /// Names, colours and partners for the script.
-pub(super) fn page_json(page: &SheetPage<'_>, model: Option<Value>) -> String {
-    let places = places(page);
+pub(super) fn page_json(index: &Index<'_>, model: Option<Value>) -> String {
+    let Index { page, places, keys, .. } = index;
     let names: Vec<String> = page.net.pieces.iter().map(|p| p.id.to_string()).collect();
     let colours: Vec<_> = (0..names.len()).map(piece_colour).collect();
-    let seams: Vec<Value> = keys(page)
-        .into_iter()
+    let seams: Vec<Value> = keys
+        .iter()
         .map(|(number, seams)| {
             let sides = seams.first().map(|&s| &page.net.seams[s].sides);
             let pieces: Vec<_> =
@@ -118,17 +143,14 @@ pub(super) fn page_json(page: &SheetPage<'_>, model: Option<Value>) -> String {
     data.to_string().replace('<', "\\u003c")
 }
 
-/// `M1 2L3 4Z` with two decimals, y down.
-fn path(stroke: &Stroke, height: f64) -> String {
-    let shown = |mm: f64| decimal((mm * 100.0).round() / 100.0);
-    let mut text = String::new();
+/// Adds `M1 2L3 4Z` with two decimals, y down.
+fn path(text: &mut String, stroke: &Stroke, height: f64) {
+    let rounded = |mm: f64| (mm * 100.0).round() / 100.0;
     for (i, p) in stroke.points.iter().enumerate() {
-        let p = DVec2::new(p.x, height - p.y);
-        let letter = if i == 0 { 'M' } else { 'L' };
-        let _ = write!(text, "{letter}{} {}", shown(p.x), shown(p.y));
+        text.push(if i == 0 { 'M' } else { 'L' });
+        push_point(text, DVec2::new(rounded(p.x), rounded(height - p.y)));
     }
     if stroke.closed {
         text.push('Z');
     }
-    text
 }

@@ -77,7 +77,7 @@ pub fn sheet_picture(
     });
     let strokes =
         Strokes { width_mm: drawing.width, height_mm: drawing.height, layers: layers.collect() };
-    Ok(render_sheet(&strokes, width)?.to_png())
+    Ok(render_sheet(&strokes, width)?.to_line_png())
 }
 
 impl Fabrication {

@@ -12,6 +12,7 @@ mod camera;
 mod frame;
 mod legend;
 mod lettering;
+mod line_png;
 mod marks;
 mod model;
 mod paint;
@@ -39,6 +40,7 @@ pub use views::render_with;
 
 use tiny_skia::Pixmap;
 
+use self::line_png::line_png;
 use crate::code::codes;
 use crate::mesh::VertexId;
 
@@ -176,6 +178,15 @@ impl Picture {
     /// Never for a picture that was made here: writing into memory does not fail.
     pub fn to_png(&self) -> Vec<u8> {
         self.pixmap.encode_png().expect("a picture of checked size is encoded into memory")
+    }
+
+    /// As [`Picture::to_png`], the same pixels by a way that is many times faster for lines on plain
+    /// ground, as of sheets; for shaded pictures its files are larger.
+    ///
+    /// # Panics
+    /// Never for a picture that was made here.
+    pub fn to_line_png(&self) -> Vec<u8> {
+        line_png(&self.pixmap).unwrap_or_else(|| self.to_png())
     }
 }
 

@@ -14,7 +14,8 @@ use crate::select::NewElements;
 /// Divides all faces that come twice to a vertex, as far as that is possible; parts of a new face
 /// are new. Returns how many edges that took.
 pub(super) fn divide_repeated(mesh: &mut Mesh, made: &mut NewElements) -> usize {
-    let mut open: Vec<FaceId> = mesh.faces().filter(|&f| repeats(&walk(mesh, f)) > 0).collect();
+    let mut seen = Vec::new();
+    let mut open: Vec<FaceId> = mesh.faces().filter(|&f| comes_twice(mesh, f, &mut seen)).collect();
     // Every edge leaves fewer corners in a face, so this ends; what cannot be divided stays.
     let mut count = 0;
     while let Some(f) = open.pop() {
@@ -28,16 +29,25 @@ pub(super) fn divide_repeated(mesh: &mut Mesh, made: &mut NewElements) -> usize 
         if made.faces.contains(&f) {
             made.faces.extend(parts.iter().filter(|&&part| part != f));
         }
-        open.extend(parts.into_iter().filter(|&part| repeats(&walk(mesh, part)) > 0));
+        open.extend(parts.into_iter().filter(|&part| comes_twice(mesh, part, &mut seen)));
     }
     made.faces.sort_unstable();
     count
 }
 
-/// The vertices around a face without those that a self-loop brings a second time.
-fn walk(mesh: &Mesh, f: FaceId) -> Vec<VertexId> {
+/// Faces with more corners are sorted to find the same one twice.
+const FEW_CORNERS: usize = 16;
+
+/// Whether a face comes twice to a vertex; corners that a self-loop brings do not count. `seen` is
+/// room to work in.
+fn comes_twice(mesh: &Mesh, f: FaceId, seen: &mut Vec<VertexId>) -> bool {
     let straight = mesh.face_half_edges(f).filter(|&h| mesh.origin(h) != mesh.target(h));
-    straight.map(|h| mesh.origin(h)).collect()
+    seen.clear();
+    seen.extend(straight.map(|h| mesh.origin(h)));
+    if seen.len() > FEW_CORNERS {
+        return repeats(seen) > 0;
+    }
+    (1..seen.len()).any(|i| seen[..i].contains(&seen[i]))
 }
 
 /// How often a walk comes to a vertex where it was before.

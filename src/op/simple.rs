@@ -99,8 +99,7 @@ pub(super) fn keep_simple(
 /// Whether a mesh has self-loops, or faces with fewer than three different corners: no part of
 /// files, and good for the next operator only.
 fn is_unfinished(mesh: &Mesh) -> bool {
-    mesh.edges().any(|e| is_loop(mesh, e))
-        || mesh.faces().any(|f| straight_corners(mesh, f).len() < 3)
+    mesh.edges().any(|e| is_loop(mesh, e)) || mesh.faces().any(|f| !has_three_corners(mesh, f))
 }
 
 /// Whether several rims run through one vertex: a file holds a vertex for each of them.
@@ -181,12 +180,22 @@ fn is_loop(mesh: &Mesh, e: EdgeId) -> bool {
     a == b
 }
 
-/// The corners of a face without self-loops; fewer than three when they are not all different.
-fn straight_corners(mesh: &Mesh, f: FaceId) -> Vec<VertexId> {
+/// The corners of a face that no self-loop brings.
+fn corners(mesh: &Mesh, f: FaceId) -> impl Iterator<Item = VertexId> + '_ {
     let straight = mesh.face_half_edges(f).filter(|h| !is_loop(mesh, h.edge()));
-    let corners: Vec<VertexId> = straight.map(|h| mesh.origin(h)).collect();
-    let different = corners.iter().skip(2).any(|v| *v != corners[0] && *v != corners[1]);
-    if different { corners } else { Vec::new() }
+    straight.map(|h| mesh.origin(h))
+}
+
+/// Whether a face has three different corners.
+fn has_three_corners(mesh: &Mesh, f: FaceId) -> bool {
+    let mut corners = corners(mesh, f);
+    let (first, second) = (corners.next(), corners.next());
+    corners.any(|v| Some(v) != first && Some(v) != second)
+}
+
+/// The corners of a face without self-loops; none when fewer than three of them differ.
+fn straight_corners(mesh: &Mesh, f: FaceId) -> Vec<VertexId> {
+    if has_three_corners(mesh, f) { corners(mesh, f).collect() } else { Vec::new() }
 }
 
 /// The mesh that a file would hold: without self-loops and small faces, vertices that these held

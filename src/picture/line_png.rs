@@ -2,8 +2,8 @@
 //!
 //! Every row is written as its difference from the row above (filter "up"), which is zero but where
 //! lines run. What is left to pack are runs: of zeros, and of a pixel that comes again and again. So
-//! nothing is searched for, a row like the one above costs one comparison, and a picture takes a
-//! fiftieth of the time of a general encoder, for files that are about as large.
+//! nothing is searched for, and a row like the one above costs one comparison. The files are about a
+//! third larger than those of a general encoder, which takes many times as long.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -330,7 +330,8 @@ mod tests {
     fn lines_on_plain_ground_make_small_files_and_what_shines_through_none() {
         let grid =
             picture(1200, 900, |x, y| if x % 100 == 0 || y == x { [0; 3] } else { [250; 3] });
-        assert!(line_png(&grid).is_some_and(|png| png.len() < 8000));
+        // Of three bytes a pixel, less than a two-hundredth.
+        assert!(line_png(&grid).is_some_and(|png| png.len() < 3 * 1200 * 900 / 200));
         let mut glass = Pixmap::new(4, 4).expect("a size");
         glass.fill(Color::from_rgba8(10, 20, 30, 128));
         assert_eq!(line_png(&glass), None);

@@ -180,6 +180,7 @@ const DOORS: &[(&str, &[&str])] = &[
     ("rust_xlsxwriter", &["src/io/panels_xlsx.rs"]),
     ("zip", &["src/io/read/threemf/package.rs", "src/io/write/threemf.rs"]),
     ("tiny_skia", &["src/picture/"]),
+    ("png", &["src/picture/line_png.rs"]),
     ("serde_json", &["src/io/", "src/cli/"]),
     ("csv", &["src/recipe/sweep.rs"]),
     ("toml", &["src/recipe/", "src/make/materials.rs", "src/make/glue_file.rs"]),

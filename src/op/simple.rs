@@ -328,6 +328,8 @@ fn collapse_points(mesh: &mut Mesh, faults: &[FileFault]) -> usize {
 pub(super) fn dissolve_lines(mesh: &mut Mesh, faults: &[FileFault]) -> usize {
     let mut open: Vec<FaceId> = flat_faces(faults).collect();
     open.reverse();
+    // Faces that hand ears to each other would never end: there are as many ears as corners.
+    let mut ears: usize = open.iter().map(|&f| mesh.sides(f)).sum();
     let mut count = 0;
     while let Some(f) = open.pop() {
         if !mesh.has_face(f) {
@@ -341,8 +343,11 @@ pub(super) fn dissolve_lines(mesh: &mut Mesh, faults: &[FileFault]) -> usize {
                 delete_between_holes(mesh, &edges);
                 count += 1;
             }
-            Some(_) => {}
-            None => open.extend(cut_ear(mesh, f, &sides)),
+            None if ears > 0 => {
+                ears -= 1;
+                open.extend(cut_ear(mesh, f, &sides));
+            }
+            _ => {}
         }
     }
     count

@@ -180,7 +180,7 @@ impl Picture {
         self.pixmap.encode_png().expect("a picture of checked size is encoded into memory")
     }
 
-    /// As [`Picture::to_png`], the same pixels by a way that is many times faster for lines on plain
+    /// As [`Picture::to_png`], the same pixels packed faster where lines run on plain
     /// ground, as of sheets; for shaded pictures its files are larger.
     ///
     /// # Panics

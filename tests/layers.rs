@@ -181,7 +181,7 @@ const DOORS: &[(&str, &[&str])] = &[
     ("zip", &["src/io/read/threemf/package.rs", "src/io/write/threemf.rs"]),
     ("tiny_skia", &["src/picture/"]),
     ("png", &["src/picture/line_png.rs"]),
-    ("serde_json", &["src/io/", "src/cli/"]),
+    ("serde_json", &["src/io/", "src/cli/", "src/recipe/sweep.rs"]),
     ("csv", &["src/recipe/sweep.rs"]),
     ("toml", &["src/recipe/", "src/make/materials.rs", "src/make/glue_file.rs"]),
     ("clap_complete", &["src/cli/"]),

@@ -85,11 +85,11 @@ fn gather(
     };
     let manifests: Vec<Option<String>> =
         sweep.variants.iter().map(|variant| read(&variant.folder)).collect::<Result<_, _>>()?;
-    let text = sweep
+    let found = sweep
         .results(&manifests)
         .map_err(|error| CliError::Sweep { path: table.to_owned(), error })?;
-    write_file(results, text.as_bytes())?;
-    let (all, done) = (manifests.len(), manifests.iter().flatten().count());
+    write_file(results, found.table.as_bytes())?;
+    let (all, done) = (manifests.len(), found.done);
     let path = results.to_string_lossy();
     let told = match console.json {
         true => {
@@ -97,9 +97,8 @@ fn gather(
             format!("{counts:#}\n")
         }
         false => {
-            let first = sweep.variants.iter().zip(&manifests).find(|(_, text)| text.is_none());
-            let first = first.map_or_else(String::new, |(variant, _)| {
-                format!("; the first that has not run is {}", variant.folder)
+            let first = found.first_open.map_or_else(String::new, |folder| {
+                format!("; the first that has not run is {folder}")
             });
             format!("wrote {path}: {done} of {} done{first}\n", counted(all, "variant", "variants"))
         }

@@ -36,7 +36,7 @@ pub use outputs::job_outputs;
 pub use schema::{ChoiceSchema, KeySchema, StepGroup, StepSchema, ValueKind, schema};
 pub use session::{Preview, Reached, Replay, Session, SessionError};
 pub use shell::{shell_line, shell_text};
-pub use sweep::{MANIFEST, MOST_VARIANTS, Sweep, SweepError, Variant};
+pub use sweep::{MANIFEST, MOST_VARIANTS, Sweep, SweepError, SweepResults, Variant};
 
 use crate::check::CheckParams;
 use crate::io::ReadOptions;

@@ -171,56 +171,95 @@ impl Sweep {
 
     /// One table of all results, as CSV: for each variant its folder, its parameters, whether it has
     /// run, and every number and word of its manifest that is no list. `manifests` has the text of
-    /// each, in the order of the variants; `None` where there is none yet.
+    /// each, in the order of the variants; `None` where there is none yet. A manifest of other
+    /// parameters is from before the table was changed, and counts as none.
     ///
     /// # Errors
     /// [`SweepError::BadManifest`].
-    pub fn results(&self, manifests: &[Option<String>]) -> Result<String, SweepError> {
+    pub fn results(&self, manifests: &[Option<String>]) -> Result<SweepResults, SweepError> {
         let mut columns: Vec<String> = Vec::new();
-        let mut rows: Vec<Vec<(String, String)>> = Vec::new();
+        let mut rows: Vec<Row> = Vec::new();
         for (variant, text) in self.variants.iter().zip(manifests) {
-            let mut cells = Vec::new();
-            if let Some(text) = text {
-                let bad = |message: String| SweepError::BadManifest {
-                    folder: variant.folder.clone(),
-                    message,
-                };
-                let told: Value = serde_json::from_str(text).map_err(|e| bad(e.to_string()))?;
-                let Value::Object(parts) = told else { return Err(bad("no object".to_owned())) };
-                for part in RESULTS {
-                    parts.get(*part).into_iter().for_each(|v| flatten(part, v, &mut cells));
-                }
-            }
-            for (column, _) in &cells {
+            let row = match text {
+                Some(text) => Row::read(variant, text)?,
+                None => Row { state: NOT_RUN, cells: Vec::new() },
+            };
+            for (column, _) in &row.cells {
                 if !columns.contains(column) {
                     columns.push(column.clone());
                 }
             }
-            rows.push(cells);
+            rows.push(row);
         }
-        self.table(&columns, &rows)
+        let is_open = |(_, row): &(&Variant, &Row)| row.state != DONE;
+        let first_open = self.variants.iter().zip(&rows).find(is_open);
+        Ok(SweepResults {
+            done: rows.iter().filter(|row| row.state == DONE).count(),
+            first_open: first_open.map(|(variant, _)| variant.folder.clone()),
+            table: self.table(&columns, &rows)?,
+        })
     }
 
-    fn table(
-        &self,
-        columns: &[String],
-        rows: &[Vec<(String, String)>],
-    ) -> Result<String, SweepError> {
+    fn table(&self, columns: &[String], rows: &[Row]) -> Result<String, SweepError> {
         let mut writer = csv::Writer::from_writer(Vec::new());
         let head = [NAME.to_owned()].into_iter().chain(self.parameters.clone());
         writer.write_record(head.chain(["state".to_owned()]).chain(columns.iter().cloned()))?;
-        for (variant, cells) in self.variants.iter().zip(rows) {
+        for (variant, row) in self.variants.iter().zip(rows) {
             let value = |all: &[(String, String)], name: &str| {
                 all.iter().find(|(n, _)| n == name).map_or_else(String::new, |(_, v)| v.clone())
             };
-            let state = if cells.is_empty() { "not run" } else { "done" };
             let settings = self.parameters.iter().map(|name| value(&variant.settings, name));
-            let found = columns.iter().map(|column| value(cells, column));
-            let row = std::iter::once(variant.folder.clone()).chain(settings);
-            writer.write_record(row.chain([state.to_owned()]).chain(found))?;
+            let found = columns.iter().map(|column| value(&row.cells, column));
+            let begin = std::iter::once(variant.folder.clone()).chain(settings);
+            writer.write_record(begin.chain([row.state.to_owned()]).chain(found))?;
         }
         let bytes = writer.into_inner().map_err(|e| csv::Error::from(e.into_error()))?;
         Ok(String::from_utf8(bytes).expect("cells are text"))
+    }
+}
+
+/// What the runs of a sweep have left.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SweepResults {
+    /// A line for each variant, as CSV with a head.
+    pub table: String,
+    /// How many variants have run with the values of the table.
+    pub done: usize,
+    /// The folder of the first that has not.
+    pub first_open: Option<String>,
+}
+
+const DONE: &str = "done";
+const NOT_RUN: &str = "not run";
+const OUTDATED: &str = "other values";
+
+/// What the table says of a variant.
+struct Row {
+    state: &'static str,
+    cells: Vec<(String, String)>,
+}
+
+impl Row {
+    /// What a manifest says, if it is that of the variant.
+    fn read(variant: &Variant, text: &str) -> Result<Self, SweepError> {
+        let bad =
+            |message: String| SweepError::BadManifest { folder: variant.folder.clone(), message };
+        let told: Value = serde_json::from_str(text).map_err(|e| bad(e.to_string()))?;
+        let Some(Value::Object(parameters)) = told.get("parameters") else {
+            return Err(bad("it names no parameters".to_owned()));
+        };
+        let is_same = |(name, value): &(String, String)| {
+            parameters.get(name).and_then(Value::as_str) == Some(value.as_str())
+        };
+        let settings = &variant.settings;
+        if settings.len() != parameters.len() || !settings.iter().all(is_same) {
+            return Ok(Self { state: OUTDATED, cells: Vec::new() });
+        }
+        let mut cells = Vec::new();
+        for part in RESULTS {
+            told.get(*part).into_iter().for_each(|value| flatten(part, value, &mut cells));
+        }
+        Ok(Self { state: DONE, cells })
     }
 }
 
@@ -316,12 +355,19 @@ mod tests {
     #[test]
     fn results_are_one_table_with_a_line_for_every_variant() {
         let sweep = Sweep::parse("size\n10mm\n30mm\n", RECIPE).expect("a sweep");
-        let done = r#"{"verdict": "pass", "model": {"faces": 6, "size_mm": [1, 2, 3]}}"#;
-        let table = sweep.results(&[None, Some(done.to_owned())]).expect("manifests");
+        let done = r#"{"parameters": {"size": "30mm"}, "verdict": "pass",
+            "model": {"faces": 6, "size_mm": [1, 2, 3]}}"#;
+        let done = || Some(done.to_owned());
+        let found = sweep.results(&[None, done()]).expect("manifests");
         assert_eq!(
-            table,
+            found.table,
             "name,size,state,verdict,model.faces\n1,10mm,not run,,\n2,30mm,done,pass,6\n"
         );
+        assert_eq!((found.done, found.first_open.as_deref()), (1, Some("1")));
+        // What ran with another value of the table is no result of this one.
+        let found = sweep.results(&[done(), done()]).expect("manifests");
+        assert!(found.table.contains("1,10mm,other values,,\n"), "{}", found.table);
+        assert_eq!((found.done, found.first_open.as_deref()), (1, Some("1")));
         let error = sweep.results(&[Some("{".to_owned()), None]).expect_err("no JSON");
         assert_eq!(error.code().to_string(), "E777");
     }

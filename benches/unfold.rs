@@ -259,7 +259,7 @@ fn run(
 }
 
 fn components(mesh: &Mesh) -> usize {
-    mesh.components().len()
+    mesh.component_count()
 }
 
 const DECIMATE: &str = "

@@ -320,44 +320,16 @@ pub(super) fn finish(mut mesh: Mesh, mut report: CutReport) -> Result<(Mesh, Cut
     let map = report.made.compact(&mut mesh);
     report.origins = report.origins.renumbered(&map, mesh.face_slots());
     keep_cut_simple(&mut mesh, &mut report.made)?;
-    let edges = EdgeCounts::of(&mesh);
-    report.not_three_valent = mesh.vertices().filter(|&v| edges.at[v] != 3).collect();
-    report.components = edges.parts;
+    let edges = edges_at(&mesh);
+    report.not_three_valent = mesh.vertices().filter(|&v| edges[v] != 3).collect();
+    report.components = mesh.component_count();
     Ok((mesh, report))
 }
 
-/// What the edges of a mesh tell, gone through once in the order in which they lie in memory.
-struct EdgeCounts {
-    /// How many edges end at each vertex, a self-loop twice.
-    at: VertexMap<u32>,
-    /// How many connected parts there are.
-    parts: usize,
-}
-
-impl EdgeCounts {
-    fn of(mesh: &Mesh) -> Self {
-        let mut at = VertexMap::filled(mesh.vertex_slots(), 0);
-        let mut leader: Vec<u32> = (0..mesh.vertex_slots() as u32).collect();
-        let mut parts = mesh.vertex_count();
-        for e in mesh.edges() {
-            let ends = mesh.edge_vertices(e);
-            ends.iter().for_each(|&v| at[v] += 1);
-            let [a, b] = ends.map(|v| leader_of(&mut leader, v.index() as u32));
-            if a != b {
-                // The lower one leads: neighbours lie near each other, so ways stay short.
-                leader[a.max(b) as usize] = a.min(b);
-                parts -= 1;
-            }
-        }
-        Self { at, parts }
-    }
-}
-
-/// The vertex that stands for the part of another one so far; halves the way there.
-fn leader_of(leader: &mut [u32], mut v: u32) -> u32 {
-    while leader[v as usize] != v {
-        leader[v as usize] = leader[leader[v as usize] as usize];
-        v = leader[v as usize];
-    }
-    v
+/// How many edges end at each vertex, a self-loop twice: gone through as they lie in memory, which is
+/// faster than to walk around each vertex.
+fn edges_at(mesh: &Mesh) -> VertexMap<u32> {
+    let mut count = VertexMap::filled(mesh.vertex_slots(), 0);
+    mesh.edges().flat_map(|e| mesh.edge_vertices(e)).for_each(|v| count[v] += 1);
+    count
 }

@@ -42,7 +42,7 @@ fn frame(mesh: &Mesh) -> Option<(DVec3, [DVec3; 3])> {
     let is_like_one = mesh.vertex_count() == 8
         && mesh.face_count() == 6
         && mesh.edge_count() == 12
-        && mesh.components().len() == 1
+        && mesh.component_count() == 1
         && mesh.vertices().all(|v| mesh.valence(v) == 3)
         && mesh.faces().all(|f| mesh.sides(f) == 4);
     let start = mesh.vertices().next().filter(|_| is_like_one)?;

@@ -56,7 +56,7 @@ pub(super) fn open(
         faces: made_mesh.faces().filter(|&f| !stays(f)).collect(),
         ..NewElements::default()
     };
-    let components = made_mesh.components().len();
+    let components = made_mesh.component_count();
     let euler = made_mesh.vertex_count() as i64 - made_mesh.edge_count() as i64
         + (made_mesh.face_count() + made_mesh.hole_count()) as i64;
     let genus = usize::try_from(components as i64 - euler / 2).unwrap_or_default();

@@ -181,7 +181,7 @@ impl<'a> Shell<'a> {
             |vertices: usize, edges: usize, faces: usize| (vertices + faces) as i64 - edges as i64;
         let before = euler(all, mesh.edge_count(), faces);
         let opened = euler(gone, walls_removed, openings);
-        let components = made.components().len();
+        let components = made.component_count();
         let genus = components as i64 - (before - opened);
         RindReport {
             openings,

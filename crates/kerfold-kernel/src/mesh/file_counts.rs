@@ -51,7 +51,7 @@ impl Mesh {
             edges: self.edge_count(),
             faces: self.face_count(),
             rims: self.hole_count(),
-            components: self.components().len(),
+            components: self.component_count(),
         }
     }
 

@@ -177,6 +177,32 @@ impl Mesh {
         components
     }
 
+    /// How many connected parts there are, a stray vertex among them: the number of
+    /// [`Mesh::components`], found in one pass over the edges as they lie in memory.
+    ///
+    /// ```
+    /// use glam::DVec3;
+    /// use kerfold_kernel::mesh::Mesh;
+    ///
+    /// let corners = (0..6).map(|i| DVec3::new(f64::from(i % 3), f64::from(i * i), f64::from(i / 3)));
+    /// let two = Mesh::from_faces(corners, [[0, 1, 2], [3, 4, 5]])?;
+    /// assert_eq!((two.component_count(), two.components().len()), (2, 2));
+    /// # Ok::<(), kerfold_kernel::mesh::BuildError>(())
+    /// ```
+    pub fn component_count(&self) -> usize {
+        let mut leader: Vec<u32> = (0..self.vertex_slots() as u32).collect();
+        let mut parts = self.vertex_count();
+        for e in self.edges() {
+            let [a, b] = self.edge_vertices(e).map(|v| leader_of(&mut leader, v.0));
+            if a != b {
+                // The lower one leads: neighbours lie near each other, so ways stay short.
+                leader[a.max(b) as usize] = a.min(b);
+                parts -= 1;
+            }
+        }
+        parts
+    }
+
     fn component_of(
         &self,
         mut vertices: Vec<VertexId>,
@@ -200,4 +226,13 @@ impl Mesh {
         let genus = (2 + edges).saturating_sub(vertices.len() + closed_faces) / 2;
         Component { vertices, faces, edges, holes, genus }
     }
+}
+
+/// The vertex that stands for the part of another one so far; halves the way there.
+fn leader_of(leader: &mut [u32], mut v: u32) -> u32 {
+    while leader[v as usize] != v {
+        leader[v as usize] = leader[leader[v as usize] as usize];
+        v = leader[v as usize];
+    }
+    v
 }

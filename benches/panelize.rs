@@ -5,7 +5,8 @@
 //! angles, areas, nodes and count are within the bars; 95 of 100 runs are to be. Then mirrored pairs
 //! (`mirrored`) and families of lengths (`families`). Then other ways to
 //! the same (`baselines`): triangles, quads made planar, and the dual of a triangulation made
-//! planar, with cells as large as the panels. Then the CPU seconds for 500, 1 000 and 5 000 panels.
+//! planar, with cells as large as the panels. Then the CPU seconds and the memory for 500, 1 000 and
+//! 5 000 panels. With `--figures DIR` instead the models there at 60 and 200 panels, and their nets.
 //! No peer is known that proves planes, so none is compared.
 
 #![allow(clippy::print_stdout, reason = "a bench prints")]
@@ -14,10 +15,11 @@ mod clock;
 
 use std::f64::consts::TAU;
 
-use clock::process_seconds;
+use clock::{peak_megabytes, process_seconds};
 use glam::{DVec2, DVec3};
 use kerfold::geom::polygon::segments_meet;
 use kerfold::geom::{Frame, Plane};
+use kerfold::io::{ReadOptions, read_mesh};
 use kerfold::measure::{crossings, planarity};
 use kerfold::mesh::{FaceId, Mesh};
 use kerfold::op::{OpContext, PlanarizeParams, planarize};
@@ -26,6 +28,7 @@ use kerfold::panelize::{
     height_field, panelize,
 };
 use kerfold::progress::Silent;
+use kerfold::unfold::{MeshSource, Seams, UnfoldParams, unfold};
 use kerfold::units::Length;
 
 /// Height fields: name, formula, rectangle, panel size in mm.
@@ -47,7 +50,11 @@ const SPEED: &[(u32, f64)] = &[(500, 10.0), (1000, 25.0), (5000, 180.0)];
 type Band = (&'static str, fn(f64) -> f64, [f64; 2], f64);
 
 fn main() {
-    let named: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
+    let all: Vec<String> = std::env::args().skip(1).collect();
+    if let Some(at) = all.iter().position(|a| a == "--figures") {
+        return figures(all.get(at + 1).expect("a folder of models"));
+    }
+    let named: Vec<String> = all.into_iter().filter(|a| !a.starts_with('-')).collect();
     let is_meant = |name: &str| named.is_empty() || named.iter().any(|n| n == name);
     let (mut kept, mut runs) = (0, 0);
     for &(name, formula, domain, size) in FIELDS {
@@ -480,6 +487,45 @@ fn distance(p: DVec3, height: fn(f64, f64) -> f64) -> f64 {
     (p.z - height(p.x, p.y)).abs() / (1.0 + sx * sx + sy * sy).sqrt()
 }
 
+/// Models of a folder as few panels, and their nets.
+fn figures(folder: &str) {
+    let files = std::fs::read_dir(folder).expect("a folder").filter_map(Result::ok);
+    let mut files: Vec<_> = files.map(|entry| entry.path()).collect();
+    files.retain(|path| path.extension().is_some_and(|end| end == "obj"));
+    files.sort();
+    for path in files {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let read = read_mesh(&path, &ReadOptions::default()).expect("a model");
+        for count in [60, 200] {
+            let params = PanelizeParams { count: Some(count), ..PanelizeParams::default() };
+            let (made, report) = match panelize(&read.mesh, &params, &Silent) {
+                Ok(made) => made,
+                Err(error) => {
+                    println!("{name}, {count} asked: {error}");
+                    continue;
+                }
+            };
+            let source = MeshSource { scale: 1.0, split_vertices: &[] };
+            let net = unfold(&made, &Seams::Free, &UnfoldParams::default(), &source, &Silent);
+            let net = net.map(|net| net.pieces.len().to_string());
+            let net = net.unwrap_or_else(|error| error.to_string());
+            let missed = missed(&made, &report);
+            let missed: Vec<&str> = missed.into_iter().filter(|m| FIGURES.contains(m)).collect();
+            let parts = made.components().len();
+            println!(
+                "{name}, {count} asked: {} panels in {parts} parts, deviation {:.3} L; missed {missed:?}; pieces \
+                of the net: {net}",
+                report.panels,
+                report.deviation_mm[0] / report.size_mm,
+            );
+            report.notes().iter().skip(3).for_each(|note| println!("  {note}"));
+        }
+    }
+}
+
+/// What figures have to hold of [`missed`].
+const FIGURES: [&str; 4] = ["simple panels", "planarity", "valence", "count"];
+
 fn speed() {
     for &(count, most) in SPEED {
         // A larger piece of the same waves for more panels.
@@ -491,10 +537,12 @@ fn speed() {
         let seconds = process_seconds() - start;
         let verdict = if seconds > most { "MISSED" } else { "kept" };
         println!(
-            "{} panels asked, {} made, {} findings; {seconds:.1} CPU s; bar {most} s {verdict}",
+            "{} panels asked, {} made, {} findings; {seconds:.1} CPU s, bar {most} s {verdict}; {:.0} MB, \
+            bar 2000 MB",
             count,
             made.face_count(),
-            report.findings.len()
+            report.findings.len(),
+            peak_megabytes()
         );
     }
 }

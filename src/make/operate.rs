@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::MakeError;
 use crate::io::planes_csv::read_planes;
-use crate::io::read_curves;
+use crate::io::{read_curves, read_points};
 use crate::mesh::{EdgeId, Mesh, VertexMap};
 use crate::op::{OpContext, Operate, OperatorOutput};
 use crate::seam::piece_count;
@@ -27,6 +27,11 @@ pub fn operate(
         None => None,
     };
     let params = with_points.as_deref().unwrap_or(params);
+    let with_places = match params.places_file() {
+        Some(file) => params.with_places(read_points(&folder.join(file))?, scale),
+        None => None,
+    };
+    let params = with_places.as_deref().unwrap_or(params);
     let with_planes = match params.planes_file() {
         Some(file) => {
             let read = read_planes(&folder.join(file))?;

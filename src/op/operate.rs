@@ -16,7 +16,7 @@ use super::{
 };
 use crate::geom::hull::HalfSpace;
 use crate::mesh::{FaceId, Mesh, VertexId};
-use crate::panelize::{Align, FixChoice, FixedPlane, PanelizeParams, panelize};
+use crate::panelize::{Align, FixChoice, FixedPlane, PanelizeParams, StayChoice, panelize};
 use crate::select::NewElements;
 
 /// What an operator made of a mesh.
@@ -83,6 +83,17 @@ pub trait Operate: fmt::Debug + Send + Sync {
     /// take none. `_scale` is the factor from the numbers of the model's file to millimetres, for
     /// curves that were drawn on it.
     fn with_points(&self, _curves: Vec<Vec<DVec3>>, _scale: f64) -> Option<Box<dyn Operate>> {
+        None
+    }
+
+    /// A file with single points that has to be read first, beside [`Self::points_file`].
+    fn places_file(&self) -> Option<&Path> {
+        None
+    }
+
+    /// The same parameters with the points of that file in its place; `None` when they take none.
+    /// `_scale` as for [`Self::with_points`].
+    fn with_places(&self, _places: Vec<DVec3>, _scale: f64) -> Option<Box<dyn Operate>> {
         None
     }
 
@@ -190,6 +201,18 @@ impl Operate for PanelizeParams {
     fn with_points(&self, mut curves: Vec<Vec<DVec3>>, scale: f64) -> Option<Box<dyn Operate>> {
         curves.iter_mut().flatten().for_each(|p| *p *= scale);
         Some(Box::new(Self { align: Align::Curves(curves), ..self.clone() }))
+    }
+
+    fn places_file(&self) -> Option<&Path> {
+        match &self.stay {
+            StayChoice::File(path) => Some(path),
+            _ => None,
+        }
+    }
+
+    fn with_places(&self, places: Vec<DVec3>, scale: f64) -> Option<Box<dyn Operate>> {
+        let stay = StayChoice::Points(places.into_iter().map(|p| p * scale).collect());
+        Some(Box::new(Self { stay, ..self.clone() }))
     }
 
     fn planes_file(&self) -> Option<&Path> {

@@ -1,4 +1,4 @@
-//! What stays as it is, planes and flat groups of faces, and what is mirrored.
+//! What stays as it is, planes, flat groups of faces and points, and what is mirrored.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -69,6 +69,48 @@ impl<'de> Deserialize<'de> for FixChoice {
     }
 }
 
+/// Points that stay: corners of panels stand there.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub enum StayChoice {
+    /// Nothing.
+    #[default]
+    None,
+    /// The points of this file; it has to be read before panels are made.
+    File(PathBuf),
+    /// These points, in mm.
+    Points(Vec<DVec3>),
+}
+
+impl FromStr for StayChoice {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let ending = Path::new(text).extension().and_then(|e| e.to_str()).unwrap_or_default();
+        let is_file = ["csv", "txt", "obj"].iter().any(|e| ending.eq_ignore_ascii_case(e));
+        match text {
+            "none" => Ok(Self::None),
+            _ if is_file => Ok(Self::File(PathBuf::from(text))),
+            _ => Err(format!("`{text}` is not none, or a CSV, TXT or OBJ file of points")),
+        }
+    }
+}
+
+impl fmt::Display for StayChoice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::None => write!(f, "none"),
+            Self::File(path) => write!(f, "{}", path.display()),
+            Self::Points(points) => write!(f, "{} points", points.len()),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for StayChoice {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        String::deserialize(deserializer)?.parse().map_err(de::Error::custom)
+    }
+}
+
 /// Planes across which panels are mirrored: square to x, y or z (0 to 2), through the middle of the
 /// surface's bounding box; ascending.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -118,6 +160,12 @@ mod tests {
         }
         for text in ["", "group:", "planes.json", "all"] {
             assert!(text.parse::<FixChoice>().is_err(), "{text}");
+        }
+        for text in ["none", "columns.csv", "a/columns.OBJ"] {
+            assert_eq!(text.parse::<StayChoice>().expect(text).to_string(), text);
+        }
+        for text in ["", "columns", "columns.json"] {
+            assert!(text.parse::<StayChoice>().is_err(), "{text}");
         }
         for text in ["none", "y", "x,z"] {
             assert_eq!(text.parse::<SymmetryChoice>().expect(text).to_string(), text);

@@ -226,6 +226,58 @@ pub enum PanelizeError {
         /// The file.
         path: PathBuf,
     },
+    /// Points that stay are still the name of a file.
+    #[error("the points of {} have to be read before panels are made at them", path.display())]
+    PointsUnread {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A point that is to stay is not on the surface.
+    #[error(
+        "point {} of `--stay`, ({:.1}, {:.1}, {:.1}), is {distance_mm:.1} mm off the surface, and \
+        {allowed_mm:.1} mm are allowed; put it on the surface, in the unit of its file, leave it out, or \
+        take larger panels",
+        point + 1, place.x, place.y, place.z
+    )]
+    PointOffSurface {
+        /// Which of the points, from 0.
+        point: usize,
+        /// Where it is, in mm.
+        place: DVec3,
+        /// How far it is from the surface, in mm.
+        distance_mm: f64,
+        /// How far it may be, in mm.
+        allowed_mm: f64,
+    },
+    /// Two points that are to stay are too near to each other.
+    #[error(
+        "points {} and {} of `--stay` are {distance_mm:.1} mm apart, and edges of these panels have to be \
+        {allowed_mm:.1} mm long at least; leave one of them out, or take smaller panels",
+        points[0] + 1, points[1] + 1
+    )]
+    PointsTooNear {
+        /// Which of the points, from 0.
+        points: [usize; 2],
+        /// How far apart they are, in mm.
+        distance_mm: f64,
+        /// How far apart they have to be, in mm.
+        allowed_mm: f64,
+    },
+    /// No corner of panels can be put at a point that is to stay.
+    #[error(
+        "no corner of panels of {size:.1} mm can stand at point {} of `--stay`, ({:.1}, {:.1}, {:.1}): all \
+        near it stand at other points, or the rim is in the way; leave it out, put it on the rim, or take \
+        smaller panels",
+        point + 1, place.x, place.y, place.z
+    )]
+    NoCornerThere {
+        /// Which of the points, from 0.
+        point: usize,
+        /// Where it is, in mm.
+        place: DVec3,
+        /// The panel size in mm.
+        size: f64,
+    },
     /// Two given planes want the same panel.
     #[error(
         "the planes on lines {} and {} of `--fix` ask for one panel: both fit the surface best around \
@@ -308,6 +360,10 @@ codes!(error PanelizeError {
     PlanesTooNear = 862,
     PlanesDoNotMeet = 863,
     NotMirrored = 864,
+    PointsUnread = 865,
+    PointOffSurface = 866,
+    PointsTooNear = 867,
+    NoCornerThere = 868,
 });
 
 /// What is wrong with panels that were made all the same.
@@ -342,6 +398,8 @@ pub enum PanelizeFinding {
     PlaneLost,
     /// A panel is no image of another across a mirror plane.
     Unpaired,
+    /// No corner of panels stands at a point that was to stay.
+    PointLost,
     /// An edge has the length of no family.
     ManyLengths,
     /// Neighbours fold by more than is allowed.
@@ -350,6 +408,13 @@ pub enum PanelizeFinding {
     DeepHollow,
     /// The panels are not as many as were asked for.
     OtherCount,
+}
+
+impl PanelizeFinding {
+    /// Whether the element at its place is a vertex, and not a panel.
+    pub(super) fn is_of_vertex(self) -> bool {
+        matches!(self, Self::FarNode | Self::PointLost)
+    }
 }
 
 codes!(finding PanelizeFinding {
@@ -370,5 +435,6 @@ codes!(finding PanelizeFinding {
     ManyLengths = 615,
     SharpFold = 616,
     DeepHollow = 617,
+    PointLost = 618,
     OtherCount = 620,
 });

@@ -107,6 +107,7 @@ fn candidates(state: &State) -> Vec<(f64, [usize; 2])> {
             let [u, v] = [face[i], face[(i + 1) % face.len()]];
             let may = state.is_inner_corner(u) && state.is_inner_corner(v)
                 || is_on_crease(state, f, [u, v]);
+            let may = may && ![u, v].iter().any(|v| state.panels.held.contains_key(v));
             if may && (length(i) < SHORT || is_broken && length(i) <= shortest) {
                 found.push((length(i), [u.min(v), u.max(v)]));
             }

@@ -27,6 +27,7 @@ mod field;
 mod flip;
 mod formula;
 mod height;
+mod held;
 mod kinds;
 mod lattice;
 mod layout;
@@ -50,6 +51,7 @@ mod start;
 mod stays;
 mod surface;
 mod wishes;
+mod words;
 
 #[cfg(test)]
 mod tests;
@@ -60,6 +62,7 @@ use self::crease::{Fold, creased, folds, without_short};
 use self::curvature::{Quadric, quadrics};
 use self::field::RowField;
 use self::flip::turn_edges;
+use self::held::{HeldPoint, held_points, hold};
 use self::kinds::{ALIKE, Kinds, kinds};
 use self::layout::{Layout, Rows, layout};
 use self::mirror::{Mirror, check_mirrored};
@@ -83,11 +86,11 @@ use crate::measure::crossings;
 use crate::mesh::{FaceId, Mesh, MeshBuilder};
 use crate::progress::Progress;
 
-pub use choices::{FixChoice, FixedPlane, SymmetryChoice};
+pub use choices::{FixChoice, FixedPlane, StayChoice, SymmetryChoice};
 pub use domain::Domain;
 pub use error::{PanelizeError, PanelizeFinding};
 pub use height::{HeightParams, height_field};
-pub use outcomes::{FamilyReport, FixedPanel, MirrorReport, Place};
+pub use outcomes::{FamilyReport, FixedPanel, MirrorReport, Place, StayedPoint};
 pub use params::{Align, LayoutChoice, PanelizeParams, RimChoice, SheetSize};
 pub use report::{CreaseReport, PanelizeReport};
 
@@ -130,6 +133,8 @@ struct Model {
     fixed: Vec<FacePlane>,
     /// What of that could not be, in words.
     pin_notes: Vec<String>,
+    /// Points at which corners are to stand.
+    held: Vec<HeldPoint>,
 }
 
 /// How panels are laid out.
@@ -208,10 +213,7 @@ impl Model {
             given.keep(&folds, true);
         }
         let (low, high) = mesh.bounds().unwrap_or_default();
-        let revolution = match params.layout {
-            LayoutChoice::Free => None,
-            LayoutChoice::Rings(axis) => Some(Revolution::find(&given, axis, size)?),
-        };
+        let revolution = revolution(&given, params, size)?;
         let origin = revolution.as_ref().map_or(low.midpoint(high), |found| found.origin);
         let axes = &params.symmetry.0[..];
         let mut surface = fine_surface(&given, (size, origin), axes)?;
@@ -239,6 +241,10 @@ impl Model {
             fix => Groups::new(mesh, &given, fix)?.pins(&surface, (size, origin), fix)?,
         };
         surface.pins = pinned(&surface, &pins);
+        let held = match &params.stay {
+            StayChoice::Points(points) => held_points(&surface, points, (size, origin))?,
+            _ => Vec::new(),
+        };
         progress.report("laying out rows", 0, 0);
         let way = match revolution {
             None => Way::free(&surface, &quadrics, params, (size, origin))?.with(mirror),
@@ -248,12 +254,7 @@ impl Model {
             return Err(PanelizeError::Cancelled);
         }
         let rule = rim_rule(&surface, params, (size, origin))?;
-        let limits = Limits {
-            edge: params.min_edge,
-            angle: params.min_angle.radians(),
-            deviation: Limits::default().deviation.max(report::sag(&quadrics)),
-            ..Limits::default()
-        };
+        let limits = limits(params, &quadrics);
         let fixed = pins.iter().map(Pin::face_plane).collect();
         Ok(Self {
             size,
@@ -270,6 +271,7 @@ impl Model {
             pins,
             fixed,
             pin_notes,
+            held,
         })
     }
 
@@ -288,6 +290,12 @@ impl Model {
         p * self.size + self.origin
     }
 
+    /// A corner in millimetres: one that stays to the last digit.
+    fn vertex(&self, panels: &Panels, v: usize) -> DVec3 {
+        let held = panels.held.get(&v).map(|&k| self.held[k].given);
+        held.unwrap_or_else(|| self.place(panels.points[v]))
+    }
+
     /// Lays out and solves until nothing is broken, or as often as is worth it; the best of these.
     fn solve_best(
         &self,
@@ -304,9 +312,8 @@ impl Model {
             let seed = params.seed.wrapping_add(attempt * 1_000_003);
             let solved = match self.draft(attempt, seed) {
                 None => break,
-                Some(Ok(draft)) => {
-                    let met = check_meetings(&draft.panels, &self.pins, (self.size, self.origin));
-                    if let Err(error) = met {
+                Some(Ok(mut draft)) => {
+                    if let Err(error) = self.start(&mut draft.panels) {
                         clash = clash.or(Some(error));
                         continue;
                     }
@@ -370,10 +377,16 @@ impl Model {
         }
     }
 
+    /// Puts corners where they start, some of them where they stay.
+    fn start(&self, panels: &mut Panels) -> Result<(), PanelizeError> {
+        check_meetings(panels, &self.pins, (self.size, self.origin))?;
+        start(panels, &self.quadrics, &self.surface.pins);
+        hold(panels, &self.surface, &self.held, self.size)
+    }
+
     fn solve(&self, draft: Draft, progress: &dyn Progress) -> Solved {
         let scene = self.scene();
-        let Draft { mut panels, areas, symmetry, rings } = draft;
-        start(&mut panels, &self.quadrics, &self.surface.pins);
+        let Draft { panels, areas, symmetry, rings } = draft;
         // What is turned in one panel of a ring would have to be in all of them.
         let may_turn = rings.is_empty();
         let mut state = State::new(panels, areas, symmetry, scene);
@@ -457,8 +470,8 @@ impl Model {
     fn mesh(&self, solved: &Solved) -> Result<Mesh, PanelizeError> {
         let panels = &solved.state.panels;
         let mut builder = MeshBuilder::new();
-        for &p in &panels.points {
-            builder.vertex(self.place(p));
+        for v in 0..panels.points.len() {
+            builder.vertex(self.vertex(panels, v));
         }
         for face in &panels.faces {
             builder.face(face.iter().copied());
@@ -515,6 +528,28 @@ impl Way {
             return Err(PanelizeError::NoRings { size });
         }
         Ok(Self::Rings { revolution, plans })
+    }
+}
+
+/// The curve that turns about an axis, where panels are laid out in rings.
+fn revolution(
+    given: &Triangles,
+    params: &PanelizeParams,
+    size: f64,
+) -> Result<Option<Revolution>, PanelizeError> {
+    let LayoutChoice::Rings(axis) = params.layout else { return Ok(None) };
+    let mut found = Revolution::find(given, axis, size)?;
+    // Planes hold each rim by itself.
+    found.is_mirrored &= !matches!(params.rim, RimChoice::Planes(_));
+    Ok(Some(found))
+}
+
+fn limits(params: &PanelizeParams, quadrics: &[Quadric]) -> Limits {
+    Limits {
+        edge: params.min_edge,
+        angle: params.min_angle.radians(),
+        deviation: Limits::default().deviation.max(report::sag(quadrics)),
+        ..Limits::default()
     }
 }
 

@@ -11,7 +11,7 @@ use crate::check::short;
 pub struct Place {
     /// What is wrong.
     pub finding: PanelizeFinding,
-    /// The face, or the vertex for [`PanelizeFinding::FarNode`].
+    /// The face, or the vertex for [`PanelizeFinding::FarNode`] and [`PanelizeFinding::PointLost`].
     pub element: usize,
     /// What was measured: mm, degrees or thicknesses.
     pub measured: f64,
@@ -28,6 +28,34 @@ pub struct FixedPanel {
     pub panel: usize,
     /// The largest distance of its corners from the plane, in mm.
     pub off_mm: f64,
+}
+
+/// A point that was to stay.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StayedPoint {
+    /// Which of the points, from 0.
+    pub point: usize,
+    /// The vertex of the panels that is nearest to it.
+    pub vertex: usize,
+    /// How far that is from it, in mm.
+    pub off_mm: f64,
+}
+
+/// The points that stay, in words; nothing without any.
+pub(super) fn stayed_note(points: &[StayedPoint]) -> Option<String> {
+    let off = points.iter().map(|point| point.off_mm).fold(0.0, f64::max);
+    let name = |p: &StayedPoint| format!("{} (point {})", p.vertex, p.point + 1);
+    let names: Vec<String> = points.iter().take(NAMED).map(name).collect();
+    let more = if points.len() > NAMED { ", …" } else { "" };
+    let verb = if points.len() == 1 { "vertex stands" } else { "vertices stand" };
+    (!points.is_empty()).then(|| {
+        format!(
+            "{} {verb} at the points that stay: {}{more}; off by {} mm at most",
+            points.len(),
+            names.join(", "),
+            short(off)
+        )
+    })
 }
 
 /// So many panels are named.

@@ -7,7 +7,7 @@ use std::str::FromStr;
 use glam::DVec3;
 use serde::{Deserialize, Deserializer, de};
 
-use super::{FixChoice, PanelizeError, SymmetryChoice};
+use super::{FixChoice, PanelizeError, StayChoice, SymmetryChoice};
 use crate::units::{Angle, Length};
 
 /// What the rows of panels follow.
@@ -197,6 +197,11 @@ pub struct PanelizeParams {
     #[arg(long, default_value_t = FixChoice::None, value_name = "none|FILE|groups|group:NAME")]
     #[serde(default)]
     pub fix: FixChoice,
+    /// Points that stay, such as heads of columns: a corner of panels stands at each. A CSV or TXT file
+    /// with x,y,z on each line, or the `v` lines of an OBJ file, in the unit of the surface's file.
+    #[arg(long, default_value_t = StayChoice::None, value_name = "none|FILE")]
+    #[serde(default)]
+    pub stay: StayChoice,
     /// Panels in mirrored pairs: across the plane square to x, y or z through the middle of the surface's
     /// bounding box, or several, such as x,y. The surface has to be its own image.
     #[arg(long, default_value_t = SymmetryChoice::default(), value_name = "none|x|y|z|x,y")]
@@ -330,6 +335,7 @@ impl Default for PanelizeParams {
             even: default_even(),
             rim: RimChoice::default(),
             fix: FixChoice::default(),
+            stay: StayChoice::default(),
             symmetry: SymmetryChoice::default(),
             families: None,
             crease: None,
@@ -354,28 +360,7 @@ impl PanelizeParams {
         if given != 1 {
             return Err(PanelizeError::NoSize { given });
         }
-        let rings = (self.layout != LayoutChoice::Free, "--layout rings");
-        let smooth = (self.smooth.is_some(), "--smooth");
-        let crease = (self.crease.is_some(), "--crease");
-        let fix = (self.fix != FixChoice::None, "--fix");
-        let symmetry = (!self.symmetry.0.is_empty(), "--symmetry");
-        let apart = [
-            (crease, rings),
-            (crease, smooth),
-            (fix, rings),
-            (symmetry, rings),
-            (symmetry, crease),
-            (symmetry, smooth),
-            (symmetry, fix),
-        ];
-        for (one, other) in apart {
-            if one.0 && other.0 {
-                return Err(PanelizeError::Together { one: one.1, other: other.1 });
-            }
-        }
-        if let FixChoice::File(path) = &self.fix {
-            return Err(PanelizeError::PlanesUnread { path: path.clone() });
-        }
+        self.check_together()?;
         let largest = f64::MAX;
         let least = f64::MIN_POSITIVE;
         let ranges = [
@@ -422,6 +407,40 @@ impl PanelizeParams {
             if !(low..=high).contains(&value) {
                 return Err(PanelizeError::OutOfRange { name, value, low, high });
             }
+        }
+        Ok(())
+    }
+
+    /// That nothing excludes each other, and files have been read.
+    fn check_together(&self) -> Result<(), PanelizeError> {
+        let rings = (self.layout != LayoutChoice::Free, "--layout rings");
+        let smooth = (self.smooth.is_some(), "--smooth");
+        let crease = (self.crease.is_some(), "--crease");
+        let fix = (self.fix != FixChoice::None, "--fix");
+        let stay = (self.stay != StayChoice::None, "--stay");
+        let symmetry = (!self.symmetry.0.is_empty(), "--symmetry");
+        let apart = [
+            (crease, rings),
+            (crease, smooth),
+            (fix, rings),
+            (symmetry, rings),
+            (symmetry, crease),
+            (symmetry, smooth),
+            (symmetry, fix),
+            (stay, rings),
+            (stay, symmetry),
+            (stay, crease),
+        ];
+        for (one, other) in apart {
+            if one.0 && other.0 {
+                return Err(PanelizeError::Together { one: one.1, other: other.1 });
+            }
+        }
+        if let FixChoice::File(path) = &self.fix {
+            return Err(PanelizeError::PlanesUnread { path: path.clone() });
+        }
+        if let StayChoice::File(path) = &self.stay {
+            return Err(PanelizeError::PointsUnread { path: path.clone() });
         }
         Ok(())
     }

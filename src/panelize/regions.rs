@@ -51,6 +51,8 @@ pub(super) struct Panels {
     pub faces: Vec<Vec<usize>>,
     /// The vertex of the surface at the middle of each panel.
     pub sites: Vec<usize>,
+    /// Corners that stay, each with the number of the point that it stands at.
+    pub held: BTreeMap<usize, usize>,
 }
 
 impl Panels {

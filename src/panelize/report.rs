@@ -3,9 +3,12 @@
 use glam::DVec3;
 
 use super::curvature::Quadric;
-use super::outcomes::{FamilyReport, FixedPanel, MirrorReport, Place, fixed_note};
+use super::outcomes::{
+    FamilyReport, FixedPanel, MirrorReport, Place, StayedPoint, fixed_note, stayed_note,
+};
 use super::prove::node_reach;
-use super::stays::{fixed_panels, lost_planes, mirrors, unpaired};
+use super::stays::{fixed_panels, lost_planes, lost_points, mirrors, stayed_points, unpaired};
+use super::words::{unit_of, words, words_of_wishes};
 use super::{ALIKE, EXACT, Model, PanelizeFinding, PanelizeParams, Solved};
 use crate::check::short;
 use crate::code::Coded;
@@ -76,6 +79,8 @@ pub struct PanelizeReport {
     pub creases: CreaseReport,
     /// The panels whose planes were given.
     pub fixed: Vec<FixedPanel>,
+    /// The points that were to stay.
+    pub stayed: Vec<StayedPoint>,
     /// What was to stay and could not, in words.
     pub not_fixed: Vec<String>,
     /// The mirror planes.
@@ -111,7 +116,7 @@ impl PanelizeReport {
     pub fn pointed_out(&self) -> [Vec<usize>; 2] {
         let mut pointed = [Vec::new(), Vec::new()];
         for kind in self.findings.chunk_by(|a, b| a.finding == b.finding) {
-            let is_node = kind[0].finding == PanelizeFinding::FarNode;
+            let is_node = kind[0].finding.is_of_vertex();
             pointed[usize::from(is_node)].extend(kind.iter().take(POINTED_OUT).map(|p| p.element));
         }
         if self.findings.is_empty() {
@@ -160,6 +165,7 @@ impl PanelizeReport {
                 off_mm: solved.off_folds.iter().map(|(off, _)| *off).fold(0.0, f64::max) * size,
             },
             fixed: fixed_panels(model, solved),
+            stayed: stayed_points(model, solved),
             not_fixed: model.pin_notes.clone(),
             families: solved.families.clone(),
             mirrors: mirrors(model, solved).into_iter().map(|(report, _)| report).collect(),
@@ -187,6 +193,7 @@ impl PanelizeReport {
         notes.extend(self.creases.note());
         notes.extend(self.smoothed_mm.map(smoothing));
         notes.extend(fixed_note(&self.fixed));
+        notes.extend(stayed_note(&self.stayed));
         notes.extend(self.mirrors.iter().map(MirrorReport::note));
         notes.extend(self.families.as_ref().map(FamilyReport::note));
         notes.extend(self.not_fixed.iter().cloned());
@@ -295,93 +302,6 @@ impl PanelizeReport {
     }
 }
 
-/// What is wrong where panels have this finding, and what to do; `None` for [`words_of_wishes`].
-fn words(kind: PanelizeFinding) -> Option<(&'static str, &'static str)> {
-    Some(match kind {
-        PanelizeFinding::Crosses => (
-            "panels that cross themselves or run against the surface",
-            "take a smaller size, another alignment or another seed",
-        ),
-        PanelizeFinding::GoesThrough => {
-            ("panels that go through another", "take a smaller size or another seed")
-        }
-        PanelizeFinding::NotPlanar => {
-            ("panels that are not planar up to rounding", "take a smaller size or another seed")
-        }
-        PanelizeFinding::TooCurved => (
-            "panels that leave the surface by more than is allowed, since it bends too much for \
-                their size",
-            "take a smaller size, or allow more (--max-off)",
-        ),
-        PanelizeFinding::ShortEdge => {
-            ("panels with a shorter edge than allowed", "take another seed or a smaller size")
-        }
-        PanelizeFinding::SharpAngle => {
-            ("panels with a sharper angle than allowed", "take another seed or a smaller size")
-        }
-        PanelizeFinding::TooLarge => ("panels that do not fit the sheet", "take a smaller size"),
-        PanelizeFinding::FarNode => (
-            "vertices that plates reach from far",
-            "bend the surface more there, take another seed, or allow more (--max-reach)",
-        ),
-        PanelizeFinding::CreaseLost => (
-            "panels that a crease runs through, farther from all edges than a tenth of their \
-                size",
-            "take a smaller size or another seed",
-        ),
-        PanelizeFinding::FullNode => (
-            "vertices with more than three members, since so many creases meet there",
-            "cut the corner off in the model, or keep fewer creases with a larger `--crease`",
-        ),
-        PanelizeFinding::UnevenRing => (
-            "rings of which the panels are not congruent, by their first panels",
-            "take another size, or `--layout free`",
-        ),
-        _ => return None,
-    })
-}
-
-/// The same for what only some users ask for.
-fn words_of_wishes(kind: PanelizeFinding) -> (&'static str, &'static str) {
-    match kind {
-        PanelizeFinding::PlaneLost => (
-            "panels that left the planes that were given for them",
-            "change one of the planes that meet there, or take a smaller size",
-        ),
-        PanelizeFinding::Unpaired => (
-            "panels that are no images of others across a mirror plane",
-            "take another seed or a smaller size",
-        ),
-        PanelizeFinding::ManyLengths => (
-            "edges that have the length of no family",
-            "ask for more families, or for fewer panels",
-        ),
-        PanelizeFinding::SharpFold => (
-            "panels that fold against a neighbour by more than is allowed",
-            "take a smaller size, or allow more (--max-fold)",
-        ),
-        PanelizeFinding::DeepHollow => (
-            "concave panels that are deeper than is allowed, as they must be where the surface is a \
-                saddle",
-            "take a smaller size, or allow more (--max-hollow)",
-        ),
-        _ => ("panels that are not finished", "run it to the end"),
-    }
-}
-
-/// What is measured where a panel has this finding; nothing where nothing is.
-fn unit_of(kind: PanelizeFinding) -> &'static str {
-    match kind {
-        PanelizeFinding::SharpAngle | PanelizeFinding::SharpFold => "°",
-        PanelizeFinding::FarNode => " thicknesses",
-        PanelizeFinding::FullNode => " panels",
-        PanelizeFinding::UnevenRing => " kinds",
-        PanelizeFinding::Unpaired => " panels",
-        PanelizeFinding::Crosses | PanelizeFinding::GoesThrough => "",
-        _ => " mm",
-    }
-}
-
 impl CreaseReport {
     /// What became of them, in words; nothing without any.
     fn note(&self) -> Option<String> {
@@ -472,6 +392,7 @@ fn findings(model: &Model, solved: &Solved, params: &PanelizeParams) -> Vec<Plac
     all.extend(far_nodes(model, solved, params.max_reach));
     all.extend(lost_creases(model, solved));
     all.extend(lost_planes(model, solved));
+    all.extend(lost_points(model, solved));
     all.extend(unpaired(model, solved));
     all.extend(solved.families.iter().flat_map(|families| families.missed.clone()));
     all.extend(full_nodes(model, solved));

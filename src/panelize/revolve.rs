@@ -17,6 +17,8 @@ const POINTS: usize = 400;
 const AXIS: f64 = 1e-9;
 /// A surface of revolution is off its curve by at most this, in panel sizes.
 const MOST_OFF: f64 = 0.05;
+/// A curve that is its own mirror image is off that by at most this, in panel sizes.
+const MIRRORED: f64 = 0.01;
 
 /// A surface of revolution. Lengths in those of the mesh.
 #[derive(Debug, Clone)]
@@ -33,6 +35,8 @@ pub(super) struct Revolution {
     pub is_pole: [bool; 2],
     /// Its length.
     pub length: f64,
+    /// Whether the curve is its own image across the plane square to the axis through the origin.
+    pub is_mirrored: bool,
 }
 
 /// One section: points by distance from the axis and height.
@@ -71,12 +75,14 @@ impl Revolution {
             .map(|i| lined.iter().map(|points| points[i]).sum::<DVec2>() / SECTIONS as f64)
             .collect();
         let (is_loop, is_pole) = (first.is_loop, first.is_pole);
-        let mut made = Self { axis, origin, curve, is_loop, is_pole, length: 0.0 };
+        let (length, is_mirrored) = (0.0, false);
+        let mut made = Self { axis, origin, curve, is_loop, is_pole, length, is_mirrored };
         for (end, point) in [(0, 0), (1, POINTS - 1)] {
             if is_pole[end] {
                 made.curve[point].x = 0.0;
             }
         }
+        made.mirror(MIRRORED * size);
         made.length = made.steps().map(|(a, b)| a.distance(b)).sum();
         made.check(given, size)?;
         Ok(made)
@@ -85,6 +91,26 @@ impl Revolution {
     fn steps(&self) -> impl Iterator<Item = (DVec2, DVec2)> + '_ {
         let last = if self.is_loop { POINTS } else { POINTS - 1 };
         (0..last).map(|i| (self.curve[i], self.curve[(i + 1) % POINTS]))
+    }
+
+    /// Looks whether the curve is its own mirror image; then the origin is put in the middle of it, and
+    /// the curve made even.
+    fn mirror(&mut self, most: f64) {
+        if self.is_loop || self.is_pole[0] != self.is_pole[1] {
+            return;
+        }
+        let back = |i: usize| self.curve[POINTS - 1 - i];
+        let heights = (0..POINTS).map(|i| (self.curve[i].y + back(i).y) / 2.0);
+        let middle = heights.sum::<f64>() / POINTS as f64;
+        let image = |i: usize| DVec2::new(back(i).x, 2.0 * middle - back(i).y);
+        let off = |i: usize| self.curve[i].distance(image(i));
+        if (0..POINTS).map(off).fold(0.0, f64::max) > most {
+            return;
+        }
+        let low = DVec2::new(0.0, middle);
+        self.curve = (0..POINTS).map(|i| self.curve[i].midpoint(image(i)) - low).collect();
+        self.origin += frame(self.axis)[0] * middle;
+        self.is_mirrored = true;
     }
 
     /// That all vertices lie near the curve.

@@ -38,6 +38,9 @@ pub(super) struct RingPlan {
     pub rings: Vec<Ring>,
     /// Whether panels are joined along the curve instead of along rings.
     pub is_columns: bool,
+    /// Of rings that are mirror images of those at the other end of the curve: the turn about the axis
+    /// that belongs to the image.
+    pub turn: Option<f64>,
     cost: f64,
 }
 
@@ -143,7 +146,13 @@ impl Survey<'_> {
         for from in came.iter().rev() {
             path.push(from[path[path.len() - 1]]);
         }
-        Some(path.into_iter().rev().map(|s| most >> (s / 3)).collect())
+        let mut counts: Vec<usize> = path.into_iter().rev().map(|s| most >> (s / 3)).collect();
+        if self.revolution.is_mirrored {
+            // Plans that cost the same need not be even.
+            let last = counts.len() - 1;
+            (0..counts.len() / 2).for_each(|j| counts[last - j] = counts[j]);
+        }
+        Some(counts)
     }
 
     /// The plan of rings that are joined along themselves, with caps where the curve meets the axis.
@@ -158,6 +167,8 @@ impl Survey<'_> {
             rows.push((1, 1.0));
         }
         let halvings = counts.windows(2).filter(|pair| pair[0] != pair[1]).count();
+        // Mirror images are no further kinds.
+        let halvings = if self.revolution.is_mirrored { halvings / 2 } else { halvings };
         let widths = counts.iter().zip(shares);
         let widths = widths.map(|(&n, &s)| n as f64 * (self.around(s) / n as f64).ln().powi(2));
         let many = halvings.saturating_sub(FEW_HALVINGS) as f64;
@@ -208,9 +219,21 @@ impl Survey<'_> {
             rings.push(Ring { count, offset, share, first: total });
             total += count;
         }
+        let turn = (self.revolution.is_mirrored && !is_columns).then(|| mirrored(&mut rings));
         let off = total as f64 / self.wanted - 1.0;
-        RingPlan { rings, is_columns, cost: cost + 4.0 * off * off }
+        RingPlan { rings, is_columns, turn, cost: cost + 4.0 * off * off }
     }
+}
+
+/// Gives the rings of the second half the angles of their images in the first, turned; the turn. Where
+/// two rings stand in the middle, they are half a step apart.
+fn mirrored(rings: &mut [Ring]) -> f64 {
+    let count = rings.len();
+    let turn = if count.is_multiple_of(2) { PI / rings[count / 2].count as f64 } else { 0.0 };
+    for j in 0..count / 2 {
+        rings[count - 1 - j].offset = rings[j].offset + turn;
+    }
+    turn
 }
 
 /// The plans that cost least.

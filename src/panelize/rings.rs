@@ -232,24 +232,43 @@ impl Work<'_> {
         (offset + steps.round() * TAU / group, steps - steps.round())
     }
 
+    /// Whether some rings are images of those at the other end, which stand for both.
+    fn is_mirrored(&self, rings: &[usize]) -> bool {
+        let mut own = rings.to_vec();
+        let mut images: Vec<usize> = rings.iter().map(|&r| self.image(r)).collect();
+        own.sort_unstable();
+        images.sort_unstable();
+        self.plan.turn.is_some() && images < own
+    }
+
+    /// The ring at the other end.
+    fn image(&self, ring: usize) -> usize {
+        self.plan.rings.len() - 1 - ring
+    }
+
     fn symmetry(&self, faces: &[Vec<usize>]) -> Symmetry {
         let axis = frame(self.revolution.axis);
         let mut firsts: BTreeMap<(Vec<usize>, i64), (usize, DMat3)> = BTreeMap::new();
         let (mut first, mut image) = (Vec::new(), Vec::new());
         for (v, node) in self.nodes.iter().enumerate() {
             let mut rings: Vec<usize> = node.sites.iter().map(|&s| self.sites[s].ring).collect();
+            let (mut angle, mut flip) = (node.angle, DMat3::IDENTITY);
+            if let (Some(by), true) = (self.plan.turn, self.is_mirrored(&rings)) {
+                rings.iter_mut().for_each(|r| *r = self.image(*r));
+                angle -= by;
+                flip = turn(axis, by) * across(axis[0]);
+            }
             let whole = |r: &usize| self.plan.rings[*r].count > 1;
             let least = rings.iter().copied().filter(whole).min_by_key(|&r| self.group(r));
-            let (base, step) = self.reduced(node.angle, least.unwrap_or(rings[0]));
+            let (base, step) = self.reduced(angle, least.unwrap_or(rings[0]));
             rings.sort_unstable();
             let key = (rings, (step.abs() / SAME).round() as i64);
-            let own = turn(axis, base) * mirror(axis, step < 0.0);
+            let own = flip * turn(axis, base) * mirror(axis, step < 0.0);
             let &mut (of, back) = firsts.entry(key).or_insert_with(|| {
                 // On a mirror plane a corner stays in it.
                 let is_on_plane = step.abs() < SAME || step.abs() > 0.5 - SAME;
-                let across = turn(axis, node.angle) * axis[2];
-                let held =
-                    DMat3::from_cols(across * across.x, across * across.y, across * across.z);
+                let off = turn(axis, node.angle) * axis[2];
+                let held = DMat3::from_cols(off * off.x, off * off.y, off * off.z);
                 let hold = if is_on_plane { DMat3::IDENTITY - held } else { DMat3::IDENTITY };
                 (v, own.transpose() * hold)
             });
@@ -258,8 +277,11 @@ impl Work<'_> {
         }
         let mut seen = std::collections::BTreeSet::new();
         let is_first_face = self.sites.iter().take(faces.len()).map(|site| {
-            let step = site.angle.map_or(0.0, |angle| self.reduced(angle, site.ring).1);
-            seen.insert((site.ring, (step.abs() / SAME).round() as i64))
+            let is_mirrored = self.is_mirrored(&[site.ring]);
+            let ring = if is_mirrored { self.image(site.ring) } else { site.ring };
+            let by = self.plan.turn.filter(|_| is_mirrored).unwrap_or(0.0);
+            let step = site.angle.map_or(0.0, |angle| self.reduced(angle - by, ring).1);
+            seen.insert((ring, (step.abs() / SAME).round() as i64))
         });
         let is_first_face = is_first_face.collect();
         Symmetry { first, image, is_first_face }
@@ -349,6 +371,10 @@ fn mirror(axis: [DVec3; 3], is_mirrored: bool) -> DMat3 {
     if !is_mirrored {
         return DMat3::IDENTITY;
     }
-    let a = axis[2];
+    across(axis[2])
+}
+
+/// The image across the plane through the origin square to a direction.
+fn across(a: DVec3) -> DMat3 {
     DMat3::IDENTITY - DMat3::from_cols(a * a.x, a * a.y, a * a.z) * 2.0
 }

@@ -1,8 +1,11 @@
-//! Whether given planes and mirror images are what they should be, measured on the result.
+//! Whether given planes, given points and mirror images are what they should be, measured on the
+//! result.
+
+use glam::DVec3;
 
 use super::mirror::{Paired, paired};
-use super::outcomes::{FixedPanel, MirrorReport, Place};
-use super::{Model, PanelizeFinding, Solved};
+use super::outcomes::{FixedPanel, MirrorReport, Place, StayedPoint};
+use super::{HeldPoint, Model, PanelizeFinding, Solved};
 
 /// Corners farther from a given plane have left it, and those farther from an image are none, in panel
 /// sizes.
@@ -41,6 +44,33 @@ pub(super) fn unpaired(model: &Model, solved: &Solved) -> Vec<Place> {
         element: first,
         measured: report.alone as f64,
         place: model.place(solved.state.panels.centre(first)),
+    })
+    .collect()
+}
+
+/// The vertex that is nearest to each point that stays, whichever was put there.
+pub(super) fn stayed_points(model: &Model, solved: &Solved) -> Vec<StayedPoint> {
+    let state = &solved.state;
+    let used = (0..state.panels.points.len()).filter(|&v| !state.fans[v].is_empty());
+    let places: Vec<_> = used.map(|v| (v, model.vertex(&state.panels, v))).collect();
+    let near = |(point, held): (usize, &HeldPoint)| {
+        let off = |place: &DVec3| place.distance(held.given);
+        let nearest = places.iter().min_by(|a, b| off(&a.1).total_cmp(&off(&b.1)));
+        let (vertex, off_mm) = nearest.map_or((0, f64::INFINITY), |(v, place)| (*v, off(place)));
+        StayedPoint { point, vertex, off_mm }
+    };
+    model.held.iter().enumerate().map(near).collect()
+}
+
+/// Points at which no corner of panels stands.
+pub(super) fn lost_points(model: &Model, solved: &Solved) -> Vec<Place> {
+    let stayed = stayed_points(model, solved).into_iter();
+    let lost = stayed.filter(|point| point.off_mm > PLANE_OFF * model.size);
+    lost.map(|point| Place {
+        finding: PanelizeFinding::PointLost,
+        element: point.vertex,
+        measured: point.off_mm,
+        place: model.held[point.point].given,
     })
     .collect()
 }

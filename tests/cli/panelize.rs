@@ -190,6 +190,35 @@ fn planes_of_a_file_are_those_of_panels_in_the_unit_of_the_surface() {
 }
 
 #[test]
+fn points_of_a_file_have_a_vertex_each_in_the_unit_of_the_surface() {
+    let folder = Folder::new("panelize-stay");
+    let out = folder.path("panels.obj");
+    let grid = written(&folder, "heights.csv", &dome(","));
+    let stay = |points: &str| {
+        run(&["panelize", &grid, "--units", "m", "--count", "24", "--stay", points, "-o", &out])
+    };
+    let (text, there) = ("0.5,-0.25,0.98046875\n", "v 500 -250 980.46875");
+    let as_obj = "v 0.5 -0.25 0.98046875\n";
+    for (name, text) in [("at.txt", text), ("at.obj", as_obj), ("at.csv", text)] {
+        let ran = stay(&written(&folder, name, text));
+        assert_panels(&ran, &out);
+        assert!(ran.err.contains("(point 1)"), "{}", ran.err);
+        let made = fs::read_to_string(&out).expect("panels");
+        assert!(made.lines().any(|line| line == there), "{name}");
+    }
+    let ran = stay(&written(&folder, "high.csv", "0.5,-0.25,3\n"));
+    assert!(ran.code == Some(2) && ran.err.contains("(E866)"), "{}", ran.err);
+    let ran = stay(&written(&folder, "bad.csv", "0,0\n"));
+    assert!(ran.code == Some(2) && ran.err.contains("bad.csv"), "{}", ran.err);
+    let recipe = "[[step]]\nheight = \"1-(x^2+y^2)/16\"\ndomain = \"6mx5m\"\nsteps = 40\n[[step]]\n\
+        panelize = \"count\"\ncount = 24\nstay = \"columns.csv\"\n";
+    written(&folder, "columns.csv", text);
+    let recipe = written(&folder, "dome.toml", recipe);
+    let ran = run(&["run", &recipe, "-o", &folder.path("made")]);
+    assert!(ran.err.contains("(point 1)"), "{}", ran.err);
+}
+
+#[test]
 fn panels_are_mirrored_and_edges_drawn_to_few_lengths() {
     let folder = Folder::new("panelize-symmetry");
     let out = folder.path("panels.obj");

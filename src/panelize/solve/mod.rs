@@ -330,7 +330,9 @@ impl State {
     /// Corners that move, the faces at them, and the pattern of the system; `None` without any.
     fn unknowns(&self, active: Option<&[bool]>) -> Option<Unknowns> {
         let moves = |v: usize| {
-            !self.fans[v].is_empty() && self.fans[v].iter().all(|&f| active.is_none_or(|a| a[f]))
+            !self.fans[v].is_empty()
+                && !self.panels.held.contains_key(&v)
+                && self.fans[v].iter().all(|&f| active.is_none_or(|a| a[f]))
         };
         let is_first = |v: usize| self.symmetry.as_ref().is_none_or(|s| s.first[v] == v);
         let corners = (0..self.panels.points.len()).filter(|&v| moves(v) && is_first(v));

@@ -53,10 +53,11 @@ impl RimRow {
         (place - self.point).dot(self.normal)
     }
 
-    /// The planes of all corners at rims: one where two panels meet, two where the rim turns.
+    /// The planes of all corners at rims that do not stay: one where two panels meet, two where the rim turns.
     pub(super) fn all(scene: Scene<'_>, panels: &Panels) -> Vec<Self> {
         let mut rows = Vec::new();
-        for (corner, kind) in panels.kinds.iter().enumerate() {
+        let moves = |&(v, _): &(usize, &Kind)| !panels.held.contains_key(&v);
+        for (corner, kind) in panels.kinds.iter().enumerate().filter(moves) {
             let hint = panels.hints[corner];
             match kind {
                 Kind::Inner => {}

@@ -142,6 +142,7 @@ class Steps:
         even: Number = 0.2,
         rim: Words = "free",
         fix: Words = "none",
+        stay: Words = "none",
         symmetry: Words = "none",
         families: Optional[int] = None,
         crease: Optional[Angle] = None,

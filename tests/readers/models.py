@@ -22,6 +22,7 @@ from pathlib import Path
 import ezdxf
 import lib3mf
 import numpy as np
+import openpyxl
 import trimesh
 from ezdxf.audit import Auditor
 from ezdxf.lldxf.encoding import decode_dxf_unicode
@@ -165,6 +166,9 @@ def check_plates(folder, title):
         extras, panel = node["extras"], panels[node["name"]]
         for key in ["id", "face", "thickness", "area", "volume", "mass", "mitres", "side_lengths"]:
             expect(np.allclose(extras[key], panel[key], rtol=1e-12) if key != "id" else extras[key] == panel[key], f"{title} {node['name']}: {key} {extras[key]}")
+    book = openpyxl.load_workbook(folder / "schedule.xlsx")
+    listed = [row[0] for row in book.worksheets[0].iter_rows(values_only=True)]
+    expect(set(panels) <= {str(cell) for cell in listed}, f"{title}: panels of the workbook {listed[:9]}")
     scene = trimesh.load(folder / "plates.obj", split_object=True, group_material=True, process=False)
     meshes = scene.geometry.values() if isinstance(scene, trimesh.Scene) else [scene]
     colours = {tuple(mesh.visual.material.diffuse) for mesh in meshes}
@@ -239,6 +243,7 @@ def main():
                 check(path, vertices, faces, groups, f"{name} as {ending}")
             run(kerfold, "unfold", model, "--sheet", "600x400", "--animate", base / f"{name}.fold", "-o", base / f"{name}-flat")
             check_fold(base / f"{name}.fold", vertices, faces, f"{name} as FOLD")
+            run(kerfold, "unfold", model, "--sheet", "600x400", "--animate", base / f"{name}.glb", "-o", base / f"{name}-flat")
             print(f"{name}: {'as it should be' if not faults else 'FAULTS'}")
         for name in ["soccer-ball", "cuboctahedron"]:
             run(kerfold, "solid", name, "--size", "150mm", "-o", base / f"{name}.obj")

@@ -174,6 +174,18 @@ const DOORS: &[(&str, &[&str])] = &[
     ("skrifa", &["src/io/report/pdf/font.rs"]),
     ("fast_float2", &["src/io/read/quick.rs"]),
     ("memchr", &["src/io/read/text.rs"]),
+    (
+        "rayon",
+        &[
+            "src/check/run.rs",
+            "src/gallery/mod.rs",
+            "src/io/sheet/files.rs",
+            "src/make/outputs.rs",
+            "src/panel/overlap.rs",
+            "src/panel/settle.rs",
+            "src/picture/model.rs",
+        ],
+    ),
     ("foldhash", &["src/mend/weld.rs"]),
     ("hashbrown", &["src/mend/weld.rs"]),
     ("miniz_oxide", &["src/io/read/artwork/decode.rs", "src/io/read/artwork/pdf_unpack.rs"]),

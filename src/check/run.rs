@@ -1,6 +1,7 @@
 //! The check itself: measures, and asks what is found.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use super::report::{
     ConicalNode, FaceReport, FlatNeighbours, MOST_CROSSINGS, ModelCounts, Report, ValenceReport,
@@ -24,7 +25,9 @@ pub fn check(mesh: &Mesh, params: &CheckParams) -> Result<Report, CheckError> {
     let mut require = params.require.clone();
     require.sort_unstable();
     require.dedup();
-    let faces: Vec<FaceReport> = mesh.faces().map(|f| face_report(mesh, f, &limits)).collect();
+    let faces: Vec<FaceId> = mesh.faces().collect();
+    let faces: Vec<FaceReport> =
+        faces.into_par_iter().map(|f| face_report(mesh, f, &limits)).collect();
     let mut deviations = FaceMap::filled(mesh.face_slots(), 0.0);
     for f in &faces {
         deviations[f.face] = f.planarity.mm;
@@ -106,5 +109,5 @@ fn conical_nodes(mesh: &Mesh) -> Vec<ConicalNode> {
             residual: around.and_then(|n| measure::conical_residual_of(&n)),
         }
     };
-    crowded.into_iter().map(node).collect()
+    crowded.into_par_iter().map(node).collect()
 }

@@ -8,12 +8,13 @@ mod bundle;
 mod page;
 
 use std::path::PathBuf;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
+
+use rayon::prelude::*;
 
 pub use self::bundle::{BundledFile, bundled, bundled_recipe, unpacked};
 pub use self::page::{gallery_html, gallery_markdown};
+
 use crate::code::{Code, Coded};
 use crate::make::{MakeError, Output};
 use crate::progress::Progress;
@@ -186,29 +187,13 @@ pub fn side_by_side<T: Send>(
     progress: &dyn Progress,
     work: &(dyn Fn(&GalleryRecipe, &dyn Progress) -> T + Sync),
 ) -> Vec<T> {
-    let (next, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
-    let results: Mutex<Vec<(usize, T)>> = Mutex::new(Vec::new());
-    let run = || {
-        while let Some((i, recipe)) = recipes.get(next.load(Ordering::Relaxed)).and_then(|_| {
-            let i = next.fetch_add(1, Ordering::Relaxed);
-            recipes.get(i).map(|recipe| (i, recipe))
-        }) {
-            let result = work(recipe, &Inside(progress));
-            results.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push((i, result));
-            progress.report("recipes", done.fetch_add(1, Ordering::Relaxed) + 1, recipes.len());
-        }
+    let done = AtomicUsize::new(0);
+    let run = |recipe: &GalleryRecipe| {
+        let result = work(recipe, &Inside(progress));
+        progress.report("recipes", done.fetch_add(1, Ordering::Relaxed) + 1, recipes.len());
+        result
     };
-    let threads =
-        thread::available_parallelism().map_or(1, std::num::NonZero::get).min(recipes.len());
-    thread::scope(|scope| {
-        for _ in 1..threads {
-            scope.spawn(run);
-        }
-        run();
-    });
-    let mut results = results.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-    results.sort_by_key(|&(i, _)| i);
-    results.into_iter().map(|(_, result)| result).collect()
+    recipes.par_iter().with_max_len(1).map(run).collect()
 }
 
 /// The progress of one recipe among many: it can be stopped, but its own steps are not reported.

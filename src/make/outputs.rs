@@ -1,5 +1,7 @@
 //! What pieces and sheets leave in a folder, as names and bytes; nothing is written here.
 
+use rayon::prelude::*;
+
 use super::assembly_text::assembly_text;
 use super::fabricate::piece_list;
 use super::{Fabrication, MakeError};
@@ -47,9 +49,13 @@ pub fn fabrication_outputs(
         outputs.push(("sheets.html".to_owned(), sheets_html(&page, command).into_bytes()));
     }
     outputs.extend(sheet_files(&fabrication.sheets.drawings, sheet, command)?);
-    for drawing in &fabrication.sheets.drawings {
+    let picture = |drawing: &Drawing| -> Result<Output, MakeError> {
         let picture = sheet_picture(drawing, &sheet.style(), SHEET_PICTURE)?;
-        outputs.push((format!("{}.png", drawing.file_stem()), picture));
+        Ok((format!("{}.png", drawing.file_stem()), picture))
+    };
+    let pictures: Vec<_> = fabrication.sheets.drawings.par_iter().map(picture).collect();
+    for picture in pictures {
+        outputs.push(picture?);
     }
     Ok(outputs)
 }

@@ -6,6 +6,7 @@
 //! share is the sum over all pairs of their convex parts.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use super::body::{Body, Part, meet};
 use super::cell::Cell;
@@ -32,15 +33,12 @@ pub(super) struct Shared {
 /// All pairs of plates that overlap, in order; `None` when the user asked to stop.
 pub(super) fn overlaps(plates: &[&Plate], progress: &dyn Progress) -> Option<Vec<Shared>> {
     let about = middle(plates);
-    let bodies: Vec<Body<'_>> = plates.iter().map(|plate| Body::new(plate, about)).collect();
-    let mut found = Vec::new();
-    for pair in near_pairs(&bodies) {
-        found.extend(shared(&bodies, pair, about, progress));
-        if progress.is_cancelled() {
-            return None;
-        }
-    }
-    Some(found)
+    let bodies: Vec<Body<'_>> = plates.par_iter().map(|plate| Body::new(plate, about)).collect();
+    let one = |pair: [usize; 2]| {
+        if progress.is_cancelled() { None } else { shared(&bodies, pair, about, progress) }
+    };
+    let found: Vec<Option<Shared>> = near_pairs(&bodies).into_par_iter().map(one).collect();
+    (!progress.is_cancelled()).then(|| found.into_iter().flatten().collect())
 }
 
 /// The middle of the box of all plates.

@@ -2,6 +2,9 @@
 //! cut off, until no plate runs into itself or into another.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
 
 use super::collision::{collisions, crossing};
 use super::cut::{Cutter, EdgeFallback};
@@ -98,11 +101,7 @@ fn try_shapes(
     cutter: &Cutter<'_>,
     progress: &dyn Progress,
 ) -> Result<Tried, PanelError> {
-    let mut found = Vec::new();
-    for (i, face) in faces.iter().enumerate() {
-        found.extend(collisions(face, cutter));
-        check_progress(i, faces.len(), progress)?;
-    }
+    let found = of_all(faces, progress, |face| collisions(face, cutter))?.concat();
     if !found.is_empty() {
         return give_way(found, faces, flat, cutter).map(Err);
     }
@@ -110,11 +109,7 @@ fn try_shapes(
         Ok(combs) => combs,
         Err(short) => return Ok(Err(with_reason(short, EdgeFallback::Short))),
     };
-    let mut shaped = Vec::with_capacity(faces.len());
-    for (i, face) in faces.iter().enumerate() {
-        shaped.push(shape(face, cutter, &combs));
-        check_progress(i, faces.len(), progress)?;
-    }
+    let shaped = of_all(faces, progress, |face| shape(face, cutter, &combs))?;
     let crossed = |(face, s): (&FlatFace, &Shaped)| crossed_fingers(face, &s.plate, &combs);
     let narrow: BTreeSet<EdgeId> = faces.iter().zip(&shaped).flat_map(crossed).collect();
     if narrow.is_empty() {
@@ -123,14 +118,24 @@ fn try_shapes(
     Ok(Err(with_reason(narrow, EdgeFallback::Narrow)))
 }
 
-fn check_progress(i: usize, all: usize, progress: &dyn Progress) -> Result<(), PanelError> {
-    if i.is_multiple_of(STRIDE) {
-        progress.report("plates", i, all);
-        if progress.is_cancelled() {
-            return Err(PanelError::Cancelled);
+/// The same asked of all faces, on all cores; the answers in the order of the faces.
+fn of_all<T: Send>(
+    faces: &[FlatFace],
+    progress: &dyn Progress,
+    ask: impl Fn(&FlatFace) -> T + Sync,
+) -> Result<Vec<T>, PanelError> {
+    let done = AtomicUsize::new(0);
+    let one = |face: &FlatFace| {
+        let before = done.fetch_add(1, Ordering::Relaxed);
+        if before.is_multiple_of(STRIDE) {
+            progress.report("plates", before, faces.len());
+            if progress.is_cancelled() {
+                return Err(PanelError::Cancelled);
+            }
         }
-    }
-    Ok(())
+        Ok(ask(face))
+    };
+    faces.par_iter().map(one).collect()
 }
 
 fn with_reason(

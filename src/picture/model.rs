@@ -1,6 +1,7 @@
 //! The picture of a model.
 
 use glam::DVec2;
+use rayon::prelude::*;
 use tiny_skia::Pixmap;
 
 use super::band::{BAND_ROWS, Band, Coverage};
@@ -108,16 +109,11 @@ fn draw_model(
     let legend = legend.filter(|_| Legend::has_room(width, height));
     let camera = Camera::fitted(&[mesh], params, window(width, height, legend.is_some()))?;
     let scene = Scene::new(mesh, params, &camera, look);
-    draw(&mut pixmap, mesh, &scene, Division { workers: workers(), rows: BAND_ROWS });
+    draw(&mut pixmap, mesh, &scene, BAND_ROWS);
     if let Some(legend) = legend {
         legend.draw(&mut pixmap);
     }
     Ok(Picture { pixmap })
-}
-
-/// The number of threads for a picture.
-pub(super) fn workers() -> usize {
-    std::thread::available_parallelism().map_or(1, usize::from).min(8)
 }
 
 /// The legend and the colour of each face.
@@ -161,40 +157,16 @@ pub(super) fn colours(mesh: &Mesh, colour: Colour) -> (Option<Legend>, FaceMap<[
     }
 }
 
-/// How the work is divided; the picture does not depend on it.
-#[derive(Clone, Copy)]
-pub(super) struct Division {
-    /// Number of threads.
-    pub workers: usize,
-    /// Rows of a band, in pixels.
-    pub rows: usize,
-}
-
-/// Draws the bands, each by one of the threads: its pixels depend on nothing but the scene.
-pub(super) fn draw(pixmap: &mut Pixmap, mesh: &Mesh, scene: &Scene, division: Division) {
+/// Draws bands of so many rows of pixels, each by one of the threads: its pixels depend on nothing
+/// but the scene.
+pub(super) fn draw(pixmap: &mut Pixmap, mesh: &Mesh, scene: &Scene, rows: usize) {
     let (width, height) = (pixmap.width() as usize, pixmap.height() as usize);
-    let Division { workers, rows } = division;
-    let bands = pixmap.data_mut().chunks_mut(width * 4 * rows).enumerate();
-    let mut shares: Vec<Vec<(usize, &mut [u8])>> = (0..workers).map(|_| Vec::new()).collect();
-    for (i, pixels) in bands {
-        shares[i % workers].push((i, pixels));
-    }
-    let draw_share = |share: Vec<(usize, &mut [u8])>| -> (Vec<&Dot>, Vec<&Tag>) {
-        let draw = |(i, pixels): (usize, &mut [u8])| {
-            let rows = i * rows..((i + 1) * rows).min(height);
-            draw_band(pixels, mesh, scene, width, rows)
-        };
-        let (dots, tags): (Vec<_>, Vec<_>) = share.into_iter().map(draw).unzip();
-        (dots.concat(), tags.concat())
+    let draw = |(i, pixels): (usize, &mut [u8])| {
+        let rows = i * rows..((i + 1) * rows).min(height);
+        draw_band(pixels, mesh, scene, width, rows)
     };
-    let (dots, tags): (Vec<_>, Vec<_>) = std::thread::scope(|scope| {
-        let threads: Vec<_> =
-            shares.into_iter().map(|share| scope.spawn(|| draw_share(share))).collect();
-        threads
-            .into_iter()
-            .map(|thread| thread.join().expect("drawing a band does not panic"))
-            .unzip()
-    });
+    let bands = pixmap.data_mut().par_chunks_mut(width * 4 * rows).enumerate();
+    let (dots, tags): (Vec<Vec<&Dot>>, Vec<Vec<&Tag>>) = bands.map(draw).unzip();
     let (mut dots, mut tags) = (dots.concat(), tags.concat());
     // Dots can overlap, so their order must not depend on who finished first.
     dots.sort_by_key(|dot| dot.vertex);
@@ -403,7 +375,9 @@ pub(super) mod tests {
         let scene = Scene::new(&ring, &params, &camera, (&colours, &marks));
         for (workers, rows) in [(1, 64), (3, 17), (7, 1), (2, 500)] {
             let mut pixmap = crate::picture::blank(240, 180).expect("a size");
-            draw(&mut pixmap, &ring, &scene, Division { workers, rows });
+            let pool =
+                rayon::ThreadPoolBuilder::new().num_threads(workers).build().expect("a pool");
+            pool.install(|| draw(&mut pixmap, &ring, &scene, rows));
             legend.as_ref().expect("a legend").draw(&mut pixmap);
             assert!(pixmap == picture.pixmap, "{workers} threads, {rows} rows");
         }

@@ -7,7 +7,7 @@ use super::camera::Camera;
 use super::frame::window;
 use super::lettering::write_clear;
 use super::marks::Marks;
-use super::model::{Division, colours, draw, workers};
+use super::model::{colours, draw};
 use super::scene::Scene;
 use super::strip::letter_height;
 use super::through::aimed;
@@ -117,7 +117,7 @@ fn draw_frame(
     let (_, mut colours) = colours(&frame.mesh, look.colour);
     frame.marks.paint(&mut colours);
     let scene = Scene::new(&frame.mesh, &look, &camera, (&colours, &frame.marks));
-    draw(&mut pixmap, &frame.mesh, &scene, Division { workers: workers(), rows: BAND_ROWS });
+    draw(&mut pixmap, &frame.mesh, &scene, BAND_ROWS);
     let letter = letter_height(height) * 0.8;
     write_clear(&mut pixmap, &frame.label, (letter, 2.0 * letter), letter, paint::LINE);
     Ok(pixmap)

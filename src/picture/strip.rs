@@ -7,7 +7,7 @@ use super::camera::Camera;
 use super::frame::window;
 use super::lettering::write;
 use super::marks::Marks;
-use super::model::{Division, colours, draw, workers};
+use super::model::{colours, draw};
 use super::scene::Scene;
 use super::{Picture, PictureError, RenderParams, paint};
 use crate::mesh::Mesh;
@@ -65,7 +65,7 @@ fn draw_cell(cell: &Cell, params: &RenderParams, camera: &Camera) -> Result<Pixm
     }
     let (_, colours) = colours(&cell.mesh, params.colour);
     let scene = Scene::new(&cell.mesh, params, camera, (&colours, &Marks::default()));
-    draw(&mut pixmap, &cell.mesh, &scene, Division { workers: workers(), rows: BAND_ROWS });
+    draw(&mut pixmap, &cell.mesh, &scene, BAND_ROWS);
     let letter = letter_height(height);
     write(&mut pixmap, &cell.label, (letter, 2.0 * letter), letter, paint::LINE);
     Ok(pixmap)

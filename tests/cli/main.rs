@@ -19,6 +19,7 @@ mod seams;
 mod streams;
 #[cfg(unix)]
 mod studio;
+mod threads;
 mod unfold;
 mod verify;
 mod words;

@@ -1,6 +1,8 @@
 //! All files of a set of sheets, as names and bytes: in every format that was asked for, tiled, and
 //! part by part.
 
+use rayon::prelude::*;
+
 use super::dxf::write_dxf;
 use super::lbrn2::write_lbrn2;
 use super::pdf::tiles::write_tiles;
@@ -64,21 +66,26 @@ pub fn sheet_files(
     params: &SheetParams,
     command: &str,
 ) -> Result<Vec<(String, Vec<u8>)>, SheetError> {
-    let mut files = Vec::new();
-    let mut add = |drawing: &Drawing| {
-        for format in params.files.format.iter() {
-            let name = format!("{}.{}", drawing.file_stem(), format.extension());
-            files.push((name, sheet_bytes(drawing, format, params, command)));
-        }
+    let formats: Vec<SheetFormat> = params.files.format.iter().collect();
+    let written = |drawing: &Drawing| -> Vec<(String, Vec<u8>)> {
+        let name = |format: SheetFormat| format!("{}.{}", drawing.file_stem(), format.extension());
+        let one =
+            |&format: &SheetFormat| (name(format), sheet_bytes(drawing, format, params, command));
+        formats.iter().map(one).collect()
     };
-    drawings.iter().for_each(&mut add);
+    let mut files: Vec<_> = drawings.par_iter().flat_map_iter(written).collect();
     if params.files.part_files == PartFiles::On {
-        drawings.iter().flat_map(Drawing::parts).for_each(|part| add(&part));
+        let parts = drawings.par_iter().flat_map_iter(Drawing::parts);
+        files.par_extend(parts.flat_map_iter(|part| written(&part)));
     }
     if let Some(paper) = params.files.tile {
-        for drawing in drawings {
+        let tiles = |drawing: &Drawing| {
             let bytes = write_tiles(drawing, paper, params.style(), command)?;
-            files.push((format!("{}-{}.pdf", drawing.file_stem(), paper.name()), bytes));
+            Ok((format!("{}-{}.pdf", drawing.file_stem(), paper.name()), bytes))
+        };
+        let tiles: Vec<Result<_, SheetError>> = drawings.par_iter().map(tiles).collect();
+        for tile in tiles {
+            files.push(tile?);
         }
     }
     Ok(files)

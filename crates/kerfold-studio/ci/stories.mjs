@@ -198,6 +198,9 @@ test("2: a sculptor marks, looks, and cuts", () => story("sculptor", {}, async (
   await field("roll").locator("input").fill("20mm");
   await field("roll").locator("input").press("Tab");
   await page.waitForFunction(() => window.studio.app.preview?.made("face").length === 36);
+  // The largest radius at which no rolls meet is looked for, too.
+  await page.waitForFunction(() => window.studio.app.limit?.key === "roll");
+  assert.ok((await app("app.limit.value")) > 20);
   assert.equal(await field("roll").locator("input[type=range]").count(), 1);
   // A typed number counts as well, and takes the roll's place.
   const typed = page.locator(".cutting .field[data-key=offset] input[type=text]");
@@ -280,6 +283,45 @@ test("3: an architect drops a mesh", async () => {
     await settled(page);
     await exported(page, "facade.toml");
     compare(work, "facade.toml", "made", ["facade.obj"]);
+  });
+});
+
+test("a D-form of an outline that is drawn, and of two that are dropped", async () => {
+  await story("outlines", {}, async (page, work) => {
+    await page.click("#draw-outline");
+    const paper = await page.locator("dialog .paper").boundingBox();
+    const at = (share) => {
+      const angle = 2 * Math.PI * share;
+      return [paper.x + paper.width / 2 + 130 * Math.cos(angle), paper.y + paper.height / 2 + 75 * Math.sin(angle)];
+    };
+    assert.ok(await page.locator("dialog button.main").isDisabled());
+    await page.mouse.move(...at(0));
+    await page.mouse.down();
+    for (let k = 1; k <= 40; k++) await page.mouse.move(...at(k / 41));
+    await page.mouse.up();
+    await page.fill("#outline-size", "200");
+    await page.click("dialog button.main");
+    await page.waitForFunction(() => window.studio.app.recipe.text.includes("outline-1.csv"));
+    await page.waitForFunction(() => window.studio.app.model?.faces.length > 100, undefined, { timeout: 60000 });
+    await settled(page);
+    const lines = readFileSync(join(work, "outline-1.csv"), "utf8").split("\n").filter((line) => /^[\d-]/.test(line));
+    const points = lines.map((line) => line.split(",").map(Number));
+    const extent = (axis) => Math.max(...points.map((p) => p[axis])) - Math.min(...points.map((p) => p[axis]));
+    assert.equal(points.length, 240);
+    assert.ok(Math.abs(extent(0) - 200) < 1e-3 && Math.abs(extent(1) / 200 - 75 / 130) < 0.05, `${extent(0)} x ${extent(1)}`);
+    await exported(page, "drawn.toml");
+    compare(work, "drawn.toml", "made", ["outline-1.csv"]);
+    // Two drawings, in the order of their names.
+    const circle = (r) => `<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="200mm" viewBox="0 0 200 200"><ellipse cx="100" cy="100" rx="${r}" ry="60"/></svg>`;
+    const data = await page.evaluateHandle((texts) => {
+      const data = new DataTransfer();
+      texts.forEach((text, i) => data.items.add(new File([text], `${"ba"[i]}.svg`)));
+      return data;
+    }, [circle(60), circle(80)]);
+    await page.dispatchEvent("body", "drop", { dataTransfer: data });
+    await page.waitForFunction(() => window.studio.app.recipe.text.includes('["a.svg", "b.svg"]'));
+    await page.waitForFunction(() => window.studio.app.model?.faces.length > 100, undefined, { timeout: 60000 });
+    await settled(page);
   });
 });
 

@@ -90,8 +90,10 @@ fn check(session: &Session, step: &StepDraft) -> Result<()> {
 pub(crate) struct Limit {
     steps: Option<usize>,
     step: StepDraft,
-    /// The key that is a number.
+    /// The key that is a number, or a quantity in the unit.
     key: String,
+    /// Such as `mm`; for plain numbers nothing.
+    unit: Option<String>,
     /// The least and the largest value to look at.
     from: f64,
     to: f64,
@@ -111,7 +113,11 @@ pub(crate) async fn limit(at: At, Json(asked): Json<Limit>) -> Result<Answer<Val
         };
         let meets = |value: f64| -> Result<bool> {
             let mut step = asked.step.clone();
-            step.set(&asked.key, Some(StepValue::from(value)));
+            let value = match &asked.unit {
+                Some(unit) => StepValue::from(format!("{value}{unit}")),
+                None => StepValue::from(value),
+            };
+            step.set(&asked.key, Some(value));
             let (reached, preview) = replay.preview(step, progress);
             tab.session().keep(&reached);
             if progress.is_cancelled() {

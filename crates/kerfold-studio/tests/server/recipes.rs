@@ -42,6 +42,12 @@ fn from_a_solid_to_the_bytes_of_the_command_line() {
     let limit = limit["value"].as_f64().expect("a limit");
     // Planes of neighbours meet in the middle of the faces.
     assert!((0.49..=0.51).contains(&limit), "{limit}");
+    // Rolled, neighbours meet there, too: a radius of half a face.
+    let roll = json!([["cut", "edge"], ["select", "along=z"], ["roll", "20mm"]]);
+    let limit = json!({ "step": roll, "key": "roll", "unit": "mm", "from": 0, "to": 80 });
+    let limit = studio.post(&format!("{tab}/limit"), &limit).json();
+    let limit = limit["value"].as_f64().expect("a limit");
+    assert!((29.9..=30.1).contains(&limit), "{limit}");
     step(cut);
     let told_model = told(&studio.get(&format!("{tab}/model")).body);
     assert_eq!(told_model["arrays"]["faces"]["count"], 10);

@@ -3,6 +3,7 @@
 import * as api from "./api";
 import { type Arrays, Refusal, type Recipe, type Step, type Value } from "./api";
 import { byId } from "./dom";
+import { unitOf } from "./forms";
 import { type Element, Model } from "./model";
 import { type Kind, kindOf, kindsOf, withKey } from "./schema";
 import { View } from "./view";
@@ -73,7 +74,8 @@ export class App {
   private resultTimer = 0;
   private limitTimer = 0;
   private limitStop: AbortController | null = null;
-  limit: number | null = null;
+  /** The largest value of the key at which no cuts meet. */
+  limit: { key: string; value: number } | null = null;
   /** How long the last frame of a slider took, in ms; for the bench. */
   frames: number[] = [];
   work = "";
@@ -300,7 +302,7 @@ export class App {
     return this.lookNow();
   }
 
-  /** How far the offset may go before cuts meet. */
+  /** How far the offset may go before cuts meet; of edges that are rolled, the radius. */
   private async findLimit() {
     if (!this.marked.size) {
       this.limit = null;
@@ -308,15 +310,19 @@ export class App {
       return;
     }
     try {
-      if (this.cut.some(([key]) => key === "roll")) {
+      const roll = this.cut.find(([key]) => key === "roll")?.[1];
+      const unit = typeof roll === "string" ? unitOf(roll) : "";
+      if (roll !== undefined && !unit) {
+        // The largest radius of all is no slider.
         this.limit = null;
         this.tell("cutting");
         return;
       }
-      const body = { steps: this.steps, step: this.cut, key: "offset", from: 0, to: 2 };
+      const asked = unit ? { key: "roll", unit, from: 0, to: 4 * parseFloat(String(roll)) } : { key: "offset", from: 0, to: 2 };
+      const body = { steps: this.steps, step: this.cut, ...asked };
       this.limitStop = new AbortController();
       const told = await api.post<{ value: number | null }>(this.path("/limit"), body, "POST", this.limitStop.signal);
-      this.limit = told.value;
+      this.limit = told.value === null ? null : { key: asked.key, value: told.value };
       this.tell("cutting");
     } catch {
       // A newer value asks again.

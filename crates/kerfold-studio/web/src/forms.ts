@@ -127,7 +127,8 @@ function control(key: Key, id: string, value: Value | undefined, hooks: FormHook
 
 export const shown = (value: Value): string => (Array.isArray(value) ? value.map(shown).join(", ") : String(value));
 
-const unitOf = (text: string) => /^-?[\d.]+\s*([a-zµ"']+)$/i.exec(text)?.[1] ?? "";
+/** The unit of a quantity as it is typed; nothing for what is none. */
+export const unitOf = (text: string) => /^-?[\d.]+\s*([a-zµ"']+)$/i.exec(text)?.[1] ?? "";
 
 /** What was typed, as the value that the recipe gets: numbers without quotes. */
 function typed(key: Key, text: string): Value | undefined {
@@ -162,11 +163,13 @@ function sliderRange(key: Key, value: Value | undefined) {
 }
 
 /** Marks on a slider the largest value at which no cuts meet. */
-export function markLimit(box: HTMLElement, key: string, value: number | null) {
+export function markLimit(box: HTMLElement, limit: { key: string; value: number } | null) {
+  box.querySelector(".limit")?.remove();
+  if (!limit) return;
+  const { key, value } = limit;
   const row = box.querySelector<HTMLElement>(`.field[data-key="${key}"]`);
   const range = row?.querySelector<HTMLInputElement>("input[type=range]");
-  row?.querySelector(".limit")?.remove();
-  if (!row || !range || value === null || value >= +range.max) return;
+  if (!row || !range || value >= +range.max) return;
   const share = (value - +range.min) / (+range.max - +range.min);
   const text = `cuts meet above ${value.toFixed(3)}`;
   row.append(h("span", { class: "limit", style: `--at:${share}`, title: text, role: "note" }, text));

@@ -167,7 +167,7 @@ export function left(app: App) {
       },
     });
     forms.replaceChildren(box);
-    markLimit(forms, "offset", app.limit);
+    markLimit(forms, app.limit);
   }
 
   function drawMarks() {
@@ -184,7 +184,7 @@ export function left(app: App) {
     if (mode !== app.mode) drawForms();
     mode = app.mode;
     modes.querySelector<HTMLInputElement>(`#mode-${mode}`)!.checked = true;
-    markLimit(forms, "offset", app.limit);
+    markLimit(forms, app.limit);
     const overcut = app.preview?.told.cut?.overcut?.length ?? 0;
     cutting.classList.toggle("overcut", overcut > 0);
   });
@@ -208,6 +208,7 @@ export function left(app: App) {
       onclick: () => void app.apply([["solid", name], ["size", size.value || "180mm"]]),
     }, name.replaceAll("-", " ")))),
     h("p", {}, "largest extent ", size),
+    h("p", {}, "or ", h("button", { id: "draw-outline" }, "draw an outline…"), " of a D-form, or drop one or two drawings of it (SVG, DXF, CSV)"),
     h("p", {}, "or drop a mesh (OBJ, PLY, STL, OFF, GLB, 3MF) or a recipe here, or ", h("button", { onclick: () => byId("open").click() }, "open one…")),
   );
   app.on("recipe", () => (welcome.hidden = app.recipe.steps.length > 0));

@@ -8,6 +8,7 @@ import type { ColourBy } from "./colours";
 import { byId, h } from "./dom";
 import { left } from "./left";
 import { type Element, idsText } from "./model";
+import { drawOutline, isOutline, outlineRecipe, outlineText } from "./outlines";
 import { right } from "./right";
 
 const app = new App();
@@ -257,11 +258,32 @@ function take(file: File) {
   });
 }
 
+/** Puts files of outlines into the folder and joins them: one with itself, or two. */
+async function joinOutlines(files: File[]) {
+  for (const file of files) await api.post(`/api/files/${encodeURIComponent(file.name)}`, file, "PUT");
+  app.at = null;
+  if (await app.change("PUT", "/recipe", { text: outlineRecipe(files.map((file) => file.name)) })) {
+    app.setMarks([], "");
+    app.view.home();
+  }
+}
+
+const drawOne = () => drawOutline(dialog, (points) => attempt(async () => {
+  const { files } = await api.getJson<{ files: string[] }>("/api/files");
+  let number = 1;
+  while (files.includes(`outline-${number}.csv`)) number += 1;
+  await joinOutlines([new File([outlineText(points)], `outline-${number}.csv`)]);
+  dialog.close();
+}));
+
 addEventListener("dragover", (event) => event.preventDefault());
 addEventListener("drop", (event) => {
   event.preventDefault();
-  const file = event.dataTransfer?.files[0];
-  if (file) void take(file);
+  const files = [...(event.dataTransfer?.files ?? [])];
+  const outlines = files.filter((file) => isOutline(file.name)).sort((a, b) => (a.name < b.name ? -1 : 1));
+  if (outlines.length > 2) app.say("a D-form is joined of one outline or of two; drop no more at once", true);
+  else if (outlines.length) void attempt(() => joinOutlines(outlines));
+  else if (files[0]) void take(files[0]);
 });
 
 const proposed = () =>
@@ -355,6 +377,7 @@ app.start().then(
   () => {
     left(app);
     right(app);
+    byId("draw-outline").addEventListener("click", drawOne);
     for (const topic of ["recipe", "model", "marks", "result"] as const) app.tell(topic);
     document.body.dataset.ready = "true";
   },

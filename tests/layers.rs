@@ -177,6 +177,7 @@ const DOORS: &[(&str, &[&str])] = &[
     (
         "rayon",
         &[
+            "crates/kerfold-sheet/src/sheet/draw.rs",
             "src/check/run.rs",
             "src/gallery/mod.rs",
             "src/io/sheet/files.rs",
@@ -184,6 +185,7 @@ const DOORS: &[(&str, &[&str])] = &[
             "src/panel/overlap.rs",
             "src/panel/settle.rs",
             "src/picture/model.rs",
+            "src/unfold/proof/mod.rs",
         ],
     ),
     ("foldhash", &["src/mend/weld.rs"]),

@@ -48,13 +48,18 @@ pub enum PanelizeError {
     /// Panels cannot be laid out.
     #[error(
         "no panels of {size:.1} mm can be laid out around ({:.1}, {:.1}, {:.1}): the surface is \
-        narrower than two panels there, or has a hole smaller than a panel; take smaller panels, \
-        or close the hole",
-        place.x, place.y, place.z
+        narrower than two panels there, or has a hole smaller than a panel; {}, or close the hole",
+        place.x, place.y, place.z,
+        match fits {
+            Some(fits) => format!("panels of {fits:.3} mm can be laid out (--size {fits:.3}mm)"),
+            None => "take much smaller panels".to_owned(),
+        }
     )]
     TooNarrow {
         /// The panel size in mm.
         size: f64,
+        /// A smaller size that can be laid out, if one was found.
+        fits: Option<f64>,
         /// Where, in mm.
         place: DVec3,
     },

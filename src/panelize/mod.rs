@@ -74,13 +74,12 @@ use self::revolve::Revolution;
 use self::ring_plan::{RingPlan, ring_plans};
 use self::rings::{RingLayout, ring_layout};
 use self::scale::scale_field;
+use self::size::size_that_fits;
 use self::smooth::{Moved, smoothed};
-use self::solve::{
-    FacePlane, Limits, RimRule, Run, Scene, State, Symmetry, Weights, rim_plane_without_rim,
-};
+use self::solve::{FacePlane, Limits, RimRule, Run, Scene, State, Symmetry, Weights};
 use self::start::start;
 use self::surface::{MOST_TRIANGLES, SPACING, Surface, triangles_of};
-use self::wishes::targets;
+use self::wishes::{rim_rule, targets};
 use crate::geom::Plane;
 use crate::measure::crossings;
 use crate::mesh::{FaceId, Mesh, MeshBuilder};
@@ -187,7 +186,13 @@ pub fn panelize(
 ) -> Result<(Mesh, PanelizeReport), PanelizeError> {
     params.check()?;
     let model = Model::new(mesh, params, progress)?;
-    let mut solved = model.solve_best(params, progress)?;
+    let mut solved = model.solve_best(params, progress).map_err(|error| match error {
+        PanelizeError::TooNarrow { size, place, .. } => {
+            let fits = size_that_fits(mesh, params, size, progress);
+            PanelizeError::TooNarrow { size, fits, place }
+        }
+        other => other,
+    })?;
     if let Some(count) = params.families {
         solved = model.with_families(solved, count as usize, progress);
     }
@@ -350,7 +355,7 @@ impl Model {
                 return PanelizeError::BadGroup { name, what: what.to_owned() };
             }
             let place = failed.map_or(DVec3::ZERO, |v| self.surface.points[v]);
-            PanelizeError::TooNarrow { size: self.size, place: self.place(place) }
+            PanelizeError::TooNarrow { size: self.size, fits: None, place: self.place(place) }
         })
     }
 
@@ -551,27 +556,6 @@ fn limits(params: &PanelizeParams, quadrics: &[Quadric]) -> Limits {
         deviation: Limits::default().deviation.max(report::sag(quadrics)),
         ..Limits::default()
     }
-}
-
-/// What becomes of the rim.
-fn rim_rule(
-    surface: &Surface,
-    params: &PanelizeParams,
-    (size, origin): (f64, DVec3),
-) -> Result<RimRule, PanelizeError> {
-    Ok(match &params.rim {
-        RimChoice::Free => RimRule::Curve,
-        // Rims that turn about an axis have no straight stretches but those of the file.
-        RimChoice::Walls if params.layout != LayoutChoice::Free => RimRule::Curve,
-        RimChoice::Walls => RimRule::Walls,
-        RimChoice::Planes(_) => {
-            let planes = params.rim_planes(origin, size).unwrap_or_default();
-            if let Some(plane) = rim_plane_without_rim(surface, &planes) {
-                return Err(PanelizeError::NoRimThere { plane });
-            }
-            RimRule::Planes(planes)
-        }
-    })
 }
 
 /// The surface in units of the panel size, about the origin, with fine triangles; of a surface with

@@ -4,7 +4,10 @@ use super::curvature::quadrics;
 use super::refine::Triangles;
 use super::report::sag;
 use super::surface::PANEL_AREA;
-use super::{PanelizeError, PanelizeParams, fine_surface};
+use super::{Model, PanelizeError, PanelizeParams, fine_surface};
+use crate::mesh::Mesh;
+use crate::progress::Progress;
+use crate::units::Length;
 
 /// Rounds of finding the size for a sag: curvature is seen at the scale of the panels.
 const ROUNDS: usize = 4;
@@ -40,4 +43,27 @@ fn size_of_sag(given: &Triangles, wanted: f64, start: f64) -> Result<f64, Paneli
         size = (size * (wanted / seen.max(f64::MIN_POSITIVE)).sqrt()).min(largest);
     }
     Ok(size)
+}
+
+/// Each size that is tried after one that does not fit is smaller by this factor.
+const SMALLER: f64 = 0.8;
+/// So many are tried.
+const TRIES: i32 = 8;
+
+/// The largest of some smaller sizes at which panels can be laid out, where none of `size` can.
+pub(super) fn size_that_fits(
+    mesh: &Mesh,
+    params: &PanelizeParams,
+    size: f64,
+    progress: &dyn Progress,
+) -> Option<f64> {
+    let fits = |&size: &f64| {
+        let size = Some(Length::from_mm(size));
+        let params = PanelizeParams { size, count: None, sag: None, ..params.clone() };
+        // Laying out is quick, solving would not be.
+        Model::new(mesh, &params, progress)
+            .is_ok_and(|model| matches!(model.draft(0, params.seed), Some(Ok(_))))
+    };
+    let sizes = (1..=TRIES).map(|k| size * SMALLER.powi(k));
+    sizes.take_while(|_| !progress.is_cancelled()).find(fits)
 }

@@ -1,11 +1,12 @@
-//! Rows that the user wants: along the rim, or along drawn curves.
+//! What the user wants of rows, along the rim or along drawn curves, and of the rim itself.
 
 use glam::DVec3;
 
 use super::curvature::Quadric;
 use super::field::Target;
+use super::solve::{RimRule, rim_plane_without_rim};
 use super::surface::Surface;
-use super::{Align, PanelizeError, PanelizeParams};
+use super::{Align, LayoutChoice, PanelizeError, PanelizeParams, RimChoice};
 use crate::geom::{AxisBox, BoxTree, nearest_on_segment};
 
 /// Rows along the rim are wanted so much more than rows along curvature.
@@ -165,4 +166,25 @@ mod tests {
         let (curve, off) = found(&[vec![DVec3::ZERO], on]).expect_err("no length");
         assert!(curve == 0 && off.is_infinite());
     }
+}
+
+/// What becomes of the rim.
+pub(super) fn rim_rule(
+    surface: &Surface,
+    params: &PanelizeParams,
+    (size, origin): (f64, DVec3),
+) -> Result<RimRule, PanelizeError> {
+    Ok(match &params.rim {
+        RimChoice::Free => RimRule::Curve,
+        // Rims that turn about an axis have no straight stretches but those of the file.
+        RimChoice::Walls if params.layout != LayoutChoice::Free => RimRule::Curve,
+        RimChoice::Walls => RimRule::Walls,
+        RimChoice::Planes(_) => {
+            let planes = params.rim_planes(origin, size).unwrap_or_default();
+            if let Some(plane) = rim_plane_without_rim(surface, &planes) {
+                return Err(PanelizeError::NoRimThere { plane });
+            }
+            RimRule::Planes(planes)
+        }
+    })
 }

@@ -38,6 +38,8 @@ pub(crate) struct Tab {
     revision: AtomicU64,
     /// Whether the recipe will be kept soon.
     is_keeping: AtomicBool,
+    /// The last job without pieces, and what it was unfolded to.
+    unfolded: Mutex<Option<[Arc<Job>; 2]>>,
 }
 
 impl Tab {
@@ -50,6 +52,7 @@ impl Tab {
             events: broadcast::channel(64).0,
             revision: AtomicU64::new(0),
             is_keeping: AtomicBool::new(false),
+            unfolded: Mutex::default(),
         }
     }
 
@@ -125,15 +128,27 @@ impl Tab {
         if !auto || !job.has_mesh() || job.fabrication.is_some() || job.panelled.is_some() {
             return Ok(job);
         }
+        if let Some(known) = self.unfolded(&job) {
+            return Ok(known);
+        }
         let unfold = |pieces: &str| -> Result<Arc<Job>, StudioError> {
             let mut step = Recipe::parse(&StepDraft::new("unfold", pieces).text())?;
             step.name.clone_from(&name);
             Ok(Arc::new(Job::clone(&job).carry_on(&step, &folder, progress)?))
         };
         // Strips that cuts have made need not be pieces that lie flat; then one piece is tried.
-        unfold("auto").or_else(|error| {
+        let made = unfold("auto").or_else(|error| {
             if error.is_stopped() { Err(error) } else { unfold("one").map_err(|_| error) }
-        })
+        })?;
+        let mut kept = self.unfolded.lock().unwrap_or_else(PoisonError::into_inner);
+        *kept = Some([job, made.clone()]);
+        Ok(made)
+    }
+
+    /// What a job was unfolded to, if it was the last one.
+    fn unfolded(&self, job: &Arc<Job>) -> Option<Arc<Job>> {
+        let kept = self.unfolded.lock().unwrap_or_else(PoisonError::into_inner);
+        kept.as_ref().filter(|[of, _]| Arc::ptr_eq(of, job)).map(|[_, made]| made.clone())
     }
 
     fn stop(&self, lane: Lane) -> Arc<AtomicBool> {

@@ -115,7 +115,10 @@ fn what_is_wrong_is_told_with_its_place() {
     assert!(report.notes().concat().contains("(F607)"), "{:?}", report.notes());
     let narrow = roof(4000.0, 200.0, 100.0, |_, _| 0.0);
     let error = panelize(&narrow, &sized(1500.0), &Silent).expect_err("one row");
-    assert!(matches!(error, PanelizeError::TooNarrow { .. }), "{error}");
+    assert!(error.to_string().contains("--size"), "{error}");
+    let PanelizeError::TooNarrow { fits: Some(fits), .. } = error else { panic!("{error}") };
+    assert!(fits < 1500.0);
+    panelize(&narrow, &sized(fits), &Silent).expect("panels of the size that was told");
     let error = panelize(&mesh, &sized(0.5), &Silent).expect_err("too many");
     assert!(matches!(error, PanelizeError::TooFine { .. }), "{error}");
     for (params, given) in

@@ -6,7 +6,7 @@
 use super::refold::unevenness;
 use super::{EdgeFault, ProofError, REFOLD};
 use crate::geom::Plane;
-use crate::mesh::{EdgeId, Mesh};
+use crate::mesh::{EdgeId, FaceMap, Mesh};
 use crate::net::{FoldKind, Net};
 
 /// A fold that bends by less than this may have any name, in degrees: far above rounding, far below
@@ -14,10 +14,21 @@ use crate::net::{FoldKind, Net};
 const NAMELESS: f64 = 1e-4;
 
 pub(super) fn check(mesh: &Mesh, net: &Net, size: f64) -> Result<(), ProofError> {
-    let folds = net.folds.iter().map(|fold| (fold.id.0, fold.edge, fold.fold_angle));
-    let seams = net.seams.iter().map(|seam| (seam.id.0, seam.edge, seam.fold_angle));
-    for (edge, ends, given) in folds.chain(seams) {
-        let Some(fold) = Bend::at(mesh, EdgeId::new(edge)) else { continue };
+    // Each face lies at several edges.
+    let mut uneven = FaceMap::filled(mesh.face_slots(), 0.0);
+    mesh.faces().for_each(|f| uneven[f] = unevenness(mesh, f));
+    let bends: Vec<Option<Bend>> =
+        net.folds.iter().map(|fold| Bend::at(mesh, EdgeId::new(fold.id.0), &uneven)).collect();
+    let folds = net
+        .folds
+        .iter()
+        .zip(&bends)
+        .filter_map(|(fold, bend)| Some((fold.id.0, fold.edge, fold.fold_angle, (*bend)?)));
+    let seams = net.seams.iter().filter_map(|seam| {
+        let bend = Bend::at(mesh, EdgeId::new(seam.id.0), &uneven)?;
+        Some((seam.id.0, seam.edge, seam.fold_angle, bend))
+    });
+    for (edge, ends, given, fold) in folds.chain(seams) {
         // An angle is as wrong as the far corner of the smaller face comes off its place.
         let off = fold.differs_by(given).to_radians() * fold.reach;
         let is_right = off <= size * (REFOLD + 4.0 * fold.slope);
@@ -27,8 +38,8 @@ pub(super) fn check(mesh: &Mesh, net: &Net, size: f64) -> Result<(), ProofError>
             return Err(ProofError::Edge { edge, ends, fault });
         }
     }
-    for fold in &net.folds {
-        let Some(bend) = Bend::at(mesh, EdgeId::new(fold.id.0)) else { continue };
+    for (fold, bend) in net.folds.iter().zip(&bends) {
+        let Some(bend) = bend else { continue };
         let angle = bend.degrees;
         let is_named = match fold.kind {
             FoldKind::Mountain => angle > -NAMELESS,
@@ -49,6 +60,7 @@ pub(super) fn check(mesh: &Mesh, net: &Net, size: f64) -> Result<(), ProofError>
 }
 
 /// How the mesh bends at an edge.
+#[derive(Clone, Copy)]
 struct Bend {
     degrees: f64,
     /// The diameter of the smaller face, in mm.
@@ -59,7 +71,7 @@ struct Bend {
 
 impl Bend {
     /// `None` at a rim and beside a face without area.
-    fn at(mesh: &Mesh, e: EdgeId) -> Option<Self> {
+    fn at(mesh: &Mesh, e: EdgeId, uneven: &FaceMap<f64>) -> Option<Self> {
         if mesh.is_rim(e) {
             return None;
         }
@@ -72,7 +84,7 @@ impl Bend {
         Some(Self {
             degrees: along.dot(n.cross(m)).atan2(n.dot(m)).to_degrees(),
             reach: reach(0).min(reach(1)),
-            slope: unevenness(mesh, faces[0]).max(unevenness(mesh, faces[1])),
+            slope: uneven[faces[0]].max(uneven[faces[1]]),
         })
     }
 

@@ -274,10 +274,14 @@ codes!(finding EdgeFault {
 pub fn prove(mesh: &Mesh, net: &Net) -> Result<Proof, ProofError> {
     let size = size(mesh);
     structure::check(mesh, net, size)?;
-    let congruence_mm = congruence::check(mesh, net, size)?;
-    overlap::check(net, size)?;
-    let refold_mm = refold::check(mesh, net, size)?;
-    angles::check(mesh, net, size)?;
+    // Side by side; what is told first does not depend on which is done first.
+    let flat = || (congruence::check(mesh, net, size), overlap::check(net, size));
+    let closed = || (refold::check(mesh, net, size), angles::check(mesh, net, size));
+    let ((congruence, overlap), (refold, angles)) = rayon::join(flat, closed);
+    let congruence_mm = congruence?;
+    overlap?;
+    let refold_mm = refold?;
+    angles?;
     Ok(Proof { congruence_mm, refold_mm, overlaps: 0 })
 }
 

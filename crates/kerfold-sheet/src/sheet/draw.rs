@@ -3,13 +3,14 @@
 use std::collections::BTreeMap;
 
 use glam::DVec2;
+use rayon::prelude::*;
 
 use super::drawing::{Drawing, MarkKind, Stroke};
 use super::error::SheetError;
 use super::features::{Features, features};
 use super::joint::{FlapFold, Jointed, on_material};
 use super::kerf::CutShape;
-use super::layout::{Layout, Placed, SheetReport};
+use super::layout::{Layout, Placed, Sheet, SheetReport};
 use super::letter::{PieceLettering, sheet_letter};
 use super::params::{PieceKind, SheetParams};
 use super::score::{Hinges, ScorePlan, with_holding_tabs};
@@ -28,23 +29,52 @@ pub(crate) fn draw(
         net.pieces.iter().zip(shapes).map(|(p, s)| (p.id, (p, s))).collect();
     let score = ScorePlan::of(&params.score)?;
     let tabs = holding_tabs(params)?;
+    let work = Work { net, by_id, features, jointed, params, score, tabs };
+    let drawn: Vec<_> = layout.sheets.par_iter().map(|sheet| work.sheet(sheet)).collect();
     let mut report = SheetReport::default();
     let mut drawings = Vec::new();
-    let cut_is_no_border = jointed.is_some() || params.pieces == PieceKind::Panels;
-    for sheet in &layout.sheets {
+    for sheet in drawn {
+        let (drawing, counted) = sheet?;
+        report.unnamed_pieces.extend(counted.unnamed_pieces);
+        report.unnumbered_sides += counted.unnumbered_sides;
+        report.unmarked_angles += counted.unmarked_angles;
+        report.flat_folds += counted.flat_folds;
+        report.unscored_folds += counted.unscored_folds;
+        drawings.push(drawing);
+    }
+    Ok((drawings, report))
+}
+
+/// What all sheets are drawn with.
+struct Work<'a> {
+    net: &'a Net,
+    by_id: BTreeMap<PieceId, (&'a Piece, &'a CutShape)>,
+    features: BTreeMap<PieceId, Features<'a>>,
+    jointed: Option<&'a Jointed>,
+    params: &'a SheetParams,
+    score: ScorePlan,
+    tabs: (usize, f64),
+}
+
+impl Work<'_> {
+    /// One sheet, and what there was no room for.
+    fn sheet(&self, sheet: &Sheet) -> Result<(Drawing, SheetReport), SheetError> {
+        let Self { jointed, params, score, .. } = self;
+        let cut_is_no_border = jointed.is_some() || params.pieces == PieceKind::Panels;
+        let mut report = SheetReport::default();
         let mut drawing = Drawing::new(sheet);
         for placed in &sheet.placed {
-            let (piece, shape) = by_id[&placed.piece];
-            let here = &features[&placed.piece];
-            draw_cuts(&mut drawing, shape, placed, tabs);
+            let (piece, shape) = self.by_id[&placed.piece];
+            let here = &self.features[&placed.piece];
+            draw_cuts(&mut drawing, shape, placed, self.tabs);
             // Channels for narrow notches take a little of the folds that end there.
             let is_widened = shape.widened_notches > 0;
             let as_cut = is_widened.then(|| as_cut(piece, shape));
             let cut = as_cut.as_ref().or(jointed.is_some().then_some(piece));
             let hinges = score.hinges(piece, &here.folds);
-            draw_folds(&mut drawing, here, (placed, cut), (&score, &hinges), &mut report);
+            draw_folds(&mut drawing, here, (placed, cut), (score, &hinges), &mut report);
             let flaps = jointed.iter().flat_map(|j| &j.flap_folds).filter(|f| f.piece == piece.id);
-            draw_flap_folds(&mut drawing, flaps, (placed, as_cut.as_ref()), &score);
+            draw_flap_folds(&mut drawing, flaps, (placed, as_cut.as_ref()), score);
             let mut obstacles: Vec<Vec<DVec2>> = if cut_is_no_border || is_widened {
                 shape.contours().cloned().collect()
             } else {
@@ -53,16 +83,14 @@ pub(crate) fn draw(
             obstacles.extend(hinges.rows.iter().flat_map(|r| &r.slits).map(|slit| slit.to_vec()));
             let letter = sheet_letter(DVec2::new(sheet.width, sheet.height));
             let on = (piece, here, placed);
-            let lettering = PieceLettering::new(net, on, &obstacles, (params.letter, letter));
+            let lettering = PieceLettering::new(self.net, on, &obstacles, (params.letter, letter));
             lettering.draw(&mut drawing, &mut report)?;
         }
         drawing.arrange();
-        drawings.push(drawing);
+        Ok((drawing, report))
     }
-    Ok((drawings, report))
 }
 
-/// A piece with the contours that are cut instead of its own.
 fn as_cut(piece: &Piece, shape: &CutShape) -> Piece {
     Piece { outline: shape.outline.clone(), holes: shape.holes.clone(), ..piece.clone() }
 }

@@ -1,5 +1,6 @@
 //! Pieces, sheets, the report, and how the pieces close.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use axum::http::header::CONTENT_TYPE;
@@ -16,7 +17,8 @@ use kerfold::make::{Fabrication, MakeError, flat_places};
 use kerfold::mesh::FaceId;
 use kerfold::recipe::Job;
 use kerfold::sheet::{SheetFormat, SheetParams};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
+use serde_json::value::{RawValue, to_raw_value};
 use serde_json::{Value, json};
 
 use super::model::binary;
@@ -34,11 +36,19 @@ fn made(job: &Job) -> Option<(&Fabrication, &SheetParams)> {
     of_net.or_else(|| job.panelled.as_ref().map(|(made, sheet)| (&made.fabrication, sheet)))
 }
 
-fn parsed(text: &str) -> Value {
-    serde_json::from_str(text).unwrap_or_default()
+/// An answer by its keys. What is text already is not read in order to be written again: pieces take
+/// megabytes.
+type Told = BTreeMap<&'static str, Box<RawValue>>;
+
+fn raw(text: String) -> Option<Box<RawValue>> {
+    RawValue::from_string(text).ok()
 }
 
-pub(crate) async fn result(at: At, Asked(named): Asked<Named>) -> Result<Answer<Value>> {
+fn put(told: &mut Told, key: &'static str, value: &impl Serialize) {
+    told.extend(to_raw_value(value).ok().map(|value| (key, value)));
+}
+
+pub(crate) async fn result(at: At, Asked(named): Asked<Named>) -> Result<Answer<Told>> {
     let command = command(&at.tab, &named);
     let told = work(&at.tab, Lane::Result, move |tab, progress| {
         // The report does not wait for pieces, and is there when they cannot be made.
@@ -52,12 +62,12 @@ pub(crate) async fn result(at: At, Asked(named): Asked<Named>) -> Result<Answer<
             let (whole, error) = answered(tab.run(None, true, progress))?;
             (job, failed) = (whole.or(job), error);
         }
-        let mut told = job.map_or_else(|| json!({}), |job| told(&job, &command));
-        told["revision"] = json!(tab.revision());
-        told["command"] = json!(command);
-        told["report"] = json!(report.map(|text| parsed(&text)));
-        told["failure"] = json!(failed);
-        told["closing_seconds"] = json!(END);
+        let mut told = job.map_or_else(Told::new, |job| told(&job, &command));
+        put(&mut told, "revision", &tab.revision());
+        put(&mut told, "command", &command);
+        put(&mut told, "report", &report.and_then(raw));
+        put(&mut told, "failure", &failed);
+        put(&mut told, "closing_seconds", &END);
         Ok(told)
     })
     .await?;
@@ -74,20 +84,24 @@ fn answered(job: Result<Arc<Job>>) -> Result<(Option<Arc<Job>>, Option<Value>)> 
 }
 
 /// What a job has made.
-fn told(job: &Job, command: &str) -> Value {
+fn told(job: &Job, command: &str) -> Told {
     let unclean: Vec<String> = job.with_findings.iter().map(ToString::to_string).collect();
     let made = made(job);
     let panels = job.panelled.as_ref().map(|(p, _)| {
         let layout = &p.fabrication.sheets.layout;
-        parsed(&panels_json(&p.schedule, &p.plates, layout, &p.findings, command))
+        raw(panels_json(&p.schedule, &p.plates, layout, &p.findings, command))
     });
-    json!({
-        "notes": job.notes, "unclean": unclean, "verdict_counts": job.is_check_asked,
-        "pieces": made.map(|(m, _)| parsed(&write_pieces_json(&m.net, command))),
-        "layout": made.map(|(m, _)| parsed(&write_layout_json(&m.sheets.layout, command))),
-        "seconds": made.and_then(|(m, sheet)| m.sheets.seconds(sheet)),
-        "panels": panels,
-    })
+    let pieces = made.and_then(|(m, _)| raw(write_pieces_json(&m.net, command)));
+    let layout = made.and_then(|(m, _)| raw(write_layout_json(&m.sheets.layout, command)));
+    let mut told = Told::new();
+    put(&mut told, "notes", &job.notes);
+    put(&mut told, "unclean", &unclean);
+    put(&mut told, "verdict_counts", &job.is_check_asked);
+    put(&mut told, "pieces", &pieces);
+    put(&mut told, "layout", &layout);
+    put(&mut told, "seconds", &made.and_then(|(m, sheet)| m.sheets.seconds(sheet)));
+    put(&mut told, "panels", &panels.flatten());
+    told
 }
 
 fn failure(error: &StudioError) -> Value {

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec2;
 
-use super::glyph::lettering;
+use super::glyph::{Lettering, lettering};
 use super::obstacle::{Obstacle, Obstacles, is_clear};
 use crate::geom::polygon::{Location, borders_meet, bounds, centroid, locate, signed_area};
 use crate::net::{FlatFace, Piece, Segment};
@@ -104,9 +104,9 @@ pub(super) fn name_label(
         let centres = Centres::of(polygon, obstacles);
         for direction in [upright, along_longest_edge(polygon, upright)] {
             let beaten = best.as_ref().map_or(0.0, |(_, b)| b.height);
-            let free = |l: &Label| {
-                is_free(polygon, l, taken.get(&i).map_or(&[], Vec::as_slice))
-                    && is_clear(&l.frame, obstacles)
+            let free = |frame: &[DVec2; 4]| {
+                is_free(polygon, frame, taken.get(&i).map_or(&[], Vec::as_slice))
+                    && is_clear(frame, obstacles)
             };
             if let Some(label) = largest_name(&text, &centres, direction, [beaten, largest], free)?
             {
@@ -149,13 +149,14 @@ fn largest_name(
     centres: &Centres<'_>,
     direction: DVec2,
     [beaten, largest]: [f64; 2],
-    is_free: impl Fn(&Label) -> bool,
+    is_free: impl Fn(&[DVec2; 4]) -> bool,
 ) -> Result<Option<Label>, SheetError> {
     for height in heights(largest).take_while(|&h| h > beaten) {
+        let line = Line::new(text, height)?;
         for centre in centres.all() {
-            let label = set(text, centre, direction, height)?;
-            if is_free(&label) {
-                return Ok(Some(label));
+            let place = Place { centre, direction };
+            if is_free(&line.frame(place)) {
+                return Ok(Some(line.label(place, &[])));
             }
         }
     }
@@ -199,20 +200,24 @@ fn beside(
     let Room { taken, obstacles, letter } = room;
     let inwards = (b - a).normalize_or_zero().perp();
     for height in heights(letter) {
+        let line = Line::new(text, height)?;
         for t in [0.5, 0.38, 0.62, 0.26, 0.74] {
-            let at = set(text, a.lerp(b, t), reading, height)?;
+            let place = Place { centre: a.lerp(b, t), direction: reading };
+            let mut frame = line.frame(place);
             // The face lies on the left of its edges; the frame goes there until it is clear of the
             // edge.
-            let reach =
-                at.frame.iter().map(|&p| (p - a).dot(inwards)).fold(f64::INFINITY, f64::min);
-            let mut label = at.moved(inwards * (CLEAR * height - reach));
+            let reach = frame.iter().map(|&p| (p - a).dot(inwards)).fold(f64::INFINITY, f64::min);
+            let mut moves = vec![inwards * (CLEAR * height - reach)];
+            frame = frame.map(|p| p + moves[0]);
             // Notches and holes of a joint lie along the edge: further in it may be free.
             let tries = if obstacles.is_empty() { 1 } else { 8 };
             for _ in 0..tries {
-                if is_free(&face.polygon, &label, taken) && is_clear(&label.frame, obstacles) {
-                    return Ok(Some(label));
+                if is_free(&face.polygon, &frame, taken) && is_clear(&frame, obstacles) {
+                    return Ok(Some(line.label(place, &moves)));
                 }
-                label = label.moved(inwards * (0.5 * height));
+                let further = inwards * (0.5 * height);
+                moves.push(further);
+                frame = frame.map(|p| p + further);
             }
         }
     }
@@ -223,23 +228,43 @@ fn heights(largest: f64) -> impl Iterator<Item = f64> {
     std::iter::successors(Some(largest), |h| Some(h * SMALLER)).take_while(|&h| h >= LEAST_HEIGHT)
 }
 
-/// A text with the middle of its box at `centre`, reading along the unit vector `direction`.
-fn set(text: &str, centre: DVec2, direction: DVec2, height: f64) -> Result<Label, SheetError> {
-    let letters = lettering(text, height)?;
-    let middle = letters.low.midpoint(letters.high);
-    let put = |p: DVec2| centre + direction.rotate(p - middle);
-    let strokes = letters.strokes.iter().map(|s| s.iter().map(|&p| put(p)).collect()).collect();
-    let (low, high) =
-        (letters.low - DVec2::splat(CLEAR * height), letters.high + DVec2::splat(CLEAR * height));
-    let frame = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)].map(put);
-    Ok(Label { strokes, frame, height })
+/// Where the middle of a text's box is, and along which unit vector it reads.
+#[derive(Clone, Copy)]
+struct Place {
+    centre: DVec2,
+    direction: DVec2,
 }
 
-impl Label {
-    fn moved(self, by: DVec2) -> Self {
-        let strokes =
-            self.strokes.into_iter().map(|s| s.into_iter().map(|p| p + by).collect()).collect();
-        Self { strokes, frame: self.frame.map(|p| p + by), height: self.height }
+/// A text of one height, before it is known where it can lie: many places are tried by its frame, and
+/// its strokes are put to one.
+struct Line {
+    letters: Lettering,
+    height: f64,
+}
+
+impl Line {
+    fn new(text: &str, height: f64) -> Result<Self, SheetError> {
+        Ok(Self { letters: lettering(text, height)?, height })
+    }
+
+    fn put(&self, Place { centre, direction }: Place, p: DVec2) -> DVec2 {
+        let middle = self.letters.low.midpoint(self.letters.high);
+        centre + direction.rotate(p - middle)
+    }
+
+    fn frame(&self, place: Place) -> [DVec2; 4] {
+        let clear = DVec2::splat(CLEAR * self.height);
+        let (low, high) = (self.letters.low - clear, self.letters.high + clear);
+        let corners = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
+        corners.map(|p| self.put(place, p))
+    }
+
+    /// The label at a place, moved from there step by step.
+    fn label(&self, place: Place, moves: &[DVec2]) -> Label {
+        let moved = |p: DVec2| moves.iter().fold(p, |p, by| p + *by);
+        let stroke = |s: &Vec<DVec2>| s.iter().map(|&p| moved(self.put(place, p))).collect();
+        let strokes = self.letters.strokes.iter().map(stroke).collect();
+        Label { strokes, frame: self.frame(place).map(moved), height: self.height }
     }
 }
 
@@ -285,9 +310,9 @@ fn inner_point(polygon: &[DVec2], obstacles: Obstacles<'_>) -> DVec2 {
     best.1
 }
 
-/// Whether a label lies inside a face and on nothing else.
-fn is_free(polygon: &[DVec2], label: &Label, taken: &[[DVec2; 4]]) -> bool {
-    taken.iter().all(|frame| !overlap(frame, &label.frame)) && frame_inside(polygon, &label.frame)
+/// Whether a frame lies inside a face and on nothing else.
+fn is_free(polygon: &[DVec2], frame: &[DVec2; 4], taken: &[[DVec2; 4]]) -> bool {
+    taken.iter().all(|other| !overlap(other, frame)) && frame_inside(polygon, frame)
 }
 
 /// Whether a convex frame lies in the interior of a polygon, exactly.
@@ -307,6 +332,11 @@ mod tests {
     use crate::geom::polygon::segments_meet;
     use crate::net::PieceId;
     use crate::sheet::testing::{ell, piece, points, ring, square};
+
+    fn far_away() -> Label {
+        let place = Place { centre: DVec2::splat(30.0), direction: DVec2::X };
+        Line::new("1", 3.0).expect("a letter").label(place, &[])
+    }
 
     fn room<'a>(taken: &'a [[DVec2; 4]], obstacles: Obstacles<'a>) -> Room<'a> {
         Room { taken, obstacles, letter: NUMBER_HEIGHT }
@@ -437,12 +467,9 @@ mod tests {
             label.frame
         );
         let hole = points([(10.0, 10.0), (10.0, 50.0), (50.0, 50.0), (50.0, 10.0)]);
-        assert!(!is_clear(
-            &set("1", DVec2::splat(30.0), DVec2::X, 3.0).expect("a letter").frame,
-            &obstacles([square(60.0), hole])
-        ));
+        assert!(!is_clear(&far_away().frame, &obstacles([square(60.0), hole])));
         let slit = points([(0.0, 50.0), (60.0, 50.0)]);
-        let label = set("1", DVec2::splat(30.0), DVec2::X, 3.0).expect("a letter");
+        let label = far_away();
         assert!(is_clear(&label.frame, &obstacles([slit])));
     }
 

@@ -32,12 +32,17 @@ pub fn operate(
         None => None,
     };
     let params = with_places.as_deref().unwrap_or(params);
+    let planes = |file: &Path| -> Result<Vec<_>, MakeError> {
+        let read = read_planes(&folder.join(file))?;
+        Ok(read.half_spaces.into_iter().zip(read.lines).collect())
+    };
+    let with_rim = match params.rim_file() {
+        Some(file) => params.with_rim(&planes(file)?, scale),
+        None => None,
+    };
+    let params = with_rim.as_deref().unwrap_or(params);
     let with_planes = match params.planes_file() {
-        Some(file) => {
-            let read = read_planes(&folder.join(file))?;
-            let planes: Vec<_> = read.half_spaces.into_iter().zip(read.lines).collect();
-            params.with_planes(&planes, scale)
-        }
+        Some(file) => params.with_planes(&planes(file)?, scale),
         None => None,
     };
     Ok(with_planes.as_deref().unwrap_or(params).operate(mesh, context)?)

@@ -16,7 +16,9 @@ use super::{
 };
 use crate::geom::hull::HalfSpace;
 use crate::mesh::{FaceId, Mesh, VertexId};
-use crate::panelize::{Align, FixChoice, FixedPlane, PanelizeParams, StayChoice, panelize};
+use crate::panelize::{
+    Align, FixChoice, FixedPlane, PanelizeParams, RimChoice, StayChoice, panelize,
+};
 use crate::select::NewElements;
 
 /// What an operator made of a mesh.
@@ -83,6 +85,17 @@ pub trait Operate: fmt::Debug + Send + Sync {
     /// take none. `_scale` is the factor from the numbers of the model's file to millimetres, for
     /// curves that were drawn on it.
     fn with_points(&self, _curves: Vec<Vec<DVec3>>, _scale: f64) -> Option<Box<dyn Operate>> {
+        None
+    }
+
+    /// A file with planes for rims that has to be read first, beside [`Self::planes_file`].
+    fn rim_file(&self) -> Option<&Path> {
+        None
+    }
+
+    /// The same parameters with the planes of that file in its place, each with its line; `None` when
+    /// they take none. `_scale` as for [`Self::with_points`].
+    fn with_rim(&self, _planes: &[(HalfSpace, usize)], _scale: f64) -> Option<Box<dyn Operate>> {
         None
     }
 
@@ -223,13 +236,28 @@ impl Operate for PanelizeParams {
     }
 
     fn with_planes(&self, planes: &[(HalfSpace, usize)], scale: f64) -> Option<Box<dyn Operate>> {
-        let fixed = |&(plane, line): &(HalfSpace, usize)| {
-            let HalfSpace { normal, offset } = plane;
-            FixedPlane { normal, offset: offset * scale, line }
-        };
-        let planes = planes.iter().map(fixed).collect();
-        Some(Box::new(Self { fix: FixChoice::Planes(planes), ..self.clone() }))
+        Some(Box::new(Self { fix: FixChoice::Planes(fixed(planes, scale)), ..self.clone() }))
     }
+
+    fn rim_file(&self) -> Option<&Path> {
+        match &self.rim {
+            RimChoice::File(path) => Some(path),
+            _ => None,
+        }
+    }
+
+    fn with_rim(&self, planes: &[(HalfSpace, usize)], scale: f64) -> Option<Box<dyn Operate>> {
+        Some(Box::new(Self { rim: RimChoice::Given(fixed(planes, scale)), ..self.clone() }))
+    }
+}
+
+/// Planes of a file in mm.
+fn fixed(planes: &[(HalfSpace, usize)], scale: f64) -> Vec<FixedPlane> {
+    let fixed = |&(plane, line): &(HalfSpace, usize)| {
+        let HalfSpace { normal, offset } = plane;
+        FixedPlane { normal, offset: offset * scale, line }
+    };
+    planes.iter().map(fixed).collect()
 }
 
 impl Operate for SubdivideParams {

@@ -138,7 +138,7 @@ pub enum PanelizeError {
     },
     /// A plane for the rim that no rim is near to.
     #[error(
-        "plane {} of `--rim plane:…` lies near no rim of the surface, so nothing would stay in it; \
+        "plane {} of `--rim` lies near no rim of the surface, so nothing would stay in it; \
         give its place with a unit, or leave it out",
         plane + 1
     )]

@@ -545,7 +545,7 @@ fn revolution(
     let LayoutChoice::Rings(axis) = params.layout else { return Ok(None) };
     let mut found = Revolution::find(given, axis, size)?;
     // Planes hold each rim by itself.
-    found.is_mirrored &= !matches!(params.rim, RimChoice::Planes(_));
+    found.is_mirrored &= !matches!(params.rim, RimChoice::Planes(_) | RimChoice::Given(_));
     Ok(Some(found))
 }
 

@@ -7,7 +7,7 @@ use std::str::FromStr;
 use glam::DVec3;
 use serde::{Deserialize, Deserializer, de};
 
-use super::{FixChoice, PanelizeError, StayChoice, SymmetryChoice};
+use super::{FixChoice, FixedPlane, PanelizeError, StayChoice, SymmetryChoice};
 use crate::units::{Angle, Length};
 
 /// What the rows of panels follow.
@@ -71,6 +71,10 @@ pub enum RimChoice {
     /// Stretches in these planes, square to an axis, stay in them, exactly: the axis 0 to 2 and
     /// the place on it.
     Planes(Vec<(usize, Length)>),
+    /// The same in the planes of this CSV file; it has to be read before panels are made.
+    File(PathBuf),
+    /// The same in these planes.
+    Given(Vec<FixedPlane>),
 }
 
 impl FromStr for RimChoice {
@@ -82,7 +86,14 @@ impl FromStr for RimChoice {
             "walls" => return Ok(Self::Walls),
             _ => {}
         }
-        let wrong = || format!("`{text}` is not free, walls, or like plane:z=0 or plane:z=0,z=8m");
+        if Path::new(text).extension().is_some_and(|e| e.eq_ignore_ascii_case("csv")) {
+            return Ok(Self::File(PathBuf::from(text)));
+        }
+        let wrong = || {
+            format!(
+                "`{text}` is not free, walls, like plane:z=0 or plane:z=0,z=8m, or a CSV file of planes"
+            )
+        };
         let planes = text.strip_prefix("plane:").ok_or_else(wrong)?;
         let plane = |part: &str| {
             let (axis, place) = part.split_once('=').ok_or_else(wrong)?;
@@ -103,6 +114,8 @@ impl fmt::Display for RimChoice {
                 let part = |(axis, place): &(usize, Length)| format!("{}={place}", AXES[*axis]);
                 write!(f, "plane:{}", planes.iter().map(part).collect::<Vec<_>>().join(","))
             }
+            Self::File(path) => write!(f, "{}", path.display()),
+            Self::Given(planes) => write!(f, "{} planes", planes.len()),
         }
     }
 }
@@ -187,8 +200,9 @@ pub struct PanelizeParams {
     #[arg(long, default_value_t = 0.2, value_parser = crate::units::parse_number)]
     #[serde(default = "default_even")]
     pub even: f64,
-    /// What becomes of the rim: free, walls, or planes such as plane:z=0.
-    #[arg(long, default_value_t = RimChoice::Free)]
+    /// What becomes of the rim: free, walls, planes such as plane:z=0, or the planes of a CSV file with
+    /// nx,ny,nz,d on each line for n·x = d, in the unit of the surface's file.
+    #[arg(long, default_value_t = RimChoice::Free, value_name = "free|walls|plane:z=0|FILE")]
     #[serde(default)]
     pub rim: RimChoice,
     /// What stays: a CSV file of planes, nx,ny,nz,d on each line for n·x = d in the unit of the
@@ -439,6 +453,9 @@ impl PanelizeParams {
         if let FixChoice::File(path) = &self.fix {
             return Err(PanelizeError::PlanesUnread { path: path.clone() });
         }
+        if let RimChoice::File(path) = &self.rim {
+            return Err(PanelizeError::PlanesUnread { path: path.clone() });
+        }
         if let StayChoice::File(path) = &self.stay {
             return Err(PanelizeError::PointsUnread { path: path.clone() });
         }
@@ -447,6 +464,14 @@ impl PanelizeParams {
 
     /// The planes of the rim in units of the panel size, seen from `origin`.
     pub(super) fn rim_planes(&self, origin: DVec3, size: f64) -> Option<Vec<(DVec3, DVec3)>> {
+        if let RimChoice::Given(planes) = &self.rim {
+            let plane = |plane: &FixedPlane| {
+                let length = plane.normal.length();
+                let normal = plane.normal / length;
+                (normal, normal * ((plane.offset / length - normal.dot(origin)) / size))
+            };
+            return Some(planes.iter().map(plane).collect());
+        }
         let RimChoice::Planes(planes) = &self.rim else { return None };
         let plane = |&(axis, place): &(usize, Length)| {
             let mut through = DVec3::ZERO;

@@ -179,7 +179,7 @@ pub(super) fn rim_rule(
         // Rims that turn about an axis have no straight stretches but those of the file.
         RimChoice::Walls if params.layout != LayoutChoice::Free => RimRule::Curve,
         RimChoice::Walls => RimRule::Walls,
-        RimChoice::Planes(_) => {
+        RimChoice::Planes(_) | RimChoice::File(_) | RimChoice::Given(_) => {
             let planes = params.rim_planes(origin, size).unwrap_or_default();
             if let Some(plane) = rim_plane_without_rim(surface, &planes) {
                 return Err(PanelizeError::NoRimThere { plane });

@@ -175,6 +175,12 @@ fn planes_of_a_file_are_those_of_panels_in_the_unit_of_the_surface() {
     let height = |line: &str| line.strip_prefix("v ")?.split(' ').nth(2)?.parse::<f64>().ok();
     let on = text.lines().filter_map(height).filter(|z| (z - 980.0).abs() < 1e-9).count();
     assert!(on >= 4, "{on} corners at 980 mm");
+    // Planes for the rim are read alike, in the same unit, and have to be near one.
+    let rim = |planes: &str| {
+        run(&["panelize", &grid, "--units", "m", "--count", "24", "--rim", planes, "-o", &out])
+    };
+    let ran = rim(&written(&folder, "rim.csv", "0,0,1,77\n"));
+    assert!(ran.code == Some(2) && ran.err.contains("(E850)"), "{}", ran.err);
     let high = written(&folder, "high.csv", "0,0,1,1\n0,0,1,3\n");
     let ran = fixed(&high);
     assert!(ran.code == Some(2) && ran.err.contains("line 2"), "{}", ran.err);

@@ -137,6 +137,9 @@ fn rims_are_read_as_they_are_written() {
     for text in ["free", "walls", "plane:z=0mm", "plane:z=0mm,x=250mm"] {
         assert_eq!(text.parse::<RimChoice>().expect(text).to_string(), text);
     }
+    for text in ["walls.csv", "a/planes.CSV"] {
+        assert_eq!(text.parse::<RimChoice>().expect(text).to_string(), text);
+    }
     for text in ["", "wall", "plane:", "plane:w=0", "plane:z=a"] {
         assert!(text.parse::<RimChoice>().is_err(), "{text}");
     }

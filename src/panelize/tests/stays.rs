@@ -169,3 +169,32 @@ fn points_that_cannot_stay_are_told_with_their_number() {
     let error = panelize(&mesh, &params, &Silent).expect_err("unread");
     assert!(matches!(error, PanelizeError::PointsUnread { .. }), "{error}");
 }
+
+#[test]
+fn rims_stay_in_slanted_planes_of_a_file() {
+    // Upright walls along x are sheared into slanted ones.
+    let mut mesh = roof(5000.0, 4000.0, 250.0, |x, y| -(x * x + y * y) / 12_000.0);
+    for v in mesh.vertices().collect::<Vec<_>>() {
+        let p = mesh.position(v);
+        mesh.set_position(v, p + DVec3::X * (0.2 * p.z), true);
+    }
+    let slanted = DVec3::new(1.0, 0.0, -0.2);
+    let planes = [
+        (slanted * 3.0, 7500.0),
+        (slanted, -2500.0),
+        (DVec3::Y, 2000.0),
+        (DVec3::NEG_Y * 2.0, 4000.0),
+    ];
+    let FixChoice::Planes(given) = fixed(&planes) else { panic!("planes") };
+    let params = PanelizeParams { rim: RimChoice::Given(given), ..sized(900.0) };
+    let (made, report) = panelize(&mesh, &params, &Silent).expect("panels");
+    assert_good(&made, &report);
+    for v in made.vertices().filter(|&v| made.is_rim_vertex(v)) {
+        let p = made.position(v);
+        let off = planes.map(|(normal, d)| (p.dot(normal) - d).abs() / normal.length());
+        assert!(off.into_iter().fold(f64::INFINITY, f64::min) < 1e-9, "{p}");
+    }
+    let params = PanelizeParams { rim: "walls.csv".parse().expect("a file"), ..sized(900.0) };
+    let error = panelize(&mesh, &params, &Silent).expect_err("unread");
+    assert!(matches!(error, PanelizeError::PlanesUnread { .. }), "{error}");
+}

@@ -98,6 +98,27 @@ fn along_curves(
 
 const EMPTY: AxisBox = AxisBox { low: DVec3::ZERO, high: DVec3::ZERO };
 
+/// What becomes of the rim.
+pub(super) fn rim_rule(
+    surface: &Surface,
+    params: &PanelizeParams,
+    (size, origin): (f64, DVec3),
+) -> Result<RimRule, PanelizeError> {
+    Ok(match &params.rim {
+        RimChoice::Free => RimRule::Curve,
+        // Rims that turn about an axis have no straight stretches but those of the file.
+        RimChoice::Walls if params.layout != LayoutChoice::Free => RimRule::Curve,
+        RimChoice::Walls => RimRule::Walls,
+        RimChoice::Planes(_) | RimChoice::File(_) | RimChoice::Given(_) => {
+            let planes = params.rim_planes(origin, size).unwrap_or_default();
+            if let Some(plane) = rim_plane_without_rim(surface, &planes) {
+                return Err(PanelizeError::NoRimThere { plane });
+            }
+            RimRule::Planes(planes)
+        }
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::curvature::quadrics;
@@ -166,25 +187,4 @@ mod tests {
         let (curve, off) = found(&[vec![DVec3::ZERO], on]).expect_err("no length");
         assert!(curve == 0 && off.is_infinite());
     }
-}
-
-/// What becomes of the rim.
-pub(super) fn rim_rule(
-    surface: &Surface,
-    params: &PanelizeParams,
-    (size, origin): (f64, DVec3),
-) -> Result<RimRule, PanelizeError> {
-    Ok(match &params.rim {
-        RimChoice::Free => RimRule::Curve,
-        // Rims that turn about an axis have no straight stretches but those of the file.
-        RimChoice::Walls if params.layout != LayoutChoice::Free => RimRule::Curve,
-        RimChoice::Walls => RimRule::Walls,
-        RimChoice::Planes(_) | RimChoice::File(_) | RimChoice::Given(_) => {
-            let planes = params.rim_planes(origin, size).unwrap_or_default();
-            if let Some(plane) = rim_plane_without_rim(surface, &planes) {
-                return Err(PanelizeError::NoRimThere { plane });
-            }
-            RimRule::Planes(planes)
-        }
-    })
 }

@@ -144,7 +144,7 @@ pub(crate) async fn set(
     let (number, mut session) = (at.number()?, at.tab.session());
     let recipe = session.recipe();
     // A step that does not exist is refused by the session, with its number.
-    if let Some(step) = recipe.steps.get(number) {
+    if let Some(step) = number.checked_sub(1).and_then(|i| recipe.steps.get(i)) {
         let mut step = step.clone();
         step.set(&asked.key, asked.value.clone());
         paths::check_step(studio.root(), &step, &recipe.parameters)?;

@@ -91,6 +91,7 @@ impl Work<'_> {
     }
 }
 
+/// A piece with the contours that are cut instead of its own.
 fn as_cut(piece: &Piece, shape: &CutShape) -> Piece {
     Piece { outline: shape.outline.clone(), holes: shape.holes.clone(), ..piece.clone() }
 }

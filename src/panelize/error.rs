@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use glam::DVec3;
 
+use crate::check::short;
 use crate::code::codes;
 
 /// Why no panels were made.
@@ -51,7 +52,10 @@ pub enum PanelizeError {
         narrower than two panels there, or has a hole smaller than a panel; {}, or close the hole",
         place.x, place.y, place.z,
         match fits {
-            Some(fits) => format!("panels of {fits:.3} mm can be laid out (--size {fits:.3}mm)"),
+            Some(fits) => {
+                let fits = short(*fits);
+                format!("panels of {fits} mm can be laid out (--size {fits}mm)")
+            }
             None => "take much smaller panels".to_owned(),
         }
     )]
